@@ -1,0 +1,44 @@
+#pragma once
+
+/// \file ljus/geometry/ray.hpp
+/// \brief The ray R(t) = O + tD, and the range of t that counts.
+
+#include <limits>
+
+#include "ljus/math/vector.hpp"
+
+namespace ljus {
+
+/// \defgroup ray Rays
+/// \brief Section 3.1.1: the ray.
+/// \{
+
+/// The part of a line from `t_min` to `t_max`.
+///
+/// The report allows every t >= 0, so that a ray which leaves a surface may hit that
+/// surface again at t = 0: see leave() for the origin that avoids it.
+/// \report{Definition 3.1}
+template <std::floating_point T>
+struct RayT {
+    Vec3T<T> origin{T(0)};                           ///< O, in scene units.
+    Vec3T<T> direction{T(0), T(0), T(-1)};           ///< D: any length but zero.
+    T t_min = T(0);                                  ///< First t that counts, >= 0.
+    T t_max = std::numeric_limits<T>::infinity();    ///< Last t that counts.
+};
+using Ray = RayT<float>; ///< RayT in float.
+
+/// The point of a ray at distance t, in units of the direction's length.
+/// \param ray  The ray.
+/// \param t    Any number.
+/// \return O + tD.
+/// \report{Definition 3.1}
+// [at]
+template <std::floating_point T>
+[[nodiscard]] constexpr Vec3T<T> at(const RayT<T>& ray, T t) noexcept {
+    return ray.origin + t * ray.direction;
+}
+// [at]
+
+/// \}
+
+} // namespace ljus

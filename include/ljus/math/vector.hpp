@@ -1,0 +1,63 @@
+#pragma once
+
+/// \file ljus/math/vector.hpp
+/// \brief The names of GLM's vectors in this library.
+
+#include <cmath>
+#include <concepts>
+#include <type_traits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "ljus/version.hpp"
+
+namespace ljus {
+
+/// \defgroup vector Vectors
+/// \brief Points, directions and colours are GLM vectors.
+/// \{
+
+/// A point of the plane, or of the unit square.
+template <std::floating_point T>
+using Vec2T = glm::vec<2, T>;
+using Vec2 = Vec2T<float>; ///< Vec2T in float.
+
+/// A point or a direction in space.
+template <std::floating_point T>
+using Vec3T = glm::vec<3, T>;
+using Vec3 = Vec3T<float>; ///< Vec3T in float.
+
+/// Three channels of linear sRGB: radiance in W/(m^2 sr), flux in W, or a reflectance.
+template <std::floating_point T>
+using RgbT = glm::vec<3, T>;
+using Rgb = RgbT<float>; ///< RgbT in float.
+
+/// The precision of a computation: what the caller asked for, or that of the data.
+template <typename Compute, std::floating_point T>
+using ComputeT = std::conditional_t<std::is_void_v<Compute>, T, Compute>;
+
+/// Whether every component is neither NaN nor infinite.
+template <std::floating_point T>
+[[nodiscard]] bool is_finite(const Vec3T<T>& v) noexcept {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// Whether all three channels are zero.
+template <std::floating_point T>
+[[nodiscard]] constexpr bool is_black(const RgbT<T>& c) noexcept {
+    return c.x == T(0) && c.y == T(0) && c.z == T(0);
+}
+
+/// The largest of the three components.
+template <std::floating_point T>
+[[nodiscard]] constexpr T max_component(const Vec3T<T>& v) noexcept {
+    const T yz = v.y < v.z ? v.z : v.y;
+    return v.x < yz ? yz : v.x;
+}
+
+/// \}
+
+} // namespace ljus
