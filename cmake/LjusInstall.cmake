@@ -1,0 +1,32 @@
+# Install rules: headers, a CMake package and a pkg-config file. Everything but the
+# headers goes to share/, because nothing is compiled.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(ljus_package_folder "${CMAKE_INSTALL_DATADIR}/cmake/ljus")
+if(CMAKE_VERSION VERSION_GREATER_EQUAL 3.23)
+    install(TARGETS ljus EXPORT ljus-targets FILE_SET HEADERS)
+else()
+    install(TARGETS ljus EXPORT ljus-targets)
+    install(DIRECTORY "${LJUS_INCLUDE_DIR}/ljus"
+        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.hpp")
+endif()
+install(EXPORT ljus-targets NAMESPACE ljus:: DESTINATION "${ljus_package_folder}")
+
+configure_package_config_file(cmake/ljus-config.cmake.in
+    "${CMAKE_CURRENT_BINARY_DIR}/ljus-config.cmake"
+    INSTALL_DESTINATION "${ljus_package_folder}"
+    NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file("${CMAKE_CURRENT_BINARY_DIR}/ljus-config-version.cmake"
+    COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
+install(FILES "${CMAKE_CURRENT_BINARY_DIR}/ljus-config.cmake"
+              "${CMAKE_CURRENT_BINARY_DIR}/ljus-config-version.cmake"
+    DESTINATION "${ljus_package_folder}")
+
+# The folder of ljus.pc is PREFIX/share/pkgconfig, so the prefix is found from there.
+file(RELATIVE_PATH ljus_pc_prefix
+    "${CMAKE_INSTALL_FULL_DATADIR}/pkgconfig" "${CMAKE_INSTALL_PREFIX}")
+configure_file(cmake/ljus.pc.in "${CMAKE_CURRENT_BINARY_DIR}/ljus.pc" @ONLY)
+install(FILES "${CMAKE_CURRENT_BINARY_DIR}/ljus.pc"
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/pkgconfig")
+install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DATADIR}/licenses/ljus")

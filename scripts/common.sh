@@ -1,0 +1,30 @@
+# Shared by the scripts of this folder; to be sourced. Works with bash 3.2 (macOS).
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+me=$(basename "$0")
+
+# One sentence on stderr, and out: 2 for bad usage, 1 for anything else.
+usage_error() { echo "$me: $*" >&2; exit 2; }
+fail() { echo "$me: $*" >&2; exit 1; }
+
+# The comment at the top of the script is its help.
+show_help() { sed -n '2,/^$/s/^# \{0,1\}//p' "$root/scripts/$me"; }
+
+jobs=${LJUS_JOBS:-$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)}
+
+# configure FOLDER [cmake options]: Ninja when it is there, and quiet when all is well.
+configure() {
+    local folder=$1 log status=0
+    shift
+    if [ ! -f "$folder/CMakeCache.txt" ] && command -v ninja >/dev/null 2>&1; then
+        set -- -G Ninja "$@"
+    fi
+    mkdir -p "$folder"
+    log="$folder/configure.log"
+    cmake -S "$root" -B "$folder" "$@" >"$log" 2>&1 || status=$?
+    grep -E '^-- Ljus: .*(fetched|not installed|not found)' "$log" || true
+    if [ "$status" -ne 0 ]; then
+        cat "$log" >&2
+        fail "cmake could not configure $folder; its messages are above."
+    fi
+}
