@@ -36,7 +36,8 @@ template <std::floating_point T>
 /// \param hit     What intersect() returned.
 /// \return Position, its error bound, the outer normal.
 template <std::floating_point T>
-[[nodiscard]] SurfacePointT<T> surface_point(const SphereT<T>& sphere, const RayT<T>& ray,
+[[nodiscard]] SurfacePointT<T> surface_point(const SphereT<T>& sphere,
+                                             const RayT<T>& ray,
                                              const FlatHitT<T>& hit) noexcept {
     const Vec3T<T> n = glm::normalize(at(ray, hit.t) - sphere.center);
     const Vec3T<T> offset = sphere.radius * n;
@@ -88,7 +89,8 @@ template <std::floating_point T>
 [[nodiscard]] SphereT<T> bounding_sphere(const QuadT<T>& quad) noexcept {
     return {.center = quad.corner + (quad.edge_u + quad.edge_v) / T(2),
             .radius = std::max(glm::length(quad.edge_u + quad.edge_v),
-                               glm::length(quad.edge_u - quad.edge_v)) / T(2)};
+                               glm::length(quad.edge_u - quad.edge_v)) /
+                      T(2)};
 }
 /// \}
 
@@ -96,11 +98,6 @@ template <std::floating_point T>
 /// Refuse data that no picture can be made of, with a sentence.
 /// \throws std::invalid_argument  with the name and the value.
 /// \{
-template <std::floating_point T>
-void check(const SphereT<T>& sphere) {
-    require_finite("sphere.center", sphere.center);
-    require_positive("sphere.radius", sphere.radius);
-}
 template <std::floating_point T>
 void check(const TriangleT<T>& triangle) {
     require_finite("triangle.v1", triangle.v1);

@@ -9,15 +9,15 @@
 namespace ljus {
 
 /// \defgroup solid_angle Shapes as an observer sees them
-/// \brief Section 3.2.3: shadow rays end at a point of a lamp; its density per steradian
-/// holds the cosine and the inverse square that the report's program forgot.
+/// \brief Section 3.2.3: shadow rays end at a point of a lamp; its density per
+/// steradian holds the cosine and the inverse square that the report's program forgot.
 /// \{
 
 /// The directions from a point to a sphere: a cone.
 template <std::floating_point T>
 struct ConeT {
     Vec3T<T> axis{T(0), T(0), T(1)}; ///< Unit vector to the centre.
-    T one_minus_cos = T(2);          ///< 1 - cos of the half angle: 2 is every direction.
+    T one_minus_cos = T(2); ///< 1 - cos of the half angle: 2 is every direction.
 };
 
 /// The cone of directions in which a sphere is seen.
@@ -57,8 +57,8 @@ template <std::floating_point T>
     return distance2 / (cosine * area);
 }
 
-/// Whether an observer samples a sphere by the cone in which it is seen: from inside, or
-/// so close that the cone is a hemisphere, the area serves better.
+/// Whether an observer samples a sphere by the cone in which it is seen: from inside,
+/// or so close that the cone is a hemisphere, the area serves better.
 template <std::floating_point T>
 [[nodiscard]] bool sees_cone(const SphereT<T>& sphere, const Vec3T<T>& from) noexcept {
     const Vec3T<T> way = sphere.center - from;
@@ -88,16 +88,14 @@ template <Shape S, std::floating_point T>
     return pdf_from_area(from, point, area(shape));
 }
 
-/// A point of the near side of a sphere, uniform over the cone in which it is seen; from
-/// inside, uniform over its area.
-/// \param sphere  The sphere.
-/// \param from    The observer.
-/// \param u       Point of the unit square.
-/// \return The point and its density per steradian of the observer.
-/// \cite shirley1996
+/// A point of the near side of a sphere, uniform over the cone in which it is seen;
+/// from inside, uniform over its area. \param sphere  The sphere. \param from    The
+/// observer. \param u       Point of the unit square. \return The point and its density
+/// per steradian of the observer. \cite shirley1996
 // [sample_towards]
 template <std::floating_point T>
-[[nodiscard]] SeenPointT<T> sample_towards(const SphereT<T>& sphere, const Vec3T<T>& from,
+[[nodiscard]] SeenPointT<T> sample_towards(const SphereT<T>& sphere,
+                                           const Vec3T<T>& from,
                                            const Vec2T<T>& u) noexcept {
     if (!sees_cone(sphere, from)) {
         const SurfacePointT<T> point = sample_area(sphere, u);

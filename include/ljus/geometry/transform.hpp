@@ -120,6 +120,10 @@ template <std::floating_point T>
         const T stretch = glm::length(transform.linear[i]) / factor;
         require(std::abs(stretch - T(1)) < T(1e-4), "the stretch of a sphere", stretch,
                 "1 along every axis, because an ellipsoid is not a sphere");
+        const T shear = glm::dot(transform.linear[i], transform.linear[(i + 1) % 3]) /
+                        (factor * factor);
+        require(std::abs(shear) < T(1e-4), "the shear of a sphere", shear,
+                "0, because an ellipsoid is not a sphere");
     }
     return {.center = transformed(transform, sphere.center),
             .radius = factor * sphere.radius};

@@ -16,13 +16,13 @@ namespace ljus {
 /// A photon on its way.
 template <std::floating_point T>
 struct FlightT {
-    RayT<T> ray;             ///< Where it is and where it goes.
-    RgbT<T> flux{T(0)};      ///< W, of all paths together: divide by how many are emitted.
+    RayT<T> ray;        ///< Where it is and where it goes.
+    RgbT<T> flux{T(0)}; ///< W, of all paths together: divide by how many are emitted.
     std::uint16_t light = 0; ///< The number of its light.
 };
 
-/// A photon of a light chosen by power, from a point uniform over its area, in a direction
-/// with density cos / pi; of a point light, uniform over the sphere.
+/// A photon of a light chosen by power, from a point uniform over its area, in a
+/// direction with density cos / pi; of a point light, uniform over the sphere.
 ///
 /// Each photon of a white light then carries the same flux, the scene's whole flux over
 /// the number of photons; a coloured light's differs in its channels only.
@@ -52,7 +52,8 @@ emit(const Scene& scene, const LightChoice& choice, RandomStream& stream) {
     }
     const SurfacePointT<T> point = light_point(scene, light, u_point);
     const FrameT<T> frame = frame_around(point.normal);
-    flight.ray = ray_from(point, to_world(frame, sample_cosine_hemisphere(u_direction)));
+    flight.ray =
+        ray_from(point, to_world(frame, sample_cosine_hemisphere(u_direction)));
     return flight;
 }
 // [emit]
@@ -79,9 +80,9 @@ template <typename Scene>
     std::vector<ObjectId> targets;
     for (std::uint32_t type = 0; type < scene.objects.size(); ++type)
         for (std::uint32_t i = 0; i < scene.objects[type].size(); ++i)
-            if (scene.visit_material(scene.objects[type][i].material, [](const auto& m) {
-                    return has(lobes(m), Lobes::specular);
-                }))
+            if (scene.visit_material(
+                    scene.objects[type][i].material,
+                    [](const auto& m) { return has(lobes(m), Lobes::specular); }))
                 targets.push_back({type, i});
     return targets;
 }
@@ -93,9 +94,9 @@ struct AimedFlightT {
     ObjectId target;   ///< It counts only if this is what it meets first.
 };
 
-/// A photon aimed at one of several objects: at the cone in which the light's point sees
-/// the object's bounding sphere, uniformly; a wide cone is chosen more often, so that the
-/// density is the same, one over the sum of the cones, in all of them.
+/// A photon aimed at one of several objects: at the cone in which the light's point
+/// sees the object's bounding sphere, uniformly; a wide cone is chosen more often, so
+/// that the density is the same, one over the sum of the cones, in all of them.
 ///
 /// The flux makes up for the density of the direction: it is multiplied by
 /// \f$ (\cos\theta / \pi) / p(\omega) \f$, for a point light by
@@ -122,9 +123,9 @@ aim(const Scene& scene, const LightChoice& choice, const std::vector<ObjectId>& 
     const T u_target = next_1d<T>(stream);
     const Vec2T<T> u_direction = next_2d<T>(stream);
 
-    const SurfacePointT<T> point =
-        light.object ? light_point(scene, light, u_point)
-                     : SurfacePointT<T>{.position = light.position};
+    const SurfacePointT<T> point = light.object
+                                       ? light_point(scene, light, u_point)
+                                       : SurfacePointT<T>{.position = light.position};
     const auto cone_of = [&](ObjectId target) {
         const SphereT<T> bound = scene.visit_shape(
             target, [](const auto& shape) { return bounding_sphere(shape); });
@@ -159,8 +160,9 @@ aim(const Scene& scene, const LightChoice& choice, const std::vector<ObjectId>& 
     const T pdf = pdf_uniform_cone(sum);
     FlightT<T> flight{.flux = light.flux * (emitted / (pdf * chosen.probability)),
                       .light = static_cast<std::uint16_t>(chosen.light)};
-    flight.ray = light.object ? ray_from(point, direction)
-                              : RayT<T>{.origin = point.position, .direction = direction};
+    flight.ray = light.object
+                     ? ray_from(point, direction)
+                     : RayT<T>{.origin = point.position, .direction = direction};
     return AimedFlightT<T>{flight, target};
 }
 // [aim]

@@ -13,7 +13,8 @@
 namespace ljus {
 
 /// \defgroup kd_tree The k-d tree
-/// \brief Section 3.2.2: "whenever a photon hits a surface, it is stored in a k-d tree".
+/// \brief Section 3.2.2: "whenever a photon hits a surface, it is stored in a k-d
+/// tree".
 /// \{
 
 /// A point that a search has found.
@@ -41,14 +42,16 @@ public:
     /// \cost O(n log n); 17 bytes a point in float.
     explicit KdTreeT(std::span<const Vec3T<T>> points);
 
-    /// Where the points came from: order()[i] is the number of the i-th point of the tree
-    /// in the span it was built from.
+    /// Where the points came from: order()[i] is the number of the i-th point of the
+    /// tree in the span it was built from.
     [[nodiscard]] const std::vector<std::uint32_t>& order() const noexcept {
         return order_;
     }
 
     /// The points, in the tree's order.
-    [[nodiscard]] const std::vector<Vec3T<T>>& points() const noexcept { return points_; }
+    [[nodiscard]] const std::vector<Vec3T<T>>& points() const noexcept {
+        return points_;
+    }
 
     /// How many points there are.
     [[nodiscard]] std::size_t size() const noexcept { return points_.size(); }
@@ -70,9 +73,12 @@ public:
     /// \param center  Of the ball.
     /// \param radius  At least 0, infinity for all.
     /// \param found   Room for as many as are wanted; filled as a heap, farthest first.
+    /// \param wanted  Called with a place in the tree's order; false passes it over.
     /// \return How many were found.
+    template <typename Wanted>
     [[nodiscard]] std::size_t nearest(const Vec3T<T>& center, T radius,
-                                      std::span<NeighborT<T>> found) const;
+                                      std::span<NeighborT<T>> found,
+                                      Wanted wanted) const;
 
 private:
     template <typename Offer>
@@ -112,7 +118,9 @@ void KdTreeT<T>::build(std::span<const Vec3T<T>> points, std::size_t first,
         high = glm::max(high, points[order_[i]]);
     }
     const Vec3T<T> size = high / T(2) - low / T(2); // halves: no overflow
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const int axis = size.x >= size.y && size.x >= size.z ? 0
+                     : size.y >= size.z                   ? 1
+                                                          : 2;
 
     // The median goes to the middle; ties are split by the point's number.
     const std::size_t middle = first + (last - first) / 2;
@@ -154,8 +162,9 @@ double KdTreeT<T>::descend(std::size_t first, std::size_t last, const Vec3T<T>& 
 // [search]
 
 template <std::floating_point T>
+template <typename Wanted>
 std::size_t KdTreeT<T>::nearest(const Vec3T<T>& center, T radius,
-                                std::span<NeighborT<T>> found) const {
+                                std::span<NeighborT<T>> found, Wanted wanted) const {
     const auto farther = [](const NeighborT<T>& a, const NeighborT<T>& b) {
         return a.distance2 < b.distance2 ||
                (a.distance2 == b.distance2 && a.index < b.index);
@@ -169,10 +178,10 @@ std::size_t KdTreeT<T>::nearest(const Vec3T<T>& center, T radius,
     descend(0, points_.size(), center, [&](std::uint32_t index, double distance2) {
         const NeighborT<T> candidate{distance2, index};
         if (count < found.size()) {
-            if (distance2 > limit * limit) return limit;
+            if (distance2 > limit * limit || !wanted(index)) return limit;
             found[count++] = candidate;
             std::push_heap(found.begin(), heap(count), farther);
-        } else if (farther(candidate, found[0])) {
+        } else if (farther(candidate, found[0]) && wanted(index)) {
             std::pop_heap(found.begin(), heap(count), farther);
             found[count - 1] = candidate;
             std::push_heap(found.begin(), heap(count), farther);

@@ -52,8 +52,8 @@ template <std::floating_point T>
     PhotonMapT<T> map{.tree = KdTreeT<T>(positions), .records = {}};
     map.records.reserve(photons.size());
     for (const std::uint32_t i : map.tree.order())
-        map.records.push_back({photons[i].direction, photons[i].flux, photons[i].light,
-                               photons[i].kind});
+        map.records.push_back(
+            {photons[i].direction, photons[i].flux, photons[i].light, photons[i].kind});
     return map;
 }
 
@@ -62,9 +62,9 @@ inline constexpr std::size_t max_gathered = 512;
 
 /// How photons are gathered.
 struct Gather {
-    float radius = 0.1f;                   ///< In scene units, above 0.
-    std::size_t nearest = 0;               ///< k within the radius; 0: all within it.
-    Kernel kernel = Kernel::epanechnikov;  ///< The weight by distance.
+    float radius = 0.1f;                  ///< In scene units, above 0.
+    std::size_t nearest = 0;              ///< k within the radius; 0: all within it.
+    Kernel kernel = Kernel::epanechnikov; ///< The weight by distance.
     float thickness = 0.1f; ///< Half the height of the disc over its radius: photons of
                             ///< another wall lie outside.
 };
@@ -96,22 +96,21 @@ inline void check(const Gather& gather) {
 /// \param gathered  Counts the photons that were summed.
 /// \return Radiance, W/(m^2 sr).
 /// \report{Section 3.2.6}
-/// \erratum{The report's R_i is called a radiance; it is the BRDF times the photon's flux.
+/// \erratum{The report's R_i is called a radiance; it is the BRDF times the photon's
+/// flux.
 ///          There is no cosine: the flux that arrives on the surface holds it.}
 // [estimate]
 template <std::floating_point T, typename Material, typename Wanted>
-[[nodiscard]] RgbT<T> estimate_radiance(const PhotonMapT<T>& map,
-                                        const SurfaceT<T>& surface,
-                                        const Material& material, const Vec3T<T>& wo,
-                                        const Gather& gather, Wanted wanted,
-                                        std::uint64_t& gathered) {
+[[nodiscard]] RgbT<T>
+estimate_radiance(const PhotonMapT<T>& map, const SurfaceT<T>& surface,
+                  const Material& material, const Vec3T<T>& wo, const Gather& gather,
+                  Wanted wanted, std::uint64_t& gathered) {
     if (map.empty()) return RgbT<T>{T(0)};
     const Vec3T<T>& x = surface.point.position;
     T radius = T(gather.radius);
     RgbT<T> sum{T(0)};
     const auto add = [&](std::uint32_t i, double distance2) {
         const PhotonRecordT<T>& photon = map.records[i];
-        if (!wanted(photon.kind)) return;
         // Photons of another wall lie outside of the disc.
         const T height = glm::dot(map.tree.points()[i] - x, surface.point.normal);
         if (std::abs(height) > T(gather.thickness) * radius) return;
@@ -121,12 +120,15 @@ template <std::floating_point T, typename Material, typename Wanted>
         sum += weight * evaluate(material, wo, wi) * photon.flux;
         ++gathered;
     };
+    const auto counts = [&](std::uint32_t i) { return wanted(map.records[i].kind); };
     if (gather.nearest == 0) {
-        map.tree.visit_within(x, radius, add);
+        map.tree.visit_within(x, radius, [&](std::uint32_t i, double distance2) {
+            if (counts(i)) add(i, distance2);
+        });
     } else {
         std::array<NeighborT<T>, max_gathered> room;
         const std::span<NeighborT<T>> found(room.data(), gather.nearest);
-        const std::size_t count = map.tree.nearest(x, radius, found);
+        const std::size_t count = map.tree.nearest(x, radius, found, counts);
         const bool full = count == gather.nearest;
         if (full) radius = static_cast<T>(std::sqrt(found[0].distance2));
         // All photons in one point have no area: there is no estimate.

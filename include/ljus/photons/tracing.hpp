@@ -18,13 +18,13 @@ namespace ljus {
 
 /// How photons are made.
 struct PhotonPass {
-    long long photons = 100000;   ///< How many are emitted; N of the estimate.
-    std::uint64_t seed = 1;       ///< Of the random streams.
-    std::uint64_t iteration = 0;  ///< Which repetition of the pass.
-    int max_bounces = 1000;       ///< Surfaces a photon may meet; roulette ends it before.
-    bool shadow_photons = true;   ///< Whether the general map keeps them.
-    int threads = 0;              ///< 0: all that there are.
-    Progress progress = {};       ///< Called with (done, total); false stops.
+    long long photons = 100000;  ///< How many are emitted; N of the estimate.
+    std::uint64_t seed = 1;      ///< Of the random streams.
+    std::uint64_t iteration = 0; ///< Which repetition of the pass.
+    int max_bounces = 1000; ///< Surfaces a photon may meet; roulette ends it before.
+    bool shadow_photons = true; ///< Whether the general map keeps them.
+    int threads = 0;            ///< 0: all that there are.
+    Progress progress = {};     ///< Called with (done, total); false stops.
 };
 
 /// What a photon pass brings.
@@ -33,18 +33,15 @@ struct TracedPhotonsT {
     std::vector<PhotonT<T>> photons; ///< In the order of emission.
     FluxAudit audit;                 ///< Where the flux has gone.
     long long emitted = 0;           ///< Paths, with the ones that marked nothing.
-    bool complete = true;            ///< False if the progress callback stopped the pass.
+    bool complete = true; ///< False if the progress callback stopped the pass.
 };
 
-/// Compensated Russian roulette: a photon survives with the probability of its reflection,
-/// and a survivor carries what the dead had \cite arvo1990.
-/// \param flux    Before the surface.
-/// \param weight  f |cos| / pdf of the new direction.
-/// \param u       In [0, 1).
-/// \param audit   Takes what was absorbed, and what the game moved.
-/// \return The flux that goes on; nothing if the photon dies.
-/// \report{Section 3.2.2}
-/// \erratum{The report does not say that a survivor must be divided by its probability;
+/// Compensated Russian roulette: a photon survives with the probability of its
+/// reflection, and a survivor carries what the dead had \cite arvo1990. \param flux
+/// Before the surface. \param weight  f |cos| / pdf of the new direction. \param u In
+/// [0, 1). \param audit   Takes what was absorbed, and what the game moved. \return The
+/// flux that goes on; nothing if the photon dies. \report{Section 3.2.2} \erratum{The
+/// report does not say that a survivor must be divided by its probability;
 ///          its program did not, and lost the absorbed part twice.}
 // [roulette]
 template <std::floating_point T>
@@ -98,8 +95,8 @@ enum class PhotonLaw : std::uint8_t {
 
 /// Follows one photon and stores it at every diffuse surface that its law owns.
 ///
-/// A photon that has met nothing but mirrors and glass is a caustic one: the caustics map
-/// holds it, and the general map leaves it out, so that no light is counted twice.
+/// A photon that has met nothing but mirrors and glass is a caustic one: the caustics
+/// map holds it, and the general map leaves it out, so that no light is counted twice.
 /// \param scene   The scene.
 /// \param law     For which map.
 /// \param flight  The photon, its flux already divided by the number of paths.
@@ -138,8 +135,8 @@ void trace(const Scene& scene, PhotonLaw law, FlightT<T> flight,
         flight.flux = arrived;
         if (is_black(arrived)) return;
 
-        const bool goes_on = scene.visit_material(
-            surface.object.material, [&](const auto& material) {
+        const bool goes_on =
+            scene.visit_material(surface.object.material, [&](const auto& material) {
                 const PhotonKind kind = met_diffuse    ? PhotonKind::indirect
                                         : met_specular ? PhotonKind::caustic
                                                        : PhotonKind::direct;
@@ -150,9 +147,8 @@ void trace(const Scene& scene, PhotonLaw law, FlightT<T> flight,
 
                 const Vec3T<T> wo = to_local(surface.frame, -flight.ray.direction);
                 const Vec3T<T> u = next_3d<T>(stream);
-                const auto scattered =
-                    sample(material, wo, u, Transport::flux,
-                           caustics ? Lobes::specular : Lobes::all);
+                const auto scattered = sample(material, wo, u, Transport::flux,
+                                              caustics ? Lobes::specular : Lobes::all);
                 if (!scattered) {
                     audit.absorbed += RgbT<double>(flight.flux);
                     return false;
@@ -191,8 +187,7 @@ trace_photons(const Scene& scene, PhotonLaw law, const PhotonPass& pass) {
 
     const bool caustics = law == PhotonLaw::caustics;
     const LightChoice choice = light_choice(scene.lights);
-    const auto targets =
-        caustics ? specular_objects(scene) : std::vector<ObjectId>{};
+    const auto targets = caustics ? specular_objects(scene) : std::vector<ObjectId>{};
     TracedPhotonsT<T> result{.emitted = pass.photons};
     if (caustics && targets.empty()) return result;
 

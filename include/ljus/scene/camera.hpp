@@ -17,21 +17,21 @@ namespace ljus {
 /// A pinhole camera; look_at() makes one.
 template <std::floating_point T>
 struct CameraT {
-    Vec3T<T> position{T(0)};                 ///< The pinhole, in scene units.
-    Vec3T<T> right{T(1), T(0), T(0)};        ///< Unit, to the right of the picture.
-    Vec3T<T> up{T(0), T(1), T(0)};           ///< Unit, to the top of the picture.
-    Vec3T<T> forward{T(0), T(0), T(-1)};     ///< Unit, into the picture.
-    T half_height = T(1);                    ///< tan(vfov / 2): half the picture at distance 1.
+    Vec3T<T> position{T(0)};             ///< The pinhole, in scene units.
+    Vec3T<T> right{T(1), T(0), T(0)};    ///< Unit, to the right of the picture.
+    Vec3T<T> up{T(0), T(1), T(0)};       ///< Unit, to the top of the picture.
+    Vec3T<T> forward{T(0), T(0), T(-1)}; ///< Unit, into the picture.
+    T half_height = T(1); ///< tan(vfov / 2): half the picture at distance 1.
 };
 using Camera = CameraT<float>; ///< CameraT in float.
 
 /// Where a camera stands and what it looks at.
 template <std::floating_point T>
 struct ViewT {
-    Vec3T<T> position{T(0)};              ///< The pinhole, in scene units.
-    Vec3T<T> target{T(0), T(0), T(-1)};   ///< The point at the middle of the picture.
-    Vec3T<T> up{T(0), T(1), T(0)};        ///< Roughly up; not along the view.
-    T vfov_degrees = T(45);               ///< Full vertical angle, within (0, 180).
+    Vec3T<T> position{T(0)};            ///< The pinhole, in scene units.
+    Vec3T<T> target{T(0), T(0), T(-1)}; ///< The point at the middle of the picture.
+    Vec3T<T> up{T(0), T(1), T(0)};      ///< Roughly up; not along the view.
+    T vfov_degrees = T(45);             ///< Full vertical angle, within (0, 180).
 };
 using View = ViewT<float>; ///< ViewT in float.
 
@@ -44,8 +44,8 @@ template <std::floating_point T>
     require_finite("camera.position", view.position);
     require_finite("camera.target", view.target);
     require_finite("camera.up", view.up);
-    require(view.vfov_degrees > T(0) && view.vfov_degrees < T(180), "camera.vfov_degrees",
-            view.vfov_degrees, "above 0 and below 180");
+    require(view.vfov_degrees > T(0) && view.vfov_degrees < T(180),
+            "camera.vfov_degrees", view.vfov_degrees, "above 0 and below 180");
     const Vec3T<T> way = view.target - view.position;
     require(glm::dot(way, way) > T(0), "camera.target", view.target,
             "another point than camera.position");
@@ -63,7 +63,9 @@ template <std::floating_point T>
 }
 
 /// \copydoc look_at(const ViewT<T>&)
-[[nodiscard]] inline Camera look_at(const View& view) { return look_at<float>(view); }
+[[nodiscard]] inline Camera look_at(const View& view) {
+    return look_at<float>(view);
+}
 
 /// The primary ray through a point of the picture.
 /// \param camera  The camera.
@@ -80,8 +82,8 @@ template <std::floating_point T>
     const T x = (pixel.x - T(width) / T(2)) * scale;
     const T y = (T(height) / T(2) - pixel.y) * scale;
     return {.origin = camera.position,
-            .direction = glm::normalize(camera.forward + x * camera.right +
-                                        y * camera.up)};
+            .direction =
+                glm::normalize(camera.forward + x * camera.right + y * camera.up)};
 }
 // [primary_ray]
 

@@ -45,10 +45,10 @@ template <std::floating_point T>
 /// What arrives at a point from one sampled point of a light, if nothing is between.
 template <std::floating_point T>
 struct LightSampleT {
-    SurfacePointT<T> point;  ///< Where the shadow ray ends; a point light has no error.
-    Vec3T<T> wi{T(0)};       ///< Unit direction to the light.
-    RgbT<T> weight{T(0)};    ///< Radiance / pdf; of a point light intensity / distance^2.
-    T pdf = T(0);            ///< Per steradian; 0 for a point light.
+    SurfacePointT<T> point; ///< Where the shadow ray ends; a point light has no error.
+    Vec3T<T> wi{T(0)};      ///< Unit direction to the light.
+    RgbT<T> weight{T(0)}; ///< Radiance / pdf; of a point light intensity / distance^2.
+    T pdf = T(0);         ///< Per steradian; 0 for a point light.
 };
 
 /// Samples a point of a light, for a shadow ray.
@@ -56,7 +56,8 @@ struct LightSampleT {
 /// \param light  One of its lights.
 /// \param from   The lit point.
 /// \param u      Point of the unit square.
-/// \return The sample; nothing if the light does not shine in this direction: emission is
+/// \return The sample; nothing if the light does not shine in this direction: emission
+/// is
 ///         one-sided, along the normal.
 /// \report{Section 3.2.3}
 /// \erratum{The program behind the report leaves out the light's area and the inverse
@@ -75,8 +76,9 @@ sample_light(const Scene& scene, const LightT<T>& light, const Vec3T<T>& from,
                                .wi = wi,
                                .weight = light.emission / distance2};
     }
-    SeenPointT<T> seen = scene.visit_shape(
-        *light.object, [&](const auto& shape) { return sample_towards(shape, from, u); });
+    SeenPointT<T> seen = scene.visit_shape(*light.object, [&](const auto& shape) {
+        return sample_towards(shape, from, u);
+    });
     if (scene.object(*light.object).inside_out) seen.point.normal = -seen.point.normal;
 
     const Vec3T<T> wi = glm::normalize(seen.point.position - from);

@@ -10,8 +10,8 @@
 namespace ljus {
 
 /// \defgroup light_choice Choosing a light
-/// \brief Photons, and the path tracer's shadow rays, start at one light of all: a bright
-/// one more often.
+/// \brief Photons, and the path tracer's shadow rays, start at one light of all: a
+/// bright one more often.
 /// \{
 
 /// The lights of a scene, by power.
@@ -45,9 +45,11 @@ template <std::floating_point T>
 /// \param light   Its number.
 /// \return Its share of the power.
 template <std::floating_point T>
-[[nodiscard]] T probability_of(const LightChoice& choice, std::uint32_t light) noexcept {
+[[nodiscard]] T probability_of(const LightChoice& choice,
+                               std::uint32_t light) noexcept {
     const double before = light == 0 ? 0.0 : choice.cumulative[light - 1];
-    return static_cast<T>((choice.cumulative[light] - before) / choice.cumulative.back());
+    return static_cast<T>((choice.cumulative[light] - before) /
+                          choice.cumulative.back());
 }
 
 /// A light, with a probability in proportion to its power.
@@ -58,8 +60,8 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] ChosenLightT<T> choose_light(const LightChoice& choice, T u) noexcept {
     const double power = double(u) * choice.cumulative.back();
-    const auto place = std::upper_bound(choice.cumulative.begin(),
-                                        choice.cumulative.end() - 1, power);
+    const auto place =
+        std::upper_bound(choice.cumulative.begin(), choice.cumulative.end() - 1, power);
     const auto light = static_cast<std::uint32_t>(place - choice.cumulative.begin());
     return {light, probability_of<T>(choice, light)};
 }

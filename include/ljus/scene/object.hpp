@@ -13,7 +13,8 @@ namespace ljus {
 /// \brief A shape becomes an object of a scene by what it is made of.
 /// \{
 
-/// The place of a material: which of the scene's material types, and where in its array.
+/// The place of a material: which of the scene's material types, and where in its
+/// array.
 struct MaterialId {
     std::uint32_t type = 0;  ///< Place in Materials<...>.
     std::uint32_t index = 0; ///< Place in that type's array.

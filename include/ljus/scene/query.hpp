@@ -77,13 +77,13 @@ struct SurfaceT {
 template <typename Scene, std::floating_point T>
 [[nodiscard]] SurfaceT<T> surface_at(const Scene& scene, const RayT<T>& ray,
                                      const SceneHitT<T>& hit) {
-    SurfaceT<T> surface{
-        .point = scene.visit_shape(hit.object,
-                                   [&](const auto& shape) {
-                                       return surface_point(shape, ray, hit.at);
-                                   }),
-        .frame = {},
-        .object = scene.object(hit.object)};
+    SurfaceT<T> surface{.point = scene.visit_shape(hit.object,
+                                                   [&](const auto& shape) {
+                                                       return surface_point(shape, ray,
+                                                                            hit.at);
+                                                   }),
+                        .frame = {},
+                        .object = scene.object(hit.object)};
     if (surface.object.inside_out) surface.point.normal = -surface.point.normal;
     surface.frame = frame_around(surface.point.normal);
     return surface;

@@ -42,7 +42,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
     using Scalar = ScalarOf<FirstShape>; ///< The precision, from the shapes' types.
     static_assert((std::is_same_v<Scalar, ScalarOf<S>> && ...),
                   "A scene's shapes must all have one precision.");
-    static_assert((std::is_same_v<Scalar, BsdfScalar<M>> && ...),
+    static_assert((std::is_same_v<Scalar, typename M::Scalar> && ...),
                   "A scene's materials must have the precision of its shapes.");
 
     std::tuple<std::vector<FirstShape>, std::vector<S>...> shapes; ///< An array a type.
@@ -56,8 +56,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
     /// \return Its number, for the shapes that are made of it.
     /// \throws std::invalid_argument  if a value lies outside the material's range.
     template <Bsdf B>
-        requires(std::same_as<B, M> || ...)
-    MaterialId add(const B& material) {
+    requires(std::same_as<B, M> || ...) MaterialId add(const B& material) {
         check(material);
         auto& array = std::get<std::vector<B>>(materials);
         array.push_back(material);
@@ -67,35 +66,34 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
     /// Adds a shape.
     /// \param shape     One of the listed types.
     /// \param material  What add() returned for its material.
-    /// \param emission  The radiance it emits along its normal's side, W/(m^2 sr); added
+    /// \param radiance  The radiance it emits along its normal's side, W/(m^2 sr);
+    /// added
     ///                  to what the material itself emits.
-    /// \param inside_out  Whether the normal points inwards, as in a room made of a sphere.
-    /// \return Its number.
-    /// \throws std::invalid_argument  if a value is out of range, or the material unknown.
+    /// \param inside_out  Whether the normal points inwards, as in a room made of a
+    /// sphere. \return Its number. \throws std::invalid_argument  if a value is out of
+    /// range, or the material unknown.
     template <Shape G>
-        requires(std::same_as<G, FirstShape> || (std::same_as<G, S> || ...))
-    ObjectId add(const G& shape, MaterialId material, RgbT<Scalar> emission = {},
-                 bool inside_out = false) {
+    requires(std::same_as<G, FirstShape> || (std::same_as<G, S> || ...)) ObjectId
+        add(const G& shape, MaterialId material, RgbT<Scalar> radiance = {},
+            bool inside_out = false) {
         check(shape);
-        require_radiance("emission", emission);
+        require_radiance("emission", radiance);
         require(has(material), "the material's number",
                 static_cast<long long>(material.index), "one that add() returned");
-        emission += visit_material(material, [](const auto& m) {
-            return ljus::emission(m);
-        });
+        radiance += visit_material(material, [](const auto& m) { return emission(m); });
 
         auto& array = std::get<std::vector<G>>(shapes);
         const ObjectId id{type_of<G, FirstShape, S...>(),
                           static_cast<std::uint32_t>(array.size())};
-        if (!is_black(emission)) {
+        if (!is_black(radiance)) {
             require_positive("the area of a light", area(shape));
             lights.push_back({.object = id,
-                              .emission = emission,
-                              .flux = diffuse_flux(emission, area(shape))});
+                              .emission = radiance,
+                              .flux = diffuse_flux(radiance, area(shape))});
         }
         array.push_back(shape);
         const auto light = static_cast<std::uint32_t>(lights.size()) - 1u;
-        objects[id.type].push_back({material, emission, inside_out, light});
+        objects[id.type].push_back({material, radiance, inside_out, light});
         return id;
     }
 
@@ -107,9 +105,10 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
         require_finite("point light.position", light.position);
         require_radiance("point light.intensity", light.intensity);
         if (is_black(light.intensity)) return;
-        lights.push_back({.position = light.position,
-                          .emission = light.intensity,
-                          .flux = Scalar(4) * std::numbers::pi_v<Scalar> * light.intensity});
+        lights.push_back(
+            {.position = light.position,
+             .emission = light.intensity,
+             .flux = Scalar(4) * std::numbers::pi_v<Scalar> * light.intensity});
     }
 
     /// What the scene knows of a shape besides its geometry.
@@ -147,9 +146,12 @@ private:
     bool has(MaterialId id) const noexcept {
         std::uint32_t place = 0;
         bool found = false;
-        std::apply([&](const auto&... array) {
-            ((found = found || (place++ == id.type && id.index < array.size())), ...);
-        }, materials);
+        std::apply(
+            [&](const auto&... array) {
+                ((found = found || (place++ == id.type && id.index < array.size())),
+                 ...);
+            },
+            materials);
         return found;
     }
 
