@@ -69,10 +69,9 @@ chord(const RayT<T>& ray, const SphereT<T>& sphere) noexcept {
     // From the centre to the point of the line that is nearest to it.
     const Vec3T<C> p = oc + (b * inverse_a) * d;
     const C discriminant = r * r - glm::dot(p, p);
-    // Written so that NaN is a miss; infinity and a radius not above 0 are, too.
+    // Written so that NaN is a miss; so are infinity and a radius of 0 or less.
     constexpr C max = std::numeric_limits<C>::max();
-    if (!(C(0) <= discriminant && discriminant <= max && r > C(0)))
-        return std::nullopt;
+    if (!(C(0) <= discriminant && discriminant <= max && r > C(0))) return std::nullopt;
 
     // The root of larger size first; by Vieta the other one is c/q.
     const C q = b + std::copysign(std::sqrt(a * discriminant), b);
