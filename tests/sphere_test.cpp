@@ -122,6 +122,41 @@ TEST_CASE("sphere: the chord has both ends, in order, also behind the origin") {
     CHECK(touch->leave == 0.0f);
 }
 
+TEST_CASE("sphere: far away it is neither lost nor found where it is not") {
+    Numbers numbers{13};
+    for (float distance = 10; distance < 2e5f; distance *= 10)
+        for (int i = 0; i < 2000; ++i) {
+            const Vec3 origin = distance * glm::normalize(numbers.point(1));
+            const Vec3 side = glm::normalize(glm::cross(origin, numbers.point(1)));
+            // Past the centre by 0.9 and by 1.1 radii: a float ray is off by about
+            // distance / 1e7 there.
+            const auto aimed = [&](float miss) {
+                return Ray{.origin = origin,
+                           .direction = glm::normalize(miss * side - origin)};
+            };
+            const auto t = ljus::intersect(aimed(0.9f), Sphere{});
+            REQUIRE(t);
+            const float slant = std::hypot(distance, 0.9f);
+            const float nearest = 0.9f * distance / slant; // of the line, to the centre
+            const float expected =
+                distance * distance / slant - std::sqrt(1 - nearest * nearest);
+            REQUIRE(std::abs(*t - expected) < 2e-6f * distance);
+            REQUIRE_FALSE(ljus::intersect(aimed(1.1f), Sphere{}));
+        }
+}
+
+TEST_CASE("sphere: just above a large sphere the small root does not cancel") {
+    // 1024 plus k units in its last place: squares and their difference are exact.
+    const Sphere world{.radius = 1024};
+    for (int k = 1; k < 20; ++k) {
+        const float height = static_cast<float>(k) / 8192.0f;
+        const Ray ray{.origin = {0, 1024 + height, 0}, .direction = {0.6f, -0.8f, 0}};
+        const auto t = ljus::intersect(ray, world);
+        REQUIRE(t);
+        CHECK(*t == doctest::Approx(height / 0.8f).epsilon(1e-5));
+    }
+}
+
 TEST_CASE("sphere: invalid data are a miss") {
     const Sphere ball{.center = {0, 0, -5}, .radius = 1};
     for (const float bad : {not_a_number, infinity, -infinity})
@@ -132,9 +167,11 @@ TEST_CASE("sphere: invalid data are a miss") {
                 origin.origin[axis] = direction.direction[axis] = bad;
                 center.center[axis] = bad;
                 for (const auto& ray : {origin, direction}) {
+                    CHECK_FALSE(ljus::chord(ray, ball));
                     CHECK_FALSE(ljus::intersect(ray, ball));
                     CHECK_FALSE(ljus::intersect<double>(ray, ball));
                 }
+                CHECK_FALSE(ljus::chord(Ray{}, center));
                 CHECK_FALSE(ljus::intersect(Ray{}, center));
                 CHECK_FALSE(ljus::intersect<double>(Ray{}, center));
             }

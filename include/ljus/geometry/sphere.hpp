@@ -62,22 +62,22 @@ chord(const RayT<T>& ray, const SphereT<T>& sphere) noexcept {
     const Vec3T<C> d{ray.direction};
     const Vec3T<C> oc = Vec3T<C>{ray.origin} - Vec3T<C>{sphere.center};
     const C r{sphere.radius};
+    const C a = glm::dot(d, d);
     const C b = -glm::dot(oc, d);
-    const C inverse_a = C(1) / glm::dot(d, d);
+    const C inverse_a = C(1) / a;
 
     // From the centre to the point of the line that is nearest to it.
     const Vec3T<C> p = oc + (b * inverse_a) * d;
     const C discriminant = r * r - glm::dot(p, p);
-    if (!(discriminant >= C(0))) return std::nullopt; // written so that NaN is a miss
-    if (!(r > C(0) && discriminant <= std::numeric_limits<C>::max()))
-        return std::nullopt;
+    // Written so that NaN is a miss; so are infinity and a radius of 0 or less.
+    constexpr C max = std::numeric_limits<C>::max();
+    if (!(C(0) <= discriminant && discriminant <= max && r > C(0))) return std::nullopt;
 
     // The root of larger size first; by Vieta the other one is c/q.
-    const C q = b + std::copysign(std::sqrt(glm::dot(d, d) * discriminant), b);
+    const C q = b + std::copysign(std::sqrt(a * discriminant), b);
     const C c = glm::dot(oc, oc) - r * r;
     const C large = q * inverse_a;
-    const C small =
-        q != C(0) ? c / q : C(0); // 0: a tangent that starts where it touches
+    const C small = q != C(0) ? c / q : C(0); // 0: it starts where it touches
     if (q > C(0)) return ChordT<C>{.enter = small, .leave = large};
     return ChordT<C>{.enter = large, .leave = small};
 }
@@ -116,14 +116,15 @@ template <typename Compute = void, std::floating_point T>
 /// small difference, which is all that decides, drowns in their rounding.
 ///
 /// \tparam Compute  The precision of the arithmetic; t is rounded to T once.
-/// \param ray     Its direction must have unit length; hits count within [t_min,
-/// t_max]. \param sphere  The sphere. \return As intersect(), where the formula holds;
-/// what it happens to give elsewhere. \cost One square root, no division.
+/// \param ray     A ray with a direction of unit length; its range decides.
+/// \param sphere  The sphere.
+/// \return As intersect(), where the formula holds; elsewhere what it happens to give.
+/// \cost One square root, no division.
 /// \report{Section 3.1.4}
 // [as_printed]
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<T> intersect_as_printed(const RayT<T>& ray,
-                                                    const SphereT<T>& sphere) noexcept {
+                                                    const SphereT<T>& sphere) {
     using C = ComputeT<Compute, T>;
     const Vec3T<C> oc = Vec3T<C>{ray.origin} - Vec3T<C>{sphere.center};
     const C r{sphere.radius};
