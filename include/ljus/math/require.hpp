@@ -99,8 +99,8 @@ void require_unit(std::string_view what, const RgbT<T>& value) {
 /// \throws std::invalid_argument  as require().
 template <std::floating_point T>
 void require_radiance(std::string_view what, const RgbT<T>& value) {
-    const bool ok = is_finite(value) && value.x >= T(0) && value.y >= T(0) &&
-                    value.z >= T(0);
+    const bool ok =
+        is_finite(value) && value.x >= T(0) && value.y >= T(0) && value.z >= T(0);
     require(ok, what, value, "finite and at least 0 in every channel");
 }
 
