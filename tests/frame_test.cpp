@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <vector>
 
@@ -39,7 +40,8 @@ template <typename T>
 T distance_from_orthonormal(const FrameT<T>& f) {
     T worst = T(0);
     for (const T error :
-         {glm::dot(f.tangent, f.tangent) - T(1), glm::dot(f.bitangent, f.bitangent) - T(1),
+         {glm::dot(f.tangent, f.tangent) - T(1),
+          glm::dot(f.bitangent, f.bitangent) - T(1),
           glm::dot(f.normal, f.normal) - T(1), glm::dot(f.tangent, f.bitangent),
           glm::dot(f.bitangent, f.normal), glm::dot(f.normal, f.tangent)})
         worst = std::fmax(worst, std::abs(error));
@@ -50,7 +52,8 @@ T distance_from_orthonormal(const FrameT<T>& f) {
 
 TEST_CASE_TEMPLATE("frame: three orthonormal vectors around every normal", T, float,
                    double) {
-    // The inputs are unit vectors only up to roundoff, so a few of its units are allowed.
+    // The inputs are unit vectors only up to roundoff, so a few of its units are
+    // allowed.
     const T few_ulps = T(8) * std::numeric_limits<T>::epsilon();
     for (const Vec3T<T>& n : directions<T>()) {
         CAPTURE(n.x);
@@ -65,7 +68,8 @@ TEST_CASE_TEMPLATE("frame: three orthonormal vectors around every normal", T, fl
 TEST_CASE_TEMPLATE("frame: right-handed, also below the horizon", T, float, double) {
     for (const Vec3T<T>& n : directions<T>()) {
         const FrameT<T> frame = frame_around(n);
-        CHECK(glm::dot(glm::cross(frame.tangent, frame.bitangent), frame.normal) > T(0.99));
+        CHECK(glm::dot(glm::cross(frame.tangent, frame.bitangent), frame.normal) >
+              T(0.99));
     }
 }
 

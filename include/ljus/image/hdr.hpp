@@ -47,8 +47,9 @@ to_rgbe(const RgbT<double>& c) noexcept {
 // [to_rgbe]
 
 /// The colour of four bytes, without the half step that Ward's own programs add to
-/// their mantissas, which they round down. \param rgbe  R, G, B, E. \return (R, G, B)
-/// 2^(E - 136), or black if E is 0.
+/// their mantissas, which they round down.
+/// \param rgbe  R, G, B, E.
+/// \return (R, G, B) 2^(E - 136), or black if E is 0.
 [[nodiscard]] inline RgbT<double>
 from_rgbe(const std::array<unsigned char, 4>& rgbe) noexcept {
     if (rgbe[3] == 0) return RgbT<double>(0.0);
@@ -135,10 +136,10 @@ inline void read_rgbe_row(ByteReader& reader,
 /// Loads a Radiance file: RGBE, rows from the top, plain or run-length coded.
 /// \param path  The file.
 /// \return Its image, divided by the EXPOSURE lines of the header, which gives
-/// radiance. \throws std::runtime_error  with path and reason, if it cannot be read, is
-/// of another
-///         kind (XYZE, other orders of the pixels, the run-length coding of before
-///         1991), or is shorter or longer than its header says.
+///     radiance.
+/// \throws std::runtime_error  with path and reason, if it cannot be read, is of
+///     another kind (XYZE, other orders of the pixels, the run-length coding of before
+///     1991), or is shorter or longer than its header says.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_hdr(const std::string& path) {
     detail::ByteReader reader{path, load_file(path, 8 * std::size_t(max_pixels), "#?")};

@@ -120,12 +120,13 @@ template <std::floating_point T, std::floating_point U>
 ///
 /// Dropping the worst 1 % takes the fireflies out, and shows what the rest is like.
 /// *Trap*: it is kind to a method that puts its energy into fireflies; beside
-/// rel_mse(), never instead of it. \param image      The picture. \param reference  The
-/// truth, of the same size. \param dropped    The part of all pixels that is dropped,
-/// in [0, 1): the worst
-///                   floor(dropped * pixels) of them, by their mean over the channels;
-///                   none of less than 100 pixels at 1 %.
-/// \param epsilon    As for rel_mse().
+/// rel_mse(), never instead of it.
+/// \param image  The picture.
+/// \param reference  The truth, of the same size.
+/// \param dropped  The part of all pixels that is dropped, in [0, 1): the worst
+///          floor(dropped * pixels) of them, by their mean over the channels; none of
+///          less than 100 pixels at 1 %.
+/// \param epsilon  As for rel_mse().
 /// \return Without unit, at most rel_mse().
 /// \throws std::invalid_argument  as rel_mse(), or for `dropped`.
 template <std::floating_point T, std::floating_point U>
@@ -221,9 +222,12 @@ template <std::floating_point T, std::floating_point U>
 /// The symmetric mean absolute relative error, mean |x - r| / (|x| + |r| + epsilon).
 ///
 /// *Trap*: it is bounded, so that it hides fireflies; and some authors put a factor of
-/// 2 in front, which is not here. \param image      The picture. \param reference  The
-/// truth, of the same size. \param epsilon    Radiance, above 0. \return Without unit,
-/// in [0, 1). \throws std::invalid_argument  as rel_mse().
+/// 2 in front, which is not here.
+/// \param image  The picture.
+/// \param reference  The truth, of the same size.
+/// \param epsilon  Radiance, above 0.
+/// \return Without unit, in [0, 1).
+/// \throws std::invalid_argument  as rel_mse().
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] double smape(const ImageT<T>& image, const ImageT<U>& reference,
                            double epsilon = default_epsilon) {

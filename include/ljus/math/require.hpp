@@ -30,7 +30,10 @@ template <std::floating_point T>
 /// A vector as a message shows it.
 template <std::floating_point T>
 [[nodiscard]] std::string to_text(const Vec3T<T>& v) {
-    return "(" + to_text(v.x) + ", " + to_text(v.y) + ", " + to_text(v.z) + ")";
+    // Appended, because g++ 12 warns of "x" + std::string (-Wrestrict, its bug 105651).
+    std::string text(1, '(');
+    text.append(to_text(v.x)).append(", ").append(to_text(v.y)).append(", ");
+    return text.append(to_text(v.z)).append(")");
 }
 
 /// An integer as a message shows it.
@@ -96,8 +99,8 @@ void require_unit(std::string_view what, const RgbT<T>& value) {
 /// \throws std::invalid_argument  as require().
 template <std::floating_point T>
 void require_radiance(std::string_view what, const RgbT<T>& value) {
-    const bool ok = is_finite(value) && value.x >= T(0) && value.y >= T(0) &&
-                    value.z >= T(0);
+    const bool ok =
+        is_finite(value) && value.x >= T(0) && value.y >= T(0) && value.z >= T(0);
     require(ok, what, value, "finite and at least 0 in every channel");
 }
 

@@ -84,9 +84,10 @@ template <typename T>
 /// The sum of numbers or colours by halves: each half is summed in the same way.
 ///
 /// No term passes through more than 16 + log2(n) additions, so that the error grows
-/// like log n instead of n, at the price of a plain sum. \param terms  Anything
-/// contiguous: a vector, an array, a span. \return The sum; 0 for no terms. \cost One
-/// addition a term.
+/// like log n instead of n, at the price of a plain sum.
+/// \param terms  Anything contiguous: a vector, an array, a span.
+/// \return The sum; 0 for no terms.
+/// \cost One addition a term.
 // [pairwise_sum]
 template <typename Terms>
 requires std::constructible_from < std::span<const typename Terms::value_type>,

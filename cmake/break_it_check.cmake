@@ -1,0 +1,36 @@
+# Runs PROGRAM, a test compiled against a broken header; fails unless it runs to its end
+# and reports at least one failed assertion.
+cmake_minimum_required(VERSION 3.22)
+set(arguments --no-colors=true)
+if(NOT "x${CASES}" STREQUAL "x")
+    list(APPEND arguments "--test-case=${CASES}")
+endif()
+execute_process(COMMAND "${PROGRAM}" ${arguments}
+    RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+
+if(result EQUAL 0 AND output MATCHES "test cases: +0 ")
+    message(FATAL_ERROR "break it ${NAME}: no test case is named '${CASES}'.")
+endif()
+if(result EQUAL 0)
+    message(FATAL_ERROR "break it ${NAME}: nobody noticed. With this change in ${HEADER} "
+        "every test still passes: test the term, or leave it out.\n"
+        "The change: ${FOLDER}/from.txt to ${FOLDER}/to.txt")
+endif()
+if(NOT result EQUAL 1 OR output MATCHES "CRASHED")
+    message(FATAL_ERROR "break it ${NAME}: the test program did not run to its end "
+        "(${result}); a crash is not a test that notices.\n${output}")
+endif()
+if(NOT output MATCHES "assertions: +[0-9]+ \\| +[0-9]+ passed \\| +([0-9]+) failed")
+    message(FATAL_ERROR "break it ${NAME}: the output has no summary of doctest.\n${output}")
+endif()
+set(failed "${CMAKE_MATCH_1}")
+if(failed EQUAL 0)
+    message(FATAL_ERROR "break it ${NAME}: no assertion failed; an exception that escapes "
+        "is not a test that notices.\n${output}")
+endif()
+string(REGEX MATCHALL "TEST CASE: [^\n]*" cases "${output}")
+list(REMOVE_DUPLICATES cases)
+message("${failed} assertions failed; it was noticed by")
+foreach(case IN LISTS cases)
+    message("  ${case}")
+endforeach()

@@ -1,0 +1,103 @@
+#pragma once
+
+/// \file ljus/materials/glass.hpp
+/// \brief Clear or coloured glass with a smooth surface.
+
+#include "ljus/materials/bsdf.hpp"
+#include "ljus/math/require.hpp"
+#include "ljus/optics/fresnel.hpp"
+#include "ljus/optics/reflection.hpp"
+#include "ljus/optics/refraction.hpp"
+
+namespace ljus {
+
+/// \defgroup glass Glass
+/// \brief Section 3.2.5: surfaces that reflect and refract.
+/// \erratum{The report's program reflects the same share at every angle, multiplies
+/// what it refracts by a cosine, reflects nothing inside, and returns up to 1.6 times
+/// the light. Here the shares F and 1 - F are split once.}
+/// \{
+
+/// The smooth boundary of a transparent body: outside is z > 0 and has index 1.
+/// \report{Section 3.2.5}
+template <std::floating_point T>
+struct GlassT {
+    using Scalar = T;                           ///< The precision of its numbers.
+    T index = T(1.5);                           ///< Index of refraction inside.
+    RgbT<T> absorption{T(0)};                   ///< Inside, per scene unit, >= 0.
+    FresnelModel fresnel = FresnelModel::exact; ///< Exact, or Schlick's twin.
+};
+using Glass = GlassT<float>; ///< GlassT in float.
+
+/// What there is: two specular parts.
+template <std::floating_point T>
+[[nodiscard]] constexpr Lobes lobes(const GlassT<T>&) noexcept {
+    return Lobes::specular;
+}
+
+/// Glass has no f in 1/sr.
+/// \return 0.
+template <std::floating_point T>
+[[nodiscard]] constexpr RgbT<T> evaluate(const GlassT<T>&, const Vec3T<T>&,
+                                         const Vec3T<T>&) noexcept {
+    return RgbT<T>{T(0)};
+}
+
+/// The density of the parts that have one.
+/// \return 0.
+template <std::floating_point T>
+[[nodiscard]] constexpr T pdf(const GlassT<T>&, const Vec3T<T>&, const Vec3T<T>&,
+                              Lobes = Lobes::all) noexcept {
+    return T(0);
+}
+
+/// One of the two branches: reflection with probability F, refraction with 1 - F. Each
+/// is chosen as often as it carries light, so that both have the weight 1; radiance
+/// that comes from index n_t is then scaled by (n_i/n_t)^2.
+/// \param glass      The glass.
+/// \param wo         Towards where the light goes; z < 0 is inside.
+/// \param u          Point of [0,1)^3; z chooses the branch.
+/// \param transport  Radiance or flux.
+/// \param which      The parts to sample from.
+/// \return The sample; nothing if `wo` lies on the surface or without Lobes::specular.
+/// \cost Three square roots, three divisions; F is not evaluated in total reflection.
+/// \report{Section 3.2.5}
+// [glass sample]
+template <std::floating_point T>
+[[nodiscard]] std::optional<BsdfSampleT<T>>
+sample(const GlassT<T>& glass, const Vec3T<T>& wo, const Vec3T<T>& u,
+       Transport transport, Lobes which = Lobes::all) noexcept {
+    if (!has(which, Lobes::specular)) return std::nullopt;
+    if (!(wo.z > T(0) || wo.z < T(0))) return std::nullopt;
+    const bool outside = wo.z > T(0);
+    const T n_i = outside ? T(1) : glass.index;
+    const T n_t = outside ? glass.index : T(1);
+    const T eta = n_i / n_t;
+
+    const auto refracted = refract(wo, eta);
+    if (!refracted || u.z < fresnel(glass.fresnel, std::abs(wo.z), n_i, n_t))
+        return specular_sample(reflect(wo), RgbT<T>{T(1)});
+    const T scale = transport == Transport::radiance ? eta * eta : T(1);
+    return specular_sample(*refracted, RgbT<T>{scale});
+}
+// [glass sample]
+
+/// The absorption inside, per scene unit; see transmittance().
+/// \param glass  The glass.
+template <std::floating_point T>
+[[nodiscard]] constexpr RgbT<T> absorption(const GlassT<T>& glass) noexcept {
+    return glass.absorption;
+}
+
+/// Refuses an index or an absorption that no glass can have.
+/// \param glass  The glass.
+/// \throws std::invalid_argument naming the member.
+template <std::floating_point T>
+void check(const GlassT<T>& glass) {
+    require_index("glass.index", glass.index);
+    require_radiance("glass.absorption", glass.absorption);
+}
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,101 @@
+#pragma once
+
+/// \file ljus/materials/lambertian.hpp
+/// \brief The matt surface that looks equally bright from everywhere.
+
+#include <numbers>
+
+#include "ljus/materials/bsdf.hpp"
+#include "ljus/math/require.hpp"
+#include "ljus/math/sampling.hpp"
+
+namespace ljus {
+
+/// \defgroup lambertian Lambert
+/// \brief Section 3.2.1: the Lambertian BRDF.
+/// \erratum{The program's "BRDF" is cos(theta) times colour: no 1/pi, and a cosine that
+/// belongs to the integral and is then counted twice.}
+/// \{
+
+/// A matt surface, on both sides.
+/// \report{Section 3.2.1}
+template <std::floating_point T>
+struct LambertianT {
+    using Scalar = T;       ///< The precision of its numbers.
+    RgbT<T> albedo{T(0.5)}; ///< Share of the light that comes back, in [0, 1].
+};
+using Lambertian = LambertianT<float>; ///< LambertianT in float.
+
+/// What there is: a diffuse part, even if it is black.
+template <std::floating_point T>
+[[nodiscard]] constexpr Lobes lobes(const LambertianT<T>&) noexcept {
+    return Lobes::diffuse;
+}
+
+/// The BRDF: f = albedo/pi, so that the light that comes back, the integral of f cos
+/// over the hemisphere, is the albedo.
+/// \param surface  The surface.
+/// \param wo       Towards where the light goes.
+/// \param wi       Towards where it comes from.
+/// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
+/// \report{Section 3.2.1}
+// [lambertian]
+template <std::floating_point T>
+[[nodiscard]] constexpr RgbT<T> evaluate(const LambertianT<T>& surface,
+                                         const Vec3T<T>& wo,
+                                         const Vec3T<T>& wi) noexcept {
+    if (!same_side(wo, wi)) return RgbT<T>{T(0)};
+    return surface.albedo * std::numbers::inv_pi_v<T>;
+}
+// [lambertian]
+
+/// The density of sample().
+/// \param surface  The surface.
+/// \param wo       Towards where the light goes.
+/// \param wi       Towards where it comes from.
+/// \param which    The parts to sample from.
+/// \return |cos(theta)|/pi per steradian on the side of `wo`; 0 elsewhere, and 0
+///         without Lobes::diffuse.
+template <std::floating_point T>
+[[nodiscard]] constexpr T pdf([[maybe_unused]] const LambertianT<T>& surface,
+                              const Vec3T<T>& wo, const Vec3T<T>& wi,
+                              Lobes which = Lobes::all) noexcept {
+    if (!has(which, Lobes::diffuse) || !same_side(wo, wi)) return T(0);
+    return (wi.z < T(0) ? -wi.z : wi.z) * std::numbers::inv_pi_v<T>;
+}
+
+/// A direction with density cos/pi: the weight f cos/pdf is then the albedo alone.
+/// \param surface  The surface.
+/// \param wo       Towards where the light goes.
+/// \param u        Point of [0,1)^3; z is not used.
+/// \param which    The parts to sample from.
+/// \return The sample; nothing if `wo` lies on the surface, if the albedo is black, or
+///         without Lobes::diffuse.
+/// \cost One sine, one cosine, one square root.
+/// \report{Section 3.2.4}
+// [lambertian sample]
+template <std::floating_point T>
+[[nodiscard]] std::optional<BsdfSampleT<T>>
+sample(const LambertianT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
+       Transport /*transport*/, Lobes which = Lobes::all) noexcept {
+    if (!has(which, Lobes::diffuse)) return std::nullopt;
+    if (is_black(surface.albedo)) return std::nullopt;
+    if (!(wo.z > T(0) || wo.z < T(0))) return std::nullopt;
+    Vec3T<T> wi = sample_cosine_hemisphere(Vec2T<T>{u.x, u.y});
+    const T density = pdf_cosine_hemisphere(wi);
+    wi.z = std::copysign(wi.z, wo.z);
+    return diffuse_sample(wi, surface.albedo, density);
+}
+// [lambertian sample]
+
+/// Refuses an albedo outside [0, 1].
+/// \param surface  The surface.
+/// \throws std::invalid_argument naming the albedo.
+template <std::floating_point T>
+void check(const LambertianT<T>& surface) {
+    require_unit("lambertian.albedo", surface.albedo);
+}
+
+/// \}
+
+} // namespace ljus

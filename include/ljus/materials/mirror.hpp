@@ -1,0 +1,77 @@
+#pragma once
+
+/// \file ljus/materials/mirror.hpp
+/// \brief The perfect mirror.
+
+#include "ljus/materials/bsdf.hpp"
+#include "ljus/math/require.hpp"
+#include "ljus/optics/reflection.hpp"
+
+namespace ljus {
+
+/// \defgroup mirror Mirrors
+/// \brief Section 3.2.4: perfectly reflective surfaces.
+/// \{
+
+/// A mirror, on both sides, equally good at every angle.
+/// \report{Section 3.2.4}
+template <std::floating_point T>
+struct MirrorT {
+    using Scalar = T;          ///< The precision of its numbers.
+    RgbT<T> reflectance{T(1)}; ///< Share of the light that comes back, in [0, 1].
+};
+using Mirror = MirrorT<float>; ///< MirrorT in float.
+
+/// What there is: one specular part.
+template <std::floating_point T>
+[[nodiscard]] constexpr Lobes lobes(const MirrorT<T>&) noexcept {
+    return Lobes::specular;
+}
+
+/// A mirror has no f in 1/sr: almost every pair of directions sees nothing.
+/// \return 0.
+template <std::floating_point T>
+[[nodiscard]] constexpr RgbT<T> evaluate(const MirrorT<T>&, const Vec3T<T>&,
+                                         const Vec3T<T>&) noexcept {
+    return RgbT<T>{T(0)};
+}
+
+/// The density of the parts that have one.
+/// \return 0.
+template <std::floating_point T>
+[[nodiscard]] constexpr T pdf(const MirrorT<T>&, const Vec3T<T>&, const Vec3T<T>&,
+                              Lobes = Lobes::all) noexcept {
+    return T(0);
+}
+
+/// The mirror direction. The weight is the reflectance: delta and cosine cancel.
+/// \param mirror  The mirror.
+/// \param wo      Towards where the light goes.
+/// \param which   The parts to sample from.
+/// \return The sample; nothing if `wo` lies on the surface, if the mirror is black, or
+///         without Lobes::specular.
+/// \cost Nothing to speak of.
+/// \report{Section 3.2.4, Eq. (4)}
+// [mirror sample]
+template <std::floating_point T>
+[[nodiscard]] std::optional<BsdfSampleT<T>>
+sample(const MirrorT<T>& mirror, const Vec3T<T>& wo, const Vec3T<T>&,
+       Transport /*transport*/, Lobes which = Lobes::all) noexcept {
+    if (!has(which, Lobes::specular) || is_black(mirror.reflectance))
+        return std::nullopt;
+    if (!(wo.z > T(0) || wo.z < T(0))) return std::nullopt;
+    return specular_sample(reflect(wo), mirror.reflectance);
+}
+// [mirror sample]
+
+/// Refuses a reflectance outside [0, 1].
+/// \param mirror  The mirror.
+/// \throws std::invalid_argument naming the reflectance.
+template <std::floating_point T>
+void check(const MirrorT<T>& mirror) {
+    require_unit("mirror.reflectance", mirror.reflectance);
+}
+
+/// \}
+
+} // namespace ljus

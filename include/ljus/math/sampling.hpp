@@ -1,0 +1,176 @@
+#pragma once
+
+/// \file ljus/math/sampling.hpp
+/// \brief Points and directions from two uniform numbers, each with its density.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "ljus/math/vector.hpp"
+
+namespace ljus {
+
+/// \defgroup sampling Sampling
+/// \brief Section 3.2.4: pure functions of a point u of [0,1)^2, each beside its pdf.
+///
+/// Directions are unit vectors around +z. The caller owns the randomness, so that every
+/// function here can be plotted, stratified and tested.
+/// \{
+
+/// A point of the unit disc, uniform in area: the concentric map
+/// \cite shirley1997, which takes squares around the centre to circles.
+/// \param u  Point of [0,1)^2.
+/// \return Point with x^2 + y^2 <= 1; the border itself belongs to it.
+/// \cost One division, one sine, one cosine.
+// [concentric disc]
+template <std::floating_point T>
+[[nodiscard]] Vec2T<T> sample_concentric_disc(const Vec2T<T>& u) noexcept {
+    constexpr T quarter = std::numbers::pi_v<T> / T(4);
+    const T a = T(2) * u.x - T(1);
+    const T b = T(2) * u.y - T(1);
+    if (a == T(0) && b == T(0)) return {T(0), T(0)};
+    if (std::abs(a) > std::abs(b)) {
+        const T phi = quarter * (b / a);
+        return {a * std::cos(phi), a * std::sin(phi)};
+    }
+    const T phi = quarter * (a / b); // measured from the y axis
+    return {b * std::sin(phi), b * std::cos(phi)};
+}
+// [concentric disc]
+
+/// The density of sample_concentric_disc(), per unit of area.
+/// \param p  Point of the plane.
+/// \return 1/pi, or 0 outside the disc.
+template <std::floating_point T>
+[[nodiscard]] constexpr T pdf_concentric_disc(const Vec2T<T>& p) noexcept {
+    return p.x * p.x + p.y * p.y <= T(1) ? std::numbers::inv_pi_v<T> : T(0);
+}
+
+/// A direction above the horizon with density cos(theta)/pi: a point of the disc,
+/// lifted onto the hemisphere (Malley's method).
+///
+/// The border of the disc would lie on the horizon, where the density is 0 and a weight
+/// f cos/pdf is 0/0. It stands for the middle of its cell of random numbers instead,
+/// which is half a roundoff inside: z >= sqrt(epsilon), always.
+/// \param u  Point of [0,1)^2.
+/// \return Unit vector with z > 0.
+/// \cost As sample_concentric_disc(), and one square root.
+/// \report{Section 3.2.4}
+// [cosine hemisphere]
+template <std::floating_point T>
+[[nodiscard]] Vec3T<T> sample_cosine_hemisphere(const Vec2T<T>& u) noexcept {
+    const Vec2T<T> p = sample_concentric_disc(u);
+    // The map keeps the larger of |a| and |b| as the radius of p.
+    const T a = std::abs(T(2) * u.x - T(1));
+    const T b = std::abs(T(2) * u.y - T(1));
+    const T r = std::max(a, b);
+    constexpr T least = std::numeric_limits<T>::epsilon();
+    return {p.x, p.y, std::sqrt(std::max((T(1) - r) * (T(1) + r), least))};
+}
+// [cosine hemisphere]
+
+/// The density of sample_cosine_hemisphere(), per steradian; the cosine is in it.
+/// \param d  Unit vector.
+/// \return cos(theta)/pi, or 0 on and below the horizon.
+template <std::floating_point T>
+[[nodiscard]] constexpr T pdf_cosine_hemisphere(const Vec3T<T>& d) noexcept {
+    return d.z > T(0) ? d.z * std::numbers::inv_pi_v<T> : T(0);
+}
+
+/// A direction inside a cone around +z, uniform in solid angle.
+///
+/// The cone is given by 1 - cos(theta), not by the cosine: a lamp one degree wide has
+/// cos = 0.99996, of which float keeps hardly three digits. See one_minus_cosine().
+/// \param u                  Point of [0,1)^2.
+/// \param one_minus_cos_max  1 - cos of the half angle, in (0, 2]; 1 is the hemisphere.
+/// \return Unit vector within the cone.
+/// \cost One square root, one sine, one cosine.
+// [cone]
+template <std::floating_point T>
+[[nodiscard]] Vec3T<T> sample_uniform_cone(const Vec2T<T>& u,
+                                           T one_minus_cos_max) noexcept {
+    const T w = u.x * one_minus_cos_max; // 1 - cos(theta), Archimedes
+    const T r = std::sqrt(w * (T(2) - w));
+    const T phi = T(2) * std::numbers::pi_v<T> * u.y;
+    return {r * std::cos(phi), r * std::sin(phi), T(1) - w};
+}
+// [cone]
+
+/// The density of sample_uniform_cone() for the directions inside, per steradian.
+/// \param one_minus_cos_max  1 - cos of the half angle, in (0, 2].
+/// \return 1 over the solid angle 2 pi (1 - cos). Whether a direction is inside is for
+///         the caller to know, who has met the lamp or not.
+template <std::floating_point T>
+[[nodiscard]] constexpr T pdf_uniform_cone(T one_minus_cos_max) noexcept {
+    return std::numbers::inv_pi_v<T> / (T(2) * one_minus_cos_max);
+}
+
+/// 1 - cos(theta) from the squared sine, without cancellation.
+/// \param sin_squared  sin^2(theta) in [0, 1], of an angle up to 90 degrees: for a
+///                     sphere seen from outside, radius^2 / distance^2.
+/// \return 1 - sqrt(1 - sin^2), as sin^2 / (1 + sqrt(1 - sin^2)).
+template <std::floating_point T>
+[[nodiscard]] T one_minus_cosine(T sin_squared) noexcept {
+    return sin_squared / (T(1) + std::sqrt(T(1) - sin_squared));
+}
+
+/// A direction above the horizon, uniform in solid angle.
+/// \param u  Point of [0,1)^2.
+/// \return Unit vector with z > 0.
+template <std::floating_point T>
+[[nodiscard]] Vec3T<T> sample_uniform_hemisphere(const Vec2T<T>& u) noexcept {
+    return sample_uniform_cone(u, T(1));
+}
+
+/// The density of sample_uniform_hemisphere(), per steradian.
+/// \param d  Unit vector.
+/// \return 1/(2 pi), or 0 on and below the horizon.
+template <std::floating_point T>
+[[nodiscard]] constexpr T pdf_uniform_hemisphere(const Vec3T<T>& d) noexcept {
+    return d.z > T(0) ? std::numbers::inv_pi_v<T> / T(2) : T(0);
+}
+
+/// A direction, uniform over the whole sphere.
+/// \param u  Point of [0,1)^2.
+/// \return Unit vector.
+template <std::floating_point T>
+[[nodiscard]] Vec3T<T> sample_uniform_sphere(const Vec2T<T>& u) noexcept {
+    return sample_uniform_cone(u, T(2));
+}
+
+/// The density of sample_uniform_sphere(), per steradian: 1/(4 pi) in every direction.
+template <std::floating_point T>
+[[nodiscard]] constexpr T pdf_uniform_sphere(const Vec3T<T>&) noexcept {
+    return std::numbers::inv_pi_v<T> / T(4);
+}
+
+/// A point of a triangle, uniform in area: the square folded along its diagonal
+/// \cite heitz2019. Neighbours in u stay neighbours, and no square root is taken.
+/// \param u  Point of [0,1)^2.
+/// \return Barycentric coordinates of the three vertices, each >= 0, with sum 1.
+/// \cost Five additions and multiplications.
+// [triangle]
+template <std::floating_point T>
+[[nodiscard]] constexpr Vec3T<T> sample_uniform_triangle(const Vec2T<T>& u) {
+    if (u.x < u.y) {
+        const T half = u.x / T(2);
+        return {half, u.y - half, T(1) - u.y};
+    }
+    const T half = u.y / T(2);
+    return {u.x - half, half, T(1) - u.x};
+}
+// [triangle]
+
+/// The density of sample_uniform_triangle(), per unit of area.
+/// \param area  The triangle's area, > 0; 1/2 for the barycentric plane itself.
+/// \return 1/area.
+template <std::floating_point T>
+[[nodiscard]] constexpr T pdf_uniform_triangle(T area) noexcept {
+    return T(1) / area;
+}
+
+/// \}
+
+} // namespace ljus

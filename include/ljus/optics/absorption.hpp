@@ -1,0 +1,55 @@
+#pragma once
+
+/// \file ljus/optics/absorption.hpp
+/// \brief Beer and Lambert: light that travels through a coloured medium.
+
+#include <cmath>
+
+#include "ljus/math/require.hpp"
+#include "ljus/math/vector.hpp"
+
+namespace ljus {
+
+/// \defgroup absorption Absorption
+/// \brief The colour of glass grows with the way through it.
+///
+/// The program behind the report tints once at each boundary, whatever lies between:
+/// thin and thick glass look alike.
+/// \{
+
+/// The share of light that is left after a distance.
+///
+/// \f[ T(d) = e^{-\sigma d} \f]
+///
+/// \param sigma     Absorption, per scene unit, >= 0.
+/// \param distance  Length of the way, in scene units, >= 0, finite.
+/// \return T in [0, 1] for each channel; 1 without absorption.
+/// \cost Three exponentials, or none if `sigma` is 0.
+// [transmittance]
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> transmittance(const RgbT<T>& sigma, T distance) {
+    if (is_black(sigma)) return RgbT<T>{T(1)};
+    return {std::exp(-sigma.x * distance), std::exp(-sigma.y * distance),
+            std::exp(-sigma.z * distance)};
+}
+// [transmittance]
+
+/// The absorption that turns white light into a colour on its way.
+/// \param color     Linear colour after `distance`, each channel in (0, 1]. A channel
+///                  of 0 would need infinite absorption, at any distance.
+/// \param distance  Length of the way, in scene units, > 0: a ball's diameter, say.
+/// \return sigma = -log(color)/distance, per scene unit.
+/// \throws std::invalid_argument for a colour or a distance outside these ranges.
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> absorption_from_color(const RgbT<T>& color, T distance) {
+    require_unit("absorption.color", color);
+    require(color.x > T(0) && color.y > T(0) && color.z > T(0), "absorption.color",
+            color, "above 0 in every channel, because no finite absorption reaches 0");
+    require_positive("absorption.distance", distance);
+    const auto sigma = [distance](T c) { return (T(0) - std::log(c)) / distance; };
+    return {sigma(color.x), sigma(color.y), sigma(color.z)};
+}
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,104 @@
+#pragma once
+
+/// \file ljus/optics/refraction.hpp
+/// \brief Snell's law without an angle, and total internal reflection.
+
+#include <cmath>
+#include <optional>
+
+#include "ljus/math/require.hpp"
+#include "ljus/math/vector.hpp"
+
+namespace ljus {
+
+/// \defgroup refraction Refraction
+/// \brief Section 3.2.5: the direction of a ray behind a boundary of two media.
+///
+/// With \f$ \eta = n_1/n_2 \f$, the index where the ray comes from over the one where
+/// it goes, Snell's law multiplies the part P of D along the surface by \f$ \eta \f$;
+/// the cosine behind the boundary is what is left of the unit length:
+///
+/// \f[ T = \eta P \pm N \cos\theta_2, \qquad
+///     \cos^2\theta_2 = \cos^2\theta_1 + (1 - \eta)(1 + \eta)\,|P|^2 \f]
+///
+/// For \f$ \eta \le 1 \f$ nothing cancels in this form, and \f$ \eta = 1 \f$ gives the
+/// direction back. A negative square is total internal reflection.
+/// \erratum{theta_1 is the angle between -D and N; D and N form an obtuse one. The case
+/// without a refracted ray, sin(theta_1) n_1/n_2 > 1, is not mentioned.}
+/// \{
+
+/// The difference of two products without cancellation: Kahan's form, by FMA.
+/// \return a b - c d, within 1.5 units of roundoff.
+template <std::floating_point T>
+[[nodiscard]] T difference_of_products(T a, T b, T c, T d) noexcept {
+    const T cd = c * d;
+    const T lost = std::fma(-c, d, cd); // what rounding took from c d, exactly
+    return std::fma(a, b, -cd) + lost;
+}
+
+/// The direction of a ray behind a boundary.
+/// \param direction  The direction in which the ray *travels*, towards the surface;
+///                   unit vector.
+/// \param normal     Unit normal, on either side.
+/// \param eta        n_1/n_2: index where the ray comes from over index where it goes,
+///                   > 0.
+/// \return The refracted unit direction; nothing under total internal reflection, and
+///         nothing when any input is NaN.
+/// \cost Two square roots, one division, two cross products by FMA. The sine comes from
+///       a cross product, because D - (D.N)N loses it near normal incidence.
+/// \report{Section 3.2.5}
+// [refract]
+template <std::floating_point T>
+[[nodiscard]] std::optional<Vec3T<T>> refract(const Vec3T<T>& direction,
+                                              const Vec3T<T>& normal, T eta) {
+    const auto cross = [](const Vec3T<T>& a, const Vec3T<T>& b) {
+        return Vec3T<T>{difference_of_products(a.y, b.z, a.z, b.y),
+                        difference_of_products(a.z, b.x, a.x, b.z),
+                        difference_of_products(a.x, b.y, a.y, b.x)};
+    };
+    const Vec3T<T> along = cross(normal, cross(direction, normal)); // P
+    const T cos_1 = glm::dot(direction, normal);
+    const T square =
+        cos_1 * cos_1 + (T(1) - eta) * (T(1) + eta) * glm::dot(along, along);
+    if (!(square >= T(0))) return std::nullopt; // NaN is a miss
+
+    const T cos_2 = std::copysign(std::sqrt(square), cos_1);
+    const Vec3T<T> t = eta * along + cos_2 * normal;
+    return t / glm::length(t);
+}
+// [refract]
+
+/// The same in a material's frame, where N = +z and directions point *away* from the
+/// surface: P is then (x, y), without any rounding.
+/// \param wo   Unit vector towards where the light comes out.
+/// \param eta  n_1/n_2: index on the side of `wo` over index on the other side, > 0.
+/// \return wi, the unit vector on the other side; nothing under total internal
+///         reflection, and nothing when any input is NaN.
+/// \cost Two square roots and one division.
+/// \report{Section 3.2.5}
+// [refract local]
+template <std::floating_point T>
+[[nodiscard]] std::optional<Vec3T<T>> refract(const Vec3T<T>& wo, T eta) {
+    const T sin2 = wo.x * wo.x + wo.y * wo.y;
+    const T square = wo.z * wo.z + (T(1) - eta) * (T(1) + eta) * sin2;
+    if (!(square >= T(0))) return std::nullopt;
+
+    const T cos_2 = std::copysign(std::sqrt(square), wo.z);
+    const Vec3T<T> wi{-eta * wo.x, -eta * wo.y, -cos_2};
+    return wi / glm::length(wi);
+}
+// [refract local]
+
+/// Refuses an index of refraction that is no number above 0, or none of any substance.
+/// \param what   The name of the index, e.g. "glass.index".
+/// \param index  The index.
+/// \throws std::invalid_argument as require().
+template <std::floating_point T>
+void require_index(std::string_view what, T index) {
+    require_positive(what, index);
+    require(index >= T(1e-3) && index <= T(1e3), what, index, "within [0.001, 1000]");
+}
+
+/// \}
+
+} // namespace ljus

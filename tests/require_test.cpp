@@ -1,0 +1,74 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "ljus/math/require.hpp"
+
+using namespace ljus;
+
+namespace {
+
+const float nan_value = std::numeric_limits<float>::quiet_NaN();
+const float infinite = std::numeric_limits<float>::infinity();
+const float smallest = std::numeric_limits<float>::denorm_min();
+
+} // namespace
+
+TEST_CASE("require: the sentence says what, its value, and what would be right") {
+    CHECK_THROWS_WITH_AS(require_positive("sphere.radius", -1.0f),
+                         "sphere.radius is -1.000000; it must be finite and above 0.",
+                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(require(false, "camera.width", 0LL, "above 0"),
+                         "camera.width is 0; it must be above 0.",
+                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(
+        require_finite("ray.origin", Vec3{1, nan_value, -infinite}),
+        "ray.origin is (1.000000, NaN, -inf); it must be finite in every component.",
+        std::invalid_argument);
+}
+
+TEST_CASE("require: what holds passes in silence") {
+    CHECK_NOTHROW(require(true, "anything", 1.0, "right"));
+    CHECK_NOTHROW(require_finite("v", Vec3{0, -1, 1e30f}));
+}
+
+TEST_CASE("require: positive is finite and above zero") {
+    CHECK_NOTHROW(require_positive("x", smallest));
+    CHECK_NOTHROW(require_positive("x", std::numeric_limits<float>::max()));
+    for (const float bad : {0.0f, -0.0f, -smallest, nan_value, infinite, -infinite})
+        CHECK_THROWS_AS(require_positive("x", bad), std::invalid_argument);
+}
+
+TEST_CASE("require: the unit interval has both its ends") {
+    for (const float good : {0.0f, -0.0f, 0.5f, 1.0f})
+        CHECK_NOTHROW(require_unit("x", good));
+    for (const float bad : {-smallest, std::nextafter(1.0f, 2.0f), nan_value, infinite})
+        CHECK_THROWS_AS(require_unit("x", bad), std::invalid_argument);
+}
+
+TEST_CASE("require: a colour is checked in every channel") {
+    CHECK_NOTHROW(require_unit("albedo", Rgb{0, 0.5f, 1}));
+    CHECK_NOTHROW(require_radiance("light", Rgb{0, 15, 1e6f}));
+    for (int channel = 0; channel < 3; ++channel) {
+        for (const float bad : {-0.1f, 1.1f, nan_value, infinite}) {
+            Rgb albedo{0.5f};
+            albedo[channel] = bad;
+            CHECK_THROWS_AS(require_unit("albedo", albedo), std::invalid_argument);
+        }
+        for (const float bad : {-0.1f, nan_value, infinite}) {
+            Rgb radiance{0.5f};
+            radiance[channel] = bad;
+            CHECK_THROWS_AS(require_radiance("light", radiance), std::invalid_argument);
+        }
+    }
+}
+
+TEST_CASE("require: a small value is not shown as zero") {
+    CHECK(to_text(-2e-8).find("-0.02") == 0);
+    CHECK(to_text(0.0f) == "0.000000");
+    CHECK(to_text(nan_value) == "NaN");
+}
