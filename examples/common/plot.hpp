@@ -7,7 +7,9 @@
 /// NAME.gp for gnuplot or NAME.html for a chapter. `scripts/plot FOLDER` turns each .gp
 /// into an .svg that follows the page into dark mode.
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -88,9 +90,7 @@ inline void save_plot(const std::string& folder, const Plot& plot) {
 
     std::string gp =
         "# gnuplot " + plot.name + ".gp; scripts/plot does it for a folder.\n";
-    gp += "set terminal svg size 720,400 dynamic font 'sans-serif,14' linewidth 1.6 "
-          "name '" +
-          plot.name + "'\n";
+    gp += "set terminal svg size 720,400 dynamic font 'sans-serif,14' linewidth 1.6\n";
     gp += "set output '" + plot.name +
           ".svg'\n"
           "set datafile separator ','\nset datafile missing ''\n"
@@ -99,14 +99,30 @@ inline void save_plot(const std::string& folder, const Plot& plot) {
           "set linetype 1 lc rgb '#3b8ed0'\nset linetype 2 lc rgb '#e0752d'\n"
           "set linetype 3 lc rgb '#2fa36b'\nset linetype 4 lc rgb '#a06cd5'\n"
           "set linetype 5 lc rgb '#d64550'\nset linetype 6 lc rgb '#8c8c3a'\n";
-    gp += "set xlabel '" + plot.columns.front() + "' noenhanced\nset ylabel '" +
-          plot.y_label + "' noenhanced\n";
+    const auto quoted = [](const std::string& label) {
+        std::string result = "'";
+        for (const char c : label)
+            result += c == '\'' ? std::string("''") : std::string(1, c);
+        return result + "'";
+    };
+    gp += "set xlabel " + quoted(plot.columns.front()) + " noenhanced\nset ylabel " +
+          quoted(plot.y_label) + " noenhanced\n";
     if (plot.log_x) gp += "set logscale x\nset format x '10^{%L}'\n";
     if (plot.log_y) gp += "set logscale y\nset format y '10^{%L}'\n";
     gp += plot.more;
-    gp +=
-        "\nplot for [i=2:" + std::to_string(plot.columns.size()) + "] '" + plot.name +
-        ".csv' using 1:i with linespoints lt i-1 pt 7 ps 0.35 title columnheader(i)\n";
+    std::string curves;
+    for (std::size_t column = 1; column < plot.columns.size(); ++column) {
+        const bool empty =
+            std::all_of(plot.rows.begin(), plot.rows.end(),
+                        [column](const Row& row) { return std::isnan(row[column]); });
+        if (empty) continue; // e.g. an error of 0 everywhere, on a logarithmic axis
+        const std::string number = std::to_string(column + 1);
+        curves += (curves.empty() ? "\nplot '" : ", '") + plot.name +
+                  ".csv' using 1:" + number + " with linespoints lt " +
+                  std::to_string(column) + " pt 7 ps 0.35 title columnheader(" +
+                  number + ")";
+    }
+    gp += curves + "\n";
     save_text(folder + "/" + plot.name + ".gp", gp);
 }
 
