@@ -126,11 +126,9 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
                                          return kind != PhotonKind::shadow;
                                      }));
                     } else {
-                        for (const LightT<T>& light : scene.lights)
-                            add("shadow ray", "DL",
-                                direct_light(
-                                    scene, light, at, material, next_2d<T>(stream),
-                                    [](auto&&...) { return T(1); }, counts));
+                        add("shadow ray", "DL",
+                            light_of_all(scene, at, material, settings.shadow_rays,
+                                         stream, counts));
                     }
                     if (!mapper.maps.caustics.empty())
                         add("caustics map", "DS+L",
