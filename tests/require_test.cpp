@@ -106,8 +106,7 @@ TEST_CASE_TEMPLATE("require: what is shown is the value itself", T, float, doubl
     for (int i = 0; i < 20000; ++i) {
         state = state * 6364136223846793005ull + 1442695040888963407ull;
         const int exponent = static_cast<int>(state >> 40) % 70 - 35;
-        const T value =
-            std::ldexp(static_cast<T>(state >> 11) / T(0x1p53), exponent);
+        const T value = std::ldexp(static_cast<T>(state >> 11) / T(0x1p53), exponent);
         REQUIRE(static_cast<T>(std::strtod(to_text(value).c_str(), nullptr)) == value);
     }
 }
