@@ -30,9 +30,9 @@ struct PhotonPass {
 /// What a photon pass brings.
 template <std::floating_point T>
 struct TracedPhotonsT {
-    std::vector<PhotonT<T>> photons; ///< In the order of emission.
-    FluxAudit audit;                 ///< Where the flux has gone.
-    long long emitted = 0;           ///< Paths, with the ones that marked nothing.
+    std::vector<PhotonT<T>> photons{}; ///< In the order of emission.
+    FluxAudit audit{};                 ///< Where the flux has gone.
+    long long emitted = 0;             ///< Paths, with the ones that marked nothing.
     bool complete = true; ///< False if the progress callback stopped the pass.
 };
 
