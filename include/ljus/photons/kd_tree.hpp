@@ -19,13 +19,12 @@ namespace ljus {
 /// tree".
 /// \{
 
-/// A point that a search has found; the nearer one is less, and of two that are equally
-/// far the one that comes first in the tree's order.
+/// A point that a search has found. The nearer one is less.
 struct Neighbor {
     double distance2 = 0;    ///< Squared, in double.
     std::uint32_t index = 0; ///< Its place in the tree's order.
 
-    /// The order of the search.
+    /// By distance, then by place.
     friend auto operator<=>(const Neighbor&, const Neighbor&) = default;
 };
 
@@ -36,12 +35,11 @@ struct Nearest {
     double limit2 = 0;         ///< The search's radius, squared.
     std::size_t count = 0;     ///< How many there are.
 
-    /// Whether a point belongs to the nearest so far. Asked of a whole range of the
-    /// tree with the least distance and the first place in it, the answer is no only if
-    /// it is no for every point of the range.
-    [[nodiscard]] bool reaches(double distance2, std::size_t index) const noexcept {
-        if (count < found.size()) return distance2 <= limit2;
-        return Neighbor{distance2, static_cast<std::uint32_t>(index)} < found[0];
+    /// Whether a point at this distance belongs to them. Once the room is full it must
+    /// be nearer than the farthest: a thousand equal points are not tried one by one.
+    [[nodiscard]] bool reaches(double distance2) const noexcept {
+        return count < found.size() ? distance2 <= limit2
+                                    : distance2 < found[0].distance2;
     }
 
     /// Takes a point that belongs to them; the farthest one leaves if the room is full.
@@ -106,7 +104,7 @@ public:
             [&](std::uint32_t index, double distance2) {
                 if (distance2 <= limit2) visit(index, distance2);
             },
-            [&](double distance2, std::size_t) { return distance2 <= limit2; });
+            [&](double distance2) { return distance2 <= limit2; });
     }
     // [within]
 
@@ -115,7 +113,8 @@ public:
     /// \param radius  As for visit_within().
     /// \param found   Room for as many as are wanted; filled as a heap, farthest first.
     /// \param wanted  Called with a place in the tree's order; false passes it over.
-    /// \return How many were found: the least ones in the order of Neighbor.
+    /// \return How many were found; of several that are equally far, any, but always
+    ///         the same ones.
     /// \cost In the mean O(log n) and some steps a point that is wanted, also where
     ///       many points are equal; where few of those around are wanted, more.
     // [nearest]
@@ -127,12 +126,10 @@ public:
         walk(
             center,
             [&](std::uint32_t index, double distance2) {
-                if (best.reaches(distance2, index) && wanted(index))
+                if (best.reaches(distance2) && wanted(index))
                     best.take({distance2, index});
             },
-            [&](double distance2, std::size_t first) {
-                return best.reaches(distance2, first);
-            });
+            [&](double distance2) { return best.reaches(distance2); });
         return best.count;
     }
     // [nearest]
@@ -141,9 +138,9 @@ public:
     /// the side where the centre lies, then the root, then the other side.
     /// \param center   Where the search is.
     /// \param offer    Called as offer(index, distance2) with each point on the way.
-    /// \param reaches  Called as reaches(distance2, first) before the other side: the
-    ///                 points there are no nearer than the plane between, and their
-    ///                 places begin at `first`. False leaves them out.
+    /// \param reaches  Called as reaches(distance2) before the other side, with the
+    ///                 squared distance to the plane between: no point there is nearer.
+    ///                 False leaves them out.
     template <typename Offer, typename Reaches>
     void walk(const Vec3T<T>& center, Offer&& offer, Reaches&& reaches) const {
         descend(0, points_.size(), center, offer, reaches);
@@ -221,8 +218,9 @@ void KdTreeT<T>::descend(std::size_t first, std::size_t last, const Vec3T<T>& ce
     const int axis = axis_[middle];
     const glm::dvec3 offset = glm::dvec3(center) - glm::dvec3(points_[middle]);
 
-    // Equal coordinates lie on both sides of the plane; the lower places come first.
-    const bool low_first = offset[axis] <= 0;
+    // Equal coordinates lie on both sides of the plane: which one is first is a matter
+    // of speed, whether the other is left out is for its distance to say.
+    const bool low_first = offset[axis] < 0;
     if (low_first)
         descend(first, middle, center, offer, reaches);
     else
@@ -230,14 +228,12 @@ void KdTreeT<T>::descend(std::size_t first, std::size_t last, const Vec3T<T>& ce
 
     offer(static_cast<std::uint32_t>(middle), glm::dot(offset, offset));
 
-    // Squares are compared, as for the points: they are rounded in the same way.
-    const double plane2 = offset[axis] * offset[axis];
-    if (low_first) {
-        if (reaches(plane2, middle + 1))
-            descend(middle + 1, last, center, offer, reaches);
-    } else if (reaches(plane2, first)) {
+    // Squares are compared, rounded as those of the points are.
+    if (!reaches(offset[axis] * offset[axis])) return;
+    if (low_first)
+        descend(middle + 1, last, center, offer, reaches);
+    else
         descend(first, middle, center, offer, reaches);
-    }
 }
 // [walk]
 
