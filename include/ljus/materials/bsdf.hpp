@@ -20,13 +20,14 @@ namespace ljus {
 /// unit vectors that point *away* from the surface: `wo` to where light is going, `wi`
 /// to where it comes from. z > 0 is outside.
 ///
-///     Lobes lobes(m);                         // what there is
-///     Rgb   evaluate(m, wo, wi);              // f in 1/sr, no cosine; delta lobes
-///     left out T     pdf(m, wo, wi, which);            // per steradian, of sample()'s
-///     wi std::optional<BsdfSample> sample(m, wo, u, transport, which); void  check(m);
-///     // throws, naming what is wrong
+///     Lobes lobes(m);                   // which parts there are
+///     Rgb   evaluate(m, wo, wi);        // f in 1/sr, no cosine; deltas left out
+///     float pdf(m, wo, wi, which);      // per steradian, of what sample() returns
+///     std::optional<BsdfSample> sample(m, wo, u, transport, which);
+///     void  check(m);                   // throws, and names what is wrong
 ///
-/// and, if it has them, `Rgb absorption(m)` and `Rgb emission(m)`.
+/// and, if it has any, `Rgb absorption(m)` and `Rgb emission(m)`. The `which` of pdf()
+/// and sample() are the parts to choose from, all unless told otherwise.
 /// \{
 
 /// The parts of a material, as a set. A part is *specular* if it sends a ray into one
@@ -72,6 +73,25 @@ struct BsdfSampleT {
     bool specular = false; ///< Whether `wi` is a delta's direction.
 };
 using BsdfSample = BsdfSampleT<float>; ///< BsdfSampleT in float.
+
+/// A sample of a delta: its density is infinite, and says nothing.
+/// \param wi      Where the light comes from.
+/// \param weight  Share of that light which goes on, over the lobe's probability.
+template <std::floating_point T>
+[[nodiscard]] constexpr BsdfSampleT<T> specular_sample(const Vec3T<T>& wi,
+                                                       const RgbT<T>& weight) noexcept {
+    return {.wi = wi, .weight = weight, .pdf = T(0), .specular = true};
+}
+
+/// A sample of a lobe with a density.
+/// \param wi       Where the light comes from.
+/// \param weight   f |cos|/pdf.
+/// \param density  Per steradian, times the lobe's probability.
+template <std::floating_point T>
+[[nodiscard]] constexpr BsdfSampleT<T>
+diffuse_sample(const Vec3T<T>& wi, const RgbT<T>& weight, T density) noexcept {
+    return {.wi = wi, .weight = weight, .pdf = density, .specular = false};
+}
 
 /// A material as the renderers see it; see the head of this page for the functions.
 template <typename M>

@@ -53,49 +53,49 @@ template <std::floating_point T>
 
 /// One of the two branches: reflection with probability F, refraction with 1 - F. Each
 /// is chosen as often as it carries light, so that both have the weight 1; radiance
-/// that comes from index n_t is then scaled by (n_i/n_t)^2. \param m          The
-/// glass. \param wo         Towards where the light goes; z < 0 is inside. \param u
-/// Point of [0,1)^3; z chooses the branch. \param transport  Radiance or flux. \param
-/// which      The parts to sample from. \return The sample; nothing if `wo` lies on the
-/// surface or without Lobes::specular. \cost Three square roots, three divisions; F is
-/// not evaluated in total reflection. \report{Section 3.2.5}
+/// that comes from index n_t is then scaled by (n_i/n_t)^2.
+/// \param glass      The glass.
+/// \param wo         Towards where the light goes; z < 0 is inside.
+/// \param u          Point of [0,1)^3; z chooses the branch.
+/// \param transport  Radiance or flux.
+/// \param which      The parts to sample from.
+/// \return The sample; nothing if `wo` lies on the surface or without Lobes::specular.
+/// \cost Three square roots, three divisions; F is not evaluated in total reflection.
+/// \report{Section 3.2.5}
 // [glass sample]
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
-sample(const GlassT<T>& m, const Vec3T<T>& wo, const Vec3T<T>& u, Transport transport,
-       Lobes which = Lobes::all) noexcept {
+sample(const GlassT<T>& glass, const Vec3T<T>& wo, const Vec3T<T>& u,
+       Transport transport, Lobes which = Lobes::all) noexcept {
     if (!has(which, Lobes::specular)) return std::nullopt;
     if (!(wo.z > T(0) || wo.z < T(0))) return std::nullopt;
     const bool outside = wo.z > T(0);
-    const T n_i = outside ? T(1) : m.index;
-    const T n_t = outside ? m.index : T(1);
+    const T n_i = outside ? T(1) : glass.index;
+    const T n_t = outside ? glass.index : T(1);
     const T eta = n_i / n_t;
 
     const auto refracted = refract(wo, eta);
-    const T share = refracted ? fresnel(m.fresnel, std::abs(wo.z), n_i, n_t) : T(1);
-    if (!refracted || u.z < share)
-        return BsdfSampleT<T>{
-            .wi = reflect(wo), .weight = RgbT<T>{T(1)}, .pdf = T(0), .specular = true};
+    if (!refracted || u.z < fresnel(glass.fresnel, std::abs(wo.z), n_i, n_t))
+        return specular_sample(reflect(wo), RgbT<T>{T(1)});
     const T scale = transport == Transport::radiance ? eta * eta : T(1);
-    return BsdfSampleT<T>{
-        .wi = *refracted, .weight = RgbT<T>{scale}, .pdf = T(0), .specular = true};
+    return specular_sample(*refracted, RgbT<T>{scale});
 }
 // [glass sample]
 
 /// The absorption inside, per scene unit; see transmittance().
-/// \param m  The glass.
+/// \param glass  The glass.
 template <std::floating_point T>
-[[nodiscard]] constexpr RgbT<T> absorption(const GlassT<T>& m) noexcept {
-    return m.absorption;
+[[nodiscard]] constexpr RgbT<T> absorption(const GlassT<T>& glass) noexcept {
+    return glass.absorption;
 }
 
 /// Refuses an index or an absorption that no glass can have.
-/// \param m  The glass.
-/// \throws std::invalid_argument  naming the member.
+/// \param glass  The glass.
+/// \throws std::invalid_argument naming the member.
 template <std::floating_point T>
-void check(const GlassT<T>& m) {
-    require_index("glass.index", m.index);
-    require_radiance("glass.absorption", m.absorption);
+void check(const GlassT<T>& glass) {
+    require_index("glass.index", glass.index);
+    require_radiance("glass.absorption", glass.absorption);
 }
 
 /// \}

@@ -33,28 +33,31 @@ template <std::floating_point T>
 }
 
 /// The BRDF: f = albedo/pi, so that the light that comes back, the integral of f cos
-/// over the hemisphere, is the albedo. \param m   The surface. \param wo  Towards where
-/// the light goes. \param wi  Towards where it comes from. \return f in 1/sr, without
-/// the cosine; 0 if the directions lie on different sides. \report{Section 3.2.1}
+/// over the hemisphere, is the albedo.
+/// \param surface  The surface.
+/// \param wo       Towards where the light goes.
+/// \param wi       Towards where it comes from.
+/// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
+/// \report{Section 3.2.1}
 // [lambertian]
 template <std::floating_point T>
-[[nodiscard]] constexpr RgbT<T> evaluate(const LambertianT<T>& m, const Vec3T<T>& wo,
+[[nodiscard]] constexpr RgbT<T> evaluate(const LambertianT<T>& surface,
+                                         const Vec3T<T>& wo,
                                          const Vec3T<T>& wi) noexcept {
     if (!same_side(wo, wi)) return RgbT<T>{T(0)};
-    return m.albedo * std::numbers::inv_pi_v<T>;
+    return surface.albedo * std::numbers::inv_pi_v<T>;
 }
 // [lambertian]
 
 /// The density of sample().
-/// \param m      The surface.
-/// \param wo     Towards where the light goes.
-/// \param wi     Towards where it comes from.
-/// \param which  The parts to sample from.
+/// \param surface  The surface.
+/// \param wo       Towards where the light goes.
+/// \param wi       Towards where it comes from.
+/// \param which    The parts to sample from.
 /// \return |cos(theta)|/pi per steradian on the side of `wo`; 0 elsewhere, and 0
-/// without
-///         Lobes::diffuse.
+///         without Lobes::diffuse.
 template <std::floating_point T>
-[[nodiscard]] constexpr T pdf([[maybe_unused]] const LambertianT<T>& m,
+[[nodiscard]] constexpr T pdf([[maybe_unused]] const LambertianT<T>& surface,
                               const Vec3T<T>& wo, const Vec3T<T>& wi,
                               Lobes which = Lobes::all) noexcept {
     if (!has(which, Lobes::diffuse) || !same_side(wo, wi)) return T(0);
@@ -62,10 +65,10 @@ template <std::floating_point T>
 }
 
 /// A direction with density cos/pi: the weight f cos/pdf is then the albedo alone.
-/// \param m      The surface.
-/// \param wo     Towards where the light goes.
-/// \param u      Point of [0,1)^3; z is not used.
-/// \param which  The parts to sample from.
+/// \param surface  The surface.
+/// \param wo       Towards where the light goes.
+/// \param u        Point of [0,1)^3; z is not used.
+/// \param which    The parts to sample from.
 /// \return The sample; nothing if `wo` lies on the surface, if the albedo is black, or
 ///         without Lobes::diffuse.
 /// \cost One sine, one cosine, one square root.
@@ -73,24 +76,24 @@ template <std::floating_point T>
 // [lambertian sample]
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
-sample(const LambertianT<T>& m, const Vec3T<T>& wo, const Vec3T<T>& u, Transport,
-       Lobes which = Lobes::all) noexcept {
-    if (!has(which, Lobes::diffuse) || is_black(m.albedo)) return std::nullopt;
+sample(const LambertianT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
+       Transport /*transport*/, Lobes which = Lobes::all) noexcept {
+    if (!has(which, Lobes::diffuse)) return std::nullopt;
+    if (is_black(surface.albedo)) return std::nullopt;
     if (!(wo.z > T(0) || wo.z < T(0))) return std::nullopt;
     Vec3T<T> wi = sample_cosine_hemisphere(Vec2T<T>{u.x, u.y});
     const T density = pdf_cosine_hemisphere(wi);
     wi.z = std::copysign(wi.z, wo.z);
-    return BsdfSampleT<T>{
-        .wi = wi, .weight = m.albedo, .pdf = density, .specular = false};
+    return diffuse_sample(wi, surface.albedo, density);
 }
 // [lambertian sample]
 
 /// Refuses an albedo outside [0, 1].
-/// \param m  The surface.
-/// \throws std::invalid_argument  naming the albedo.
+/// \param surface  The surface.
+/// \throws std::invalid_argument naming the albedo.
 template <std::floating_point T>
-void check(const LambertianT<T>& m) {
-    require_unit("lambertian.albedo", m.albedo);
+void check(const LambertianT<T>& surface) {
+    require_unit("lambertian.albedo", surface.albedo);
 }
 
 /// \}

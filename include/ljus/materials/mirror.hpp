@@ -45,9 +45,9 @@ template <std::floating_point T>
 }
 
 /// The mirror direction. The weight is the reflectance: delta and cosine cancel.
-/// \param m      The mirror.
-/// \param wo     Towards where the light goes.
-/// \param which  The parts to sample from.
+/// \param mirror  The mirror.
+/// \param wo      Towards where the light goes.
+/// \param which   The parts to sample from.
 /// \return The sample; nothing if `wo` lies on the surface, if the mirror is black, or
 ///         without Lobes::specular.
 /// \cost Nothing to speak of.
@@ -55,21 +55,21 @@ template <std::floating_point T>
 // [mirror sample]
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
-sample(const MirrorT<T>& m, const Vec3T<T>& wo, const Vec3T<T>&, Transport,
-       Lobes which = Lobes::all) noexcept {
-    if (!has(which, Lobes::specular) || is_black(m.reflectance)) return std::nullopt;
+sample(const MirrorT<T>& mirror, const Vec3T<T>& wo, const Vec3T<T>&,
+       Transport /*transport*/, Lobes which = Lobes::all) noexcept {
+    if (!has(which, Lobes::specular) || is_black(mirror.reflectance))
+        return std::nullopt;
     if (!(wo.z > T(0) || wo.z < T(0))) return std::nullopt;
-    return BsdfSampleT<T>{
-        .wi = reflect(wo), .weight = m.reflectance, .pdf = T(0), .specular = true};
+    return specular_sample(reflect(wo), mirror.reflectance);
 }
 // [mirror sample]
 
 /// Refuses a reflectance outside [0, 1].
-/// \param m  The mirror.
-/// \throws std::invalid_argument  naming the reflectance.
+/// \param mirror  The mirror.
+/// \throws std::invalid_argument naming the reflectance.
 template <std::floating_point T>
-void check(const MirrorT<T>& m) {
-    require_unit("mirror.reflectance", m.reflectance);
+void check(const MirrorT<T>& mirror) {
+    require_unit("mirror.reflectance", mirror.reflectance);
 }
 
 /// \}

@@ -62,10 +62,12 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> sample_cosine_hemisphere(const Vec2T<T>& u) noexcept {
     const Vec2T<T> p = sample_concentric_disc(u);
-    // The map keeps the larger of |a| and |b| as the radius: no need to measure p.
-    const T r = std::max(std::abs(T(2) * u.x - T(1)), std::abs(T(2) * u.y - T(1)));
-    const T z2 = std::max((T(1) - r) * (T(1) + r), std::numeric_limits<T>::epsilon());
-    return {p.x, p.y, std::sqrt(z2)};
+    // The map keeps the larger of |a| and |b| as the radius of p.
+    const T a = std::abs(T(2) * u.x - T(1));
+    const T b = std::abs(T(2) * u.y - T(1));
+    const T r = std::max(a, b);
+    constexpr T least = std::numeric_limits<T>::epsilon();
+    return {p.x, p.y, std::sqrt(std::max((T(1) - r) * (T(1) + r), least))};
 }
 // [cosine hemisphere]
 
@@ -89,7 +91,7 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> sample_uniform_cone(const Vec2T<T>& u,
                                            T one_minus_cos_max) noexcept {
-    const T w = u.x * one_minus_cos_max; // 1 - cos(theta), uniform (Archimedes)
+    const T w = u.x * one_minus_cos_max; // 1 - cos(theta), Archimedes
     const T r = std::sqrt(w * (T(2) - w));
     const T phi = T(2) * std::numbers::pi_v<T> * u.y;
     return {r * std::cos(phi), r * std::sin(phi), T(1) - w};
@@ -107,8 +109,7 @@ template <std::floating_point T>
 
 /// 1 - cos(theta) from the squared sine, without cancellation.
 /// \param sin_squared  sin^2(theta) in [0, 1], of an angle up to 90 degrees: for a
-/// sphere
-///                     seen from outside, radius^2 / distance^2.
+///                     sphere seen from outside, radius^2 / distance^2.
 /// \return 1 - sqrt(1 - sin^2), as sin^2 / (1 + sqrt(1 - sin^2)).
 template <std::floating_point T>
 [[nodiscard]] T one_minus_cosine(T sin_squared) noexcept {
@@ -152,7 +153,7 @@ template <std::floating_point T>
 /// \cost Five additions and multiplications.
 // [triangle]
 template <std::floating_point T>
-[[nodiscard]] constexpr Vec3T<T> sample_uniform_triangle(const Vec2T<T>& u) noexcept {
+[[nodiscard]] constexpr Vec3T<T> sample_uniform_triangle(const Vec2T<T>& u) {
     if (u.x < u.y) {
         const T half = u.x / T(2);
         return {half, u.y - half, T(1) - u.y};

@@ -27,7 +27,7 @@ namespace ljus {
 /// \cost Three exponentials, or none if `sigma` is 0.
 // [transmittance]
 template <std::floating_point T>
-[[nodiscard]] RgbT<T> transmittance(const RgbT<T>& sigma, T distance) noexcept {
+[[nodiscard]] RgbT<T> transmittance(const RgbT<T>& sigma, T distance) {
     if (is_black(sigma)) return RgbT<T>{T(1)};
     return {std::exp(-sigma.x * distance), std::exp(-sigma.y * distance),
             std::exp(-sigma.z * distance)};
@@ -36,11 +36,10 @@ template <std::floating_point T>
 
 /// The absorption that turns white light into a colour on its way.
 /// \param color     Linear colour after `distance`, each channel in (0, 1]. A channel
-/// of
-///                  0 would need infinite absorption, at any distance.
+///                  of 0 would need infinite absorption, at any distance.
 /// \param distance  Length of the way, in scene units, > 0: a ball's diameter, say.
 /// \return sigma = -log(color)/distance, per scene unit.
-/// \throws std::invalid_argument  for a colour or a distance outside these ranges.
+/// \throws std::invalid_argument for a colour or a distance outside these ranges.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> absorption_from_color(const RgbT<T>& color, T distance) {
     require_unit("absorption.color", color);

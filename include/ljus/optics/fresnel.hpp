@@ -33,7 +33,8 @@ enum class FresnelModel : std::uint8_t {
 ///
 /// and the result is their mean. The textbook's differences of products, which cancel
 /// for similar indices, are divided out by hand: only the indices themselves are
-/// subtracted. \param cos_theta_i  Cosine between incoming ray and normal, in [0, 1].
+/// subtracted.
+/// \param cos_theta_i  Cosine between incoming ray and normal, in [0, 1].
 /// \param n_i          Index on the side of the incoming ray, > 0.
 /// \param n_t          Index on the other side, > 0.
 /// \return R in [0, 1]: exactly 0 for equal indices, 1 under total internal reflection.
@@ -56,7 +57,7 @@ template <std::floating_point T>
     const T cosines = c * g;
     const T sines = n_i * ((T(1) - c) * (T(1) + c));
     const T ratio = (cosines - sines) / (cosines + sines);
-    // At grazing incidence R is 1 up to rounding, which must not make it more.
+    // At grazing incidence R is 1 up to rounding, and must not be more.
     return std::min(r_s * r_s * (T(1) + ratio * ratio) / T(2), T(1));
 }
 // [fresnel]

@@ -27,7 +27,8 @@ namespace ljus {
 /// without a refracted ray, sin(theta_1) n_1/n_2 > 1, is not mentioned.}
 /// \{
 
-/// a b - c d with one rounding in each product's place: Kahan's form, by FMA.
+/// The difference of two products without cancellation: Kahan's form, by FMA.
+/// \return a b - c d, within 1.5 units of roundoff.
 template <std::floating_point T>
 [[nodiscard]] T difference_of_products(T a, T b, T c, T d) noexcept {
     const T cd = c * d;
@@ -36,31 +37,33 @@ template <std::floating_point T>
 }
 
 /// The direction of a ray behind a boundary.
-/// \param d    The direction in which the ray *travels*, towards the surface; unit
-/// vector. \param n    Unit normal, on either side. \param eta  n_1/n_2: index where
-/// the ray comes from over index where it goes, > 0. \return The refracted unit
-/// direction; nothing under total internal reflection, and
+/// \param direction  The direction in which the ray *travels*, towards the surface;
+///                   unit vector.
+/// \param normal     Unit normal, on either side.
+/// \param eta        n_1/n_2: index where the ray comes from over index where it goes,
+///                   > 0.
+/// \return The refracted unit direction; nothing under total internal reflection, and
 ///         nothing when any input is NaN.
 /// \cost Two square roots, one division, two cross products by FMA. The sine comes from
 ///       a cross product, because D - (D.N)N loses it near normal incidence.
 /// \report{Section 3.2.5}
 // [refract]
 template <std::floating_point T>
-[[nodiscard]] std::optional<Vec3T<T>> refract(const Vec3T<T>& d, const Vec3T<T>& n,
-                                              T eta) noexcept {
+[[nodiscard]] std::optional<Vec3T<T>> refract(const Vec3T<T>& direction,
+                                              const Vec3T<T>& normal, T eta) {
     const auto cross = [](const Vec3T<T>& a, const Vec3T<T>& b) {
         return Vec3T<T>{difference_of_products(a.y, b.z, a.z, b.y),
                         difference_of_products(a.z, b.x, a.x, b.z),
                         difference_of_products(a.x, b.y, a.y, b.x)};
     };
-    const Vec3T<T> along = cross(n, cross(d, n)); // P
-    const T cos_1 = glm::dot(d, n);
+    const Vec3T<T> along = cross(normal, cross(direction, normal)); // P
+    const T cos_1 = glm::dot(direction, normal);
     const T square =
         cos_1 * cos_1 + (T(1) - eta) * (T(1) + eta) * glm::dot(along, along);
-    if (!(square >= T(0))) return std::nullopt; // written so that NaN is a miss
+    if (!(square >= T(0))) return std::nullopt; // NaN is a miss
 
     const T cos_2 = std::copysign(std::sqrt(square), cos_1);
-    const Vec3T<T> t = eta * along + cos_2 * n;
+    const Vec3T<T> t = eta * along + cos_2 * normal;
     return t / glm::length(t);
 }
 // [refract]
@@ -75,7 +78,7 @@ template <std::floating_point T>
 /// \report{Section 3.2.5}
 // [refract local]
 template <std::floating_point T>
-[[nodiscard]] std::optional<Vec3T<T>> refract(const Vec3T<T>& wo, T eta) noexcept {
+[[nodiscard]] std::optional<Vec3T<T>> refract(const Vec3T<T>& wo, T eta) {
     const T sin2 = wo.x * wo.x + wo.y * wo.y;
     const T square = wo.z * wo.z + (T(1) - eta) * (T(1) + eta) * sin2;
     if (!(square >= T(0))) return std::nullopt;
@@ -89,7 +92,7 @@ template <std::floating_point T>
 /// Refuses an index of refraction that is no number above 0, or none of any substance.
 /// \param what   The name of the index, e.g. "glass.index".
 /// \param index  The index.
-/// \throws std::invalid_argument  as require().
+/// \throws std::invalid_argument as require().
 template <std::floating_point T>
 void require_index(std::string_view what, T index) {
     require_positive(what, index);

@@ -6,12 +6,11 @@
 namespace ljus {
 
 /// \defgroup schlick Schlick's approximation
-/// \brief Section 3.2.5: the share of light that a boundary reflects, in a few
-/// products.
+/// \brief Section 3.2.5: the share of light that a boundary reflects, in products only.
 ///
-/// The cosine is the one on the side of the *thinner* medium. From inside glass, at 41
-/// degrees, the printed formula with the incoming angle gives 0.04 where all is
-/// reflected.
+/// \erratum{The cosine is the one on the side of the *thinner* medium. With the angle
+/// of the incoming light, as printed, glass reflects 0.04 at 42 degrees from inside,
+/// where all is reflected.}
 /// \{
 
 /// The reflectance at normal incidence.
@@ -49,8 +48,7 @@ template <typename T>
 /// \param n_t    Index on the other side, > 0.
 /// \param cos_i  Cosine of the incoming ray, in [0, 1].
 /// \param cos_t  Cosine of the refracted ray, in [0, 1]; 0 under total reflection,
-/// which
-///               gives 1.
+///               which gives 1.
 /// \return The reflectance, in [0, 1].
 /// \report{Section 3.2.5}
 // [schlick two sides]

@@ -1,0 +1,141 @@
+#pragma once
+
+/// \file ljus/materials/oren_nayar.hpp
+/// \brief The rough matt surface of Oren and Nayar, as their qualitative model has it.
+
+#include <algorithm>
+#include <numbers>
+
+#include "ljus/materials/bsdf.hpp"
+#include "ljus/math/require.hpp"
+#include "ljus/math/sampling.hpp"
+
+namespace ljus {
+
+/// \defgroup oren_nayar Oren-Nayar
+/// \brief Section 3.2.1: the Oren-Nayar BRDF, \cite orennayar1994.
+/// \erratum{The program takes the cosine of the angle between wi and wo for that
+/// between their azimuths, and clamps the sum. Figure 14 shows roughness 1, 10 and 100:
+/// the unit is radians, and A and B have saturated long before 10.}
+/// \{
+
+/// A surface of matt facets whose slopes vary by `sigma`: flatter than Lambert's, and
+/// brighter towards the light. It is two-sided.
+/// \report{Section 3.2.1}
+template <std::floating_point T>
+struct OrenNayarT {
+    using Scalar = T;       ///< The precision of its numbers.
+    RgbT<T> albedo{T(0.5)}; ///< Of a facet, in [0, 1].
+    T sigma = T(0.3); ///< Standard deviation of the slope angle, radians; 0: Lambert.
+};
+using OrenNayar = OrenNayarT<float>; ///< OrenNayarT in float.
+
+/// What there is: a diffuse part, even if it is black.
+template <std::floating_point T>
+[[nodiscard]] constexpr Lobes lobes(const OrenNayarT<T>&) noexcept {
+    return Lobes::diffuse;
+}
+
+/// The ratio of the qualitative model to Lambert's.
+///
+/// \f[ A + B\,\max(0, \cos(\phi_i - \phi_o))\,\sin\alpha\,\tan\beta, \quad
+///     A = 1 - \frac{\sigma^2}{2(\sigma^2 + 0.33)}, \quad
+///     B = \frac{0.45\,\sigma^2}{\sigma^2 + 0.09} \f]
+///
+/// with alpha the larger and beta the smaller of the two angles to the normal. The
+/// product of the sines and the cosine of the azimuths is x_i x_o + y_i y_o, and what
+/// is left of the tangent is a division by the larger cosine: no angle is needed.
+/// \param sigma  Roughness in radians, in [0, 1000].
+/// \param wo     Towards where the light goes.
+/// \param wi     Towards where it comes from, on the same side.
+/// \return The ratio: from 1/2, without bound where both directions graze.
+/// \cost Three divisions; no trigonometric function.
+// [oren nayar]
+template <std::floating_point T>
+[[nodiscard]] T oren_nayar_ratio(T sigma, const Vec3T<T>& wo,
+                                 const Vec3T<T>& wi) noexcept {
+    const T s2 = sigma * sigma;
+    const T a = T(1) - s2 / (T(2) * (s2 + T(0.33)));
+    const T b = T(0.45) * s2 / (s2 + T(0.09));
+    const T azimuth = std::max(T(0), wi.x * wo.x + wi.y * wo.y);
+    return a + b * azimuth / std::max(std::abs(wi.z), std::abs(wo.z));
+}
+// [oren nayar]
+
+/// The BRDF: Lambert's albedo/pi times oren_nayar_ratio(). Light that goes from facet
+/// to facet is left out, so that white returns less than all at most angles; at grazing
+/// ones the model returns up to 1.5 percent too much.
+/// \param surface  The surface.
+/// \param wo       Towards where the light goes.
+/// \param wi       Towards where it comes from.
+/// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
+/// \report{Section 3.2.1}
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> evaluate(const OrenNayarT<T>& surface, const Vec3T<T>& wo,
+                               const Vec3T<T>& wi) noexcept {
+    if (!same_side(wo, wi)) return RgbT<T>{T(0)};
+    return surface.albedo *
+           (std::numbers::inv_pi_v<T> * oren_nayar_ratio(surface.sigma, wo, wi));
+}
+
+/// The density of sample().
+/// \param surface  The surface.
+/// \param wo       Towards where the light goes.
+/// \param wi       Towards where it comes from.
+/// \param which    The parts to sample from.
+/// \return |cos(theta)|/pi per steradian on the side of `wo`; 0 elsewhere, and 0
+///         without Lobes::diffuse.
+template <std::floating_point T>
+[[nodiscard]] constexpr T pdf([[maybe_unused]] const OrenNayarT<T>& surface,
+                              const Vec3T<T>& wo, const Vec3T<T>& wi,
+                              Lobes which = Lobes::all) noexcept {
+    if (!has(which, Lobes::diffuse) || !same_side(wo, wi)) return T(0);
+    return (wi.z < T(0) ? -wi.z : wi.z) * std::numbers::inv_pi_v<T>;
+}
+
+/// A direction with density cos/pi; the weight is the albedo times the ratio to
+/// Lambert.
+/// \param surface  The surface.
+/// \param wo       Towards where the light goes.
+/// \param u        Point of [0,1)^3; z is not used.
+/// \param which    The parts to sample from.
+/// \return The sample; nothing if `wo` lies on the surface, if the albedo is black, or
+///         without Lobes::diffuse.
+/// \cost As Lambert's and three divisions.
+/// \report{Section 3.2.4}
+template <std::floating_point T>
+[[nodiscard]] std::optional<BsdfSampleT<T>>
+sample(const OrenNayarT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
+       Transport /*transport*/, Lobes which = Lobes::all) noexcept {
+    if (!has(which, Lobes::diffuse)) return std::nullopt;
+    if (is_black(surface.albedo)) return std::nullopt;
+    if (!(wo.z > T(0) || wo.z < T(0))) return std::nullopt;
+    Vec3T<T> wi = sample_cosine_hemisphere(Vec2T<T>{u.x, u.y});
+    const T density = pdf_cosine_hemisphere(wi);
+    wi.z = std::copysign(wi.z, wo.z);
+    const T ratio = oren_nayar_ratio(surface.sigma, wo, wi);
+    return diffuse_sample(wi, surface.albedo * ratio, density);
+}
+
+/// Refuses a roughness that is no angle.
+/// \param what   The name of the roughness, e.g. "oren_nayar.sigma".
+/// \param sigma  The roughness.
+/// \throws std::invalid_argument as require().
+template <std::floating_point T>
+void require_roughness(std::string_view what, T sigma) {
+    require(sigma >= T(0) && sigma <= T(1000), what, sigma,
+            "within [0, 1000] radians (the model saturates near 1)");
+}
+
+/// Refuses an albedo outside [0, 1] and a roughness that is no angle.
+/// \param surface  The surface.
+/// \throws std::invalid_argument naming the member.
+template <std::floating_point T>
+void check(const OrenNayarT<T>& surface) {
+    require_unit("oren_nayar.albedo", surface.albedo);
+    require_roughness("oren_nayar.sigma", surface.sigma);
+}
+
+/// \}
+
+} // namespace ljus
