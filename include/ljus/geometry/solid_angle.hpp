@@ -89,9 +89,11 @@ template <Shape S, std::floating_point T>
 }
 
 /// A point of the near side of a sphere, uniform over the cone in which it is seen;
-/// from inside, uniform over its area. \param sphere  The sphere. \param from    The
-/// observer. \param u       Point of the unit square. \return The point and its density
-/// per steradian of the observer. \cite shirley1996
+/// from inside, uniform over its area.
+/// \param sphere  The sphere.
+/// \param from  The observer.
+/// \param u  Point of the unit square.
+/// \return The point and its density per steradian of the observer. \cite shirley1996
 // [sample_towards]
 template <std::floating_point T>
 [[nodiscard]] SeenPointT<T> sample_towards(const SphereT<T>& sphere,

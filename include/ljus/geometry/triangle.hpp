@@ -49,7 +49,8 @@ struct FlatHitT {
 /// \param v1      A corner.
 /// \param e1      The edge along which u runs.
 /// \param e2      The edge along which v runs.
-/// \param inside  Whether (u, v) lies in the shape; false for NaN.
+/// \param inside  Whether (u, v) lies in the shape, which is part of 0 <= u <= 1; false
+///                for NaN.
 /// \return Distance and coordinates; nothing for a miss or a non-finite input.
 /// \cost One division, 27 multiplications \cite moller1997.
 /// \report{Section 3.1.5}
@@ -65,10 +66,11 @@ moller_trumbore(const RayT<T>& ray, const Vec3T<ComputeT<Compute, T>>& v1,
     const Vec3T<C> d{ray.direction};
     const Vec3T<C> to = Vec3T<C>{ray.origin} - v1;
     const Vec3T<C> p = glm::cross(d, e2);
-    const Vec3T<C> q = glm::cross(to, e1);
     const C inverse = C(1) / glm::dot(p, e1);
-
     const C u = glm::dot(p, to) * inverse;
+    if (!(u >= C(0) && u <= C(1))) return std::nullopt; // most rays miss here
+
+    const Vec3T<C> q = glm::cross(to, e1);
     const C v = glm::dot(q, d) * inverse;
     const C t = glm::dot(q, e2) * inverse;
     // Written so that NaN is a miss.

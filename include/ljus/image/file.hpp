@@ -84,6 +84,7 @@ public:
     }
 
     void write(std::span<const unsigned char> bytes) {
+        if (bytes.empty()) return;
         errno = 0;
         if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size())
             fail_to_write(path_, errno);
@@ -138,9 +139,11 @@ inline void save_file(const std::string& path, std::span<const unsigned char> by
 /// Reads a file.
 /// \param path  The file.
 /// \param most  The most bytes it may have: what is longer, or endless, is refused.
+/// \param begin What it must begin with, looked at before it is read to the end.
 /// \return All its bytes.
 /// \throws std::runtime_error  with path and reason.
-[[nodiscard]] inline Bytes load_file(const std::string& path, std::size_t most) {
+[[nodiscard]] inline Bytes load_file(const std::string& path, std::size_t most,
+                                     std::string_view begin = {}) {
     struct Closed {
         std::FILE* file;
         ~Closed() {
@@ -166,6 +169,11 @@ inline void save_file(const std::string& path, std::span<const unsigned char> by
         bytes.resize(old_size + got);
         if (std::ferror(closed.file))
             detail::fail_to_read(path, std::generic_category().message(error));
+        const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
+                                    bytes.size());
+        if (!text.starts_with(begin))
+            detail::fail_to_read(path, "it does not begin with '" + std::string(begin) +
+                                           "', so that it is another kind of file");
         if (bytes.size() > most)
             detail::fail_to_read(path, "it is longer than the " + std::to_string(most) +
                                            " bytes that are allowed");

@@ -16,7 +16,7 @@ namespace ljus {
 /// A photon on its way.
 template <std::floating_point T>
 struct FlightT {
-    RayT<T> ray;        ///< Where it is and where it goes.
+    RayT<T> ray{};      ///< Where it is and where it goes.
     RgbT<T> flux{T(0)}; ///< W, of all paths together: divide by how many are emitted.
     std::uint16_t light = 0; ///< The number of its light.
 };

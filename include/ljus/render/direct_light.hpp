@@ -5,6 +5,7 @@
 
 #include "ljus/render/counts.hpp"
 #include "ljus/render/shading.hpp"
+#include "ljus/scene/stratified.hpp"
 
 namespace ljus {
 
@@ -48,6 +49,33 @@ template <typename Scene, std::floating_point T, typename Material, typename Wei
            transmittance(at.medium, distance);
 }
 // [direct_light]
+
+/// The light of all lights at a surface, by shadow rays to each.
+/// \param scene     The scene.
+/// \param at        The surface.
+/// \param material  What it is made of.
+/// \param rays      Shadow rays to each light, at least 1, spread evenly over it.
+/// \param stream    Two numbers a ray.
+/// \param counts    Counts the rays.
+/// \return Radiance towards wo.
+/// \report{Section 3.2.3}
+template <typename Scene, std::floating_point T, typename Material>
+[[nodiscard]] RgbT<T> light_of_all(const Scene& scene, const ShadingT<T>& at,
+                                   const Material& material, int rays,
+                                   RandomStream& stream, Counts& counts) {
+    const Strata strata = strata_for(rays);
+    const auto unweighted = [](const LightSampleT<T>&, const Vec3T<T>&) {
+        return T(1);
+    };
+    const std::uint64_t key = mix(stream.key + stream.counter);
+    RgbT<T> sum{T(0)};
+    for (const LightT<T>& light : scene.lights)
+        for (int i = 0; i < rays; ++i) {
+            const Vec2T<T> u = stratified(strata, i, key, next_2d<T>(stream));
+            sum += direct_light(scene, light, at, material, u, unweighted, counts);
+        }
+    return sum / T(rays);
+}
 
 /// \}
 

@@ -53,8 +53,11 @@ template <std::floating_point T>
 }
 
 /// The density with which the tracer's shadow rays from a surface choose a point of a
-/// lamp. \param tracer  The tracer. \param from    The surface that the shadow rays
-/// leave. \param hit     The point of the lamp. \param at      The same, as a surface.
+/// lamp.
+/// \param tracer  The tracer.
+/// \param from  The surface that the shadow rays leave.
+/// \param hit  The point of the lamp.
+/// \param at  The same, as a surface.
 /// \return Per steradian.
 template <typename Scene, std::floating_point T>
 [[nodiscard]] T pdf_of_light(const PathTracer<Scene>& tracer, const Vec3T<T>& from,
@@ -70,11 +73,14 @@ template <typename Scene, std::floating_point T>
 /// At each diffuse surface a light, chosen by power, is asked by a shadow ray; the path
 /// then goes on in a direction that the material samples. A lamp that it meets is
 /// counted with the weight that the shadow ray left it (multiple importance sampling),
-/// and wholly after a mirror or glass, where no shadow ray could go. \param tracer  The
-/// scene and the limits. \param ray     A primary ray. \param stream  The numbers of
-/// this path. \param counts  Counts the rays. \param log     Told of each vertex and
-/// each term. \return Radiance, W/(m^2 sr): an unbiased estimate, if max_depth is never
-/// reached. \report{Eq. (1)}
+/// and wholly after a mirror or glass, where no shadow ray could go.
+/// \param tracer  The scene and the limits.
+/// \param ray  A primary ray.
+/// \param stream  The numbers of this path.
+/// \param counts  Counts the rays.
+/// \param log  Told of each vertex and each term.
+/// \return Radiance, W/(m^2 sr): an unbiased estimate, if max_depth is never reached.
+/// \report{Eq. (1)}
 // [radiance]
 template <typename Scene, std::floating_point T, typename Log = NoLog>
 [[nodiscard]] RgbT<T> radiance(const PathTracer<Scene>& tracer, RayT<T> ray,

@@ -32,8 +32,8 @@ struct Picture {
 /// What a rendering brings.
 template <std::floating_point T>
 struct RenderedT {
-    ImageT<T> image;      ///< The mean radiance of each pixel.
-    Counts counts;        ///< What it cost.
+    ImageT<T> image{};    ///< The mean radiance of each pixel.
+    Counts counts{};      ///< What it cost.
     bool complete = true; ///< False if the progress callback stopped it.
 };
 

@@ -40,10 +40,11 @@ template <typename Scene, std::floating_point T>
 }
 
 /// The absorption after a scattering: of the material's inside, if the path went in;
-/// none, if it came out; else what it was. \param medium    Before, per scene unit.
+/// none, if it came out; else what it was.
+/// \param medium  Before, per scene unit.
 /// \param material  Of the surface.
-/// \param wo        Where the path came from, in the surface's frame.
-/// \param wi        Where it goes, in the surface's frame.
+/// \param wo  Where the path came from, in the surface's frame.
+/// \param wi  Where it goes, in the surface's frame.
 /// \return Per scene unit.
 template <typename Material, std::floating_point T>
 [[nodiscard]] RgbT<T> medium_beyond(const RgbT<T>& medium, const Material& material,
@@ -53,9 +54,10 @@ template <typename Material, std::floating_point T>
 }
 
 /// Russian roulette on a camera path: it survives with a probability in proportion to
-/// its throughput, and a survivor is divided by it \cite arvo1990. \param throughput
-/// Divided by the probability, if it survives. \param u           In [0, 1). \return
-/// Whether the path goes on.
+/// its throughput, and a survivor is divided by it \cite arvo1990.
+/// \param throughput  Divided by the probability, if it survives.
+/// \param u  In [0, 1).
+/// \return Whether the path goes on.
 template <std::floating_point T>
 [[nodiscard]] bool survives(RgbT<T>& throughput, T u) noexcept {
     const T probability = std::min(T(1), max_component(throughput));

@@ -26,6 +26,7 @@ enum class IndirectLight : std::uint8_t {
 struct PhotonMapping {
     int max_depth = 1000;   ///< Surfaces on a camera path, mirrors and glass counted.
     int roulette_depth = 4; ///< From this surface on, roulette may end a path.
+    int shadow_rays = 1;    ///< Shadow rays to each light, at least 1.
     IndirectLight indirect = IndirectLight::rays; ///< Who carries indirect light.
     PhotonPass caustics{};                 ///< Photons aimed at mirrors and glass.
     PhotonPass general{};                  ///< Photons for all the rest.
@@ -41,6 +42,8 @@ struct PhotonMapping {
 inline void check(const PhotonMapping& settings) {
     require(settings.max_depth >= 1, "max_depth",
             static_cast<long long>(settings.max_depth), "at least 1");
+    require(settings.shadow_rays >= 1, "shadow_rays",
+            static_cast<long long>(settings.shadow_rays), "at least 1");
     require(settings.caustics.photons >= 0, "caustics.photons",
             settings.caustics.photons, "at least 0");
     require(settings.general.photons >= 0, "general.photons", settings.general.photons,

@@ -64,14 +64,15 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
     }
 
     /// Adds a shape.
-    /// \param shape     One of the listed types.
+    /// \param shape  One of the listed types.
     /// \param material  What add() returned for its material.
     /// \param radiance  The radiance it emits along its normal's side, W/(m^2 sr);
-    /// added
-    ///                  to what the material itself emits.
+    ///          added to what the material itself emits.
     /// \param inside_out  Whether the normal points inwards, as in a room made of a
-    /// sphere. \return Its number. \throws std::invalid_argument  if a value is out of
-    /// range, or the material unknown.
+    ///          sphere.
+    /// \return Its number.
+    /// \throws std::invalid_argument  if a value is out of range, or the material
+    ///     unknown.
     template <Shape G>
     requires(std::same_as<G, FirstShape> || (std::same_as<G, S> || ...)) ObjectId
         add(const G& shape, MaterialId material, RgbT<Scalar> radiance = {},

@@ -20,9 +20,11 @@ struct Strata {
 
 /// The cells for a number of rays: exactly as many as rays, as square as the number
 /// allows; for a prime, or a number with only long factors, rooks that do not attack
-/// each other. \param rays  At least 1. \return The cells. \erratum{The report's
-/// program steps by 1/sqrt(n) and drops the remainder: of 8 rays it
-///          traced 4, and of 10 it traced 9 in nine tenths of the pixel.}
+/// each other.
+/// \param rays  At least 1.
+/// \return The cells.
+/// \erratum{The report's program steps by 1/sqrt(n) and drops the remainder: of 8 rays
+///     it traced 4, and of 10 it traced 9 in nine tenths of the pixel.}
 [[nodiscard]] constexpr Strata strata_for(int rays) noexcept {
     int columns = 1;
     for (int i = 1; i * i <= rays; ++i)
