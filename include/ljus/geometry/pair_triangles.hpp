@@ -52,7 +52,8 @@ pair_triangles(const std::vector<glm::dvec3>& vertices,
 
     FlatShapesT<T> shapes;
     using Edge = std::pair<std::uint32_t, std::uint32_t>;
-    std::map<Edge, std::pair<std::size_t, int>> waiting; // triangle, its corner opposite
+    std::map<Edge, std::pair<std::size_t, int>>
+        waiting; // triangle, its corner opposite
     std::vector<bool> paired(indices.size(), false);
     for (std::size_t i = 0; i < indices.size(); ++i) {
         const auto corner = [&](std::size_t triangle, int k) {
@@ -67,9 +68,9 @@ pair_triangles(const std::vector<glm::dvec3>& vertices,
             const glm::dvec3& b = vertices[corner(partner, opposite + 1)];
             const glm::dvec3& c = vertices[corner(partner, opposite + 2)];
             const glm::dvec3& d = vertices[corner(i, k)];
-            const double size = std::max({max_component(glm::abs(a)),
-                                          max_component(glm::abs(b)),
-                                          max_component(glm::abs(c))});
+            const double size =
+                std::max({max_component(glm::abs(a)), max_component(glm::abs(b)),
+                          max_component(glm::abs(c))});
             const glm::dvec3 gap = glm::abs((a - b) + (d - c));
             if (!(max_component(gap) <=
                   8 * std::numeric_limits<double>::epsilon() * size))

@@ -80,9 +80,10 @@ struct JsonField {
 /// \param right  What would be right.
 /// \throws std::runtime_error  always.
 [[noreturn]] inline void refuse_value(const JsonField& field, std::string_view right) {
-    refuse(field,
-           std::string("is ").append(shown(field.value)).append("; it must be ").append(
-               right));
+    refuse(field, std::string("is ")
+                      .append(shown(field.value))
+                      .append("; it must be ")
+                      .append(right));
 }
 
 /// Names in a row: "a, b or c".

@@ -48,8 +48,9 @@ namespace ljus {
 
 /// A scene of whatever a scene file may hold.
 template <std::floating_point T>
-using FileSceneT = Scene<Shapes<QuadT<T>, SphereT<T>, TriangleT<T>>,
-                         Materials<LambertianT<T>, OrenNayarT<T>, MirrorT<T>, GlassT<T>>>;
+using FileSceneT =
+    Scene<Shapes<QuadT<T>, SphereT<T>, TriangleT<T>>,
+          Materials<LambertianT<T>, OrenNayarT<T>, MirrorT<T>, GlassT<T>>>;
 
 /// What a scene file says.
 template <std::floating_point T>
@@ -120,16 +121,15 @@ MaterialId read_material(const JsonField& field, FileSceneT<T>& scene) {
     require_one_of(type, {"lambertian", "oren-nayar", "mirror", "dielectric"});
     if (text(type) == "lambertian") {
         require_object(field, {"type", "albedo"});
-        return scene.add(
-            LambertianT<T>{.albedo{share_field(member(field, "albedo"))}});
+        return scene.add(LambertianT<T>{.albedo{share_field(member(field, "albedo"))}});
     }
     if (text(type) == "oren-nayar") {
         require_object(field, {"type", "albedo", "sigma_deg"});
         const double degrees =
             number(member(field, "sigma_deg"), 0, 90, "within [0, 90] degrees");
-        return scene.add(OrenNayarT<T>{
-            .albedo{share_field(member(field, "albedo"))},
-            .sigma = static_cast<T>(degrees * std::numbers::pi / 180)});
+        return scene.add(
+            OrenNayarT<T>{.albedo{share_field(member(field, "albedo"))},
+                          .sigma = static_cast<T>(degrees * std::numbers::pi / 180)});
     }
     if (text(type) == "mirror") {
         require_object(field, {"type", "reflectance"});
@@ -183,8 +183,8 @@ void read_object(const JsonField& field,
         require_object(field,
                        {"type", "name", "material", "emission", "center", "radius"});
     else
-        require_object(
-            field, {"type", "name", "material", "emission", "vertices", "indices"});
+        require_object(field,
+                       {"type", "name", "material", "emission", "vertices", "indices"});
     if (const auto name = find(field, "name")) (void)text(*name);
 
     const JsonField material = member(field, "material");
@@ -245,10 +245,10 @@ template <std::floating_point T = float>
 
     const JsonField image = member(top, "image");
     require_object(image, {"width", "height", "pixel_filter"});
-    loaded.width = static_cast<int>(
-        whole_number(member(image, "width"), 1, max_pixels));
-    loaded.height = static_cast<int>(
-        whole_number(member(image, "height"), 1, max_pixels));
+    loaded.width =
+        static_cast<int>(whole_number(member(image, "width"), 1, max_pixels));
+    loaded.height =
+        static_cast<int>(whole_number(member(image, "height"), 1, max_pixels));
     if (loaded.width > max_pixels / loaded.height)
         refuse(image, "has more than " + std::to_string(max_pixels) + " pixels");
     if (const auto filter = find(image, "pixel_filter");

@@ -24,11 +24,11 @@ struct JsonBuilder {
     using number_unsigned_t = nlohmann::json::number_unsigned_t;
     using number_float_t = nlohmann::json::number_float_t;
 
-    std::string_view source;           // the whole file, to count lines in
-    const std::string& file;           // its name
-    nlohmann::json root{};             // what has been read
+    std::string_view source;             // the whole file, to count lines in
+    const std::string& file;             // its name
+    nlohmann::json root{};               // what has been read
     std::vector<nlohmann::json*> open{}; // the lists and objects around this place
-    std::vector<std::string> keys{};   // of the objects around, the members' names
+    std::vector<std::string> keys{};     // of the objects around, the members' names
 
     bool null() { return put(nullptr); }
     bool boolean(bool value) { return put(value); }
@@ -99,10 +99,9 @@ private:
 
     bool begin(nlohmann::json value) {
         if (open.size() == max_json_depth)
-            throw std::runtime_error(file + ": " + shown(path(), 96) +
-                                     " is nested too deeply; at most " +
-                                     std::to_string(max_json_depth) +
-                                     " levels are allowed.");
+            throw std::runtime_error(
+                file + ": " + shown(path(), 96) + " is nested too deeply; at most " +
+                std::to_string(max_json_depth) + " levels are allowed.");
         open.push_back(place(std::move(value)));
         keys.emplace_back();
         return true;
