@@ -201,9 +201,7 @@ int main(int argc, char** argv) {
 
         const auto room = ljus::final_room();
         if (!options.quiet)
-            for (const ljus::PlanItem* item : survey(room.scene, settings).items())
-                std::printf("%-16s %-4s %s\n", item->pass, item->on ? "on" : "off",
-                            item->why.c_str());
+            std::printf("%s", to_text(survey(room.scene, settings)).c_str());
         figure("fig-1", room, settings, options);
         figure("fig-15", ljus::all_materials_room(), settings, options);
         parts(room, settings, options);
