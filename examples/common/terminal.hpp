@@ -36,12 +36,13 @@ namespace examples {
 [[nodiscard]] inline std::string duration_text(double seconds) {
     if (!(seconds >= 0.0 && seconds < 360000.0)) return "?";
     const long whole = std::lround(seconds);
-    const auto two_digits = [](long n) {
-        return (n < 10 ? "0" : "") + std::to_string(n);
-    };
-    const std::string end = ":" + two_digits(whole % 60);
-    if (whole < 3600) return std::to_string(whole / 60) + end;
-    return std::to_string(whole / 3600) + ":" + two_digits(whole / 60 % 60) + end;
+    const long hours = whole / 3600, minutes = whole / 60 % 60, rest = whole % 60;
+    char text[32];
+    if (hours == 0)
+        std::snprintf(text, sizeof text, "%ld:%02ld", minutes, rest);
+    else
+        std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", hours, minutes, rest);
+    return text;
 }
 
 /// The text of a bar, without the carriage return in front.
