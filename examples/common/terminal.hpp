@@ -36,12 +36,14 @@ namespace examples {
 [[nodiscard]] inline std::string duration_text(double seconds) {
     if (!(seconds >= 0.0 && seconds < 360000.0)) return "?";
     const long whole = std::lround(seconds);
-    const long hours = whole / 3600, minutes = whole / 60 % 60, rest = whole % 60;
+    const int hours = static_cast<int>(whole / 3600);
+    const int minutes = static_cast<int>(whole / 60 % 60);
+    const int rest = static_cast<int>(whole % 60);
     char text[32];
-    if (hours == 0)
-        std::snprintf(text, sizeof text, "%ld:%02ld", minutes, rest);
+    if (hours > 0)
+        std::snprintf(text, sizeof text, "%d:%02d:%02d", hours, minutes, rest);
     else
-        std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", hours, minutes, rest);
+        std::snprintf(text, sizeof text, "%d:%02d", minutes, rest);
     return text;
 }
 
