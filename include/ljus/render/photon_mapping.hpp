@@ -41,7 +41,7 @@ struct PhotonMapsT {
 /// \throws std::invalid_argument  if there is no light, or a setting is out of range.
 template <typename Scene>
 [[nodiscard]] PhotonMapsT<typename Scene::Scalar>
-make_photon_maps(const Scene& scene, const PhotonMapping& settings) {
+make_photon_maps(const Scene& scene, const PhotonMapping& settings = {}) {
     check(settings);
     const Plan plan = survey(scene, settings);
     PhotonMapsT<typename Scene::Scalar> maps;
@@ -66,6 +66,20 @@ struct PhotonMapper {
     const PhotonMapsT<typename Scene::Scalar>& maps; ///< Of the first pass.
     PhotonMapping settings;                          ///< How.
 };
+
+/// Makes a photon mapper.
+/// \param scene     Must outlive the mapper.
+/// \param maps      Of make_photon_maps(); must outlive the mapper.
+/// \param settings  Depths, radii, who carries indirect light.
+/// \return The mapper.
+/// \throws std::invalid_argument  if a setting is out of range.
+template <typename Scene>
+[[nodiscard]] PhotonMapper<Scene>
+make_photon_mapper(const Scene& scene, const PhotonMapsT<typename Scene::Scalar>& maps,
+                   const PhotonMapping& settings = {}) {
+    check(settings);
+    return {scene, maps, settings};
+}
 
 /// The radiance that one camera path finds with the help of the photon maps.
 ///
