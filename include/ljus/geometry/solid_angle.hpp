@@ -36,8 +36,8 @@ template <std::floating_point T>
 /// A point of a shape, and the density with which an observer's direction fell on it.
 template <std::floating_point T>
 struct SeenPointT {
-    SurfacePointT<T> point; ///< The point.
-    T pdf = T(0);           ///< Per steradian of the observer.
+    SurfacePointT<T> point{}; ///< The point.
+    T pdf = T(0);             ///< Per steradian of the observer.
 };
 
 /// The density per steradian of a point that was chosen uniformly over the area.
