@@ -90,13 +90,16 @@ public:
             fail_to_write(path_, errno);
     }
 
-    void rename_to_path() {
+    void close() {
         errno = 0;
         if (std::fflush(file_) != 0) fail_to_write(path_, errno);
         // The file counts as closed even if fclose reports that the last write failed.
         std::FILE* const file = file_;
         file_ = nullptr;
         if (std::fclose(file) != 0) fail_to_write(path_, errno);
+    }
+
+    void rename_to_path() {
 #ifdef _WIN32
         // Here std::rename does not replace: the older file steps aside, and comes back
         // if the new one cannot take its place.
@@ -132,6 +135,7 @@ private:
 inline void save_file(const std::string& path, std::span<const unsigned char> bytes) {
     detail::FileBeside file(detail::file_to_replace(path));
     file.write(bytes);
+    file.close();
     file.rename_to_path();
 }
 // [save_file]
