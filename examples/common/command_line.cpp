@@ -1,6 +1,7 @@
 // The one file that includes CLI11.
 #include "command_line.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstdio>
@@ -74,6 +75,15 @@ std::string check_seed(const std::string& text) {
 
 } // namespace
 
+void require_writable(const std::string& path) {
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    require_folder(folder.empty() ? "." : folder.string());
+    const unsigned char byte[1] = {0};
+    ljus::detail::FileBeside probe(ljus::detail::file_to_replace(path));
+    probe.write(byte);
+    probe.close();
+}
+
 std::string Options::path(const std::string& name) const {
     stop_if_asked();
     return (std::filesystem::path(out) / name).string();
@@ -82,6 +92,7 @@ std::string Options::path(const std::string& name) const {
 struct CommandLine::Parser {
     CLI::App app;
     std::vector<std::string> arguments;
+    std::vector<std::string> file_types;
     Options options;
     std::string quality = "report";
     std::string seed = "1";
@@ -175,6 +186,18 @@ void CommandLine::add(const std::string& name, bool& value, const std::string& h
     parser_->app.add_flag(name, value, help);
 }
 
+void CommandLine::add_positional(const std::string& name, std::string& value,
+                                 const std::string& help) {
+    parser_->app.add_option(name, value, help)->required();
+}
+
+void CommandLine::file_types(const std::vector<std::string>& types) {
+    parser_->file_types = types;
+    parser_->app.get_option("--out")
+        ->description("The file, or a folder for it [.]")
+        ->option_text("PATH");
+}
+
 bool CommandLine::given(const std::string& name) const {
     return parser_->app.count(name) > 0;
 }
@@ -199,7 +222,14 @@ Options CommandLine::parse(const Presets& presets) {
     if (!given("--width")) options.width = frame.width;
     if (!given("--height")) options.height = frame.height;
     if (!given("--rays")) options.rays = frame.rays;
-    require_folder(options.out);
+    const std::vector<std::string>& types = parser_->file_types;
+    const std::filesystem::path out = options.out;
+    if (std::find(types.begin(), types.end(), out.extension()) != types.end() &&
+        !std::filesystem::is_directory(out)) {
+        options.file = out.filename().string();
+        options.out = out.has_parent_path() ? out.parent_path().string() : ".";
+    }
+    if (types.empty()) require_folder(options.out);
     return options;
 }
 

@@ -40,6 +40,7 @@ struct Presets {
 /// What the user asked for.
 struct Options {
     std::string out = ".";             ///< --out: the folder of all files; it exists.
+    std::string file;                  ///< The file's name, if --out named a file.
     Quality quality = Quality::report; ///< --quality
     std::uint64_t seed = 1;            ///< --seed
     int threads = 0;                   ///< --threads: 0 for all processors.
@@ -94,6 +95,17 @@ public:
     /// A switch: false unless it is given.
     void add(const std::string& name, bool& value, const std::string& help);
 
+    /// An argument without a name in front, which must be given.
+    /// \param name   What --help calls it.
+    /// \param value  Takes what the user gave.
+    /// \param help   One line.
+    void add_positional(const std::string& name, std::string& value,
+                        const std::string& help);
+    /// Lets --out name a file of one of these types, or a folder for one; neither is
+    /// made or tried by parse(): see require_writable().
+    /// \param types  As ".png".
+    void file_types(const std::vector<std::string>& types);
+
     /// Whether an option was given by name, and does not come from a quality or
     /// default.
     [[nodiscard]] bool given(const std::string& name) const;
@@ -110,6 +122,12 @@ private:
     struct Parser;
     std::unique_ptr<Parser> parser_;
 };
+
+/// Makes sure that a file can be written, before any work is done in vain; makes its
+/// folder if it is missing.
+/// \param path  The file; an older one is left as it is.
+/// \throws std::runtime_error  with the path and the reason.
+void require_writable(const std::string& path);
 
 /// Ends a program with this code; run_main() returns it.
 struct Exit {

@@ -26,7 +26,7 @@ struct Plot {
     std::string name;                 ///< Of the files, e.g. "sphere-wrong".
     std::vector<std::string> columns; ///< Headings; that of x labels its axis.
     std::string y_label;              ///< What the curves show, with its unit.
-    std::vector<Row> rows;            ///< The data.
+    std::vector<Row> rows{};          ///< The data.
     bool log_x = false;               ///< Logarithmic x axis.
     bool log_y = false;               ///< Logarithmic y axis.
     std::string more = {}; ///< Further lines for gnuplot, e.g. "set key left".
@@ -36,7 +36,7 @@ struct Plot {
 struct Table {
     std::string name;                           ///< Of the files.
     std::vector<std::string> columns;           ///< Headings.
-    std::vector<std::vector<std::string>> rows; ///< Cells.
+    std::vector<std::vector<std::string>> rows{}; ///< Cells.
 };
 
 /// A number as short as it may be: "%.4g", or nothing for NaN.

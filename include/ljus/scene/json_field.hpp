@@ -47,7 +47,8 @@ struct JsonField {
     // Large values are not printed only to be cut off.
     if (value.is_object()) return "an object";
     if (value.is_array() && value.size() > 4)
-        return "a list of " + std::to_string(value.size()) + " entries";
+        return std::string("a list of ").append(std::to_string(value.size())) +
+               " entries";
     for (const auto& part : value)
         if (part.is_structured()) return "a list";
     return shown(value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
@@ -115,7 +116,8 @@ inline void require_object(const JsonField& field,
         for (const std::string& other : names) found = found || other == name;
         if (!found)
             refuse({value, field.file, path_of_member(field.path, name)},
-                   "is not known; the fields here are " + in_a_row(names, "and"));
+                   std::string("is not known; the fields here are ") +
+                       in_a_row(names, "and"));
     }
 }
 
@@ -184,8 +186,9 @@ inline void require_object(const JsonField& field,
 /// \throws std::runtime_error  if it is something else.
 [[nodiscard]] inline long long whole_number(const JsonField& field, long long low,
                                             long long high) {
-    const std::string right = "a whole number within [" + std::to_string(low) + ", " +
-                              std::to_string(high) + "]";
+    std::string right = "a whole number within [";
+    right.append(std::to_string(low)).append(", ");
+    right.append(std::to_string(high)).append("]");
     const double value =
         number(field, static_cast<double>(low), static_cast<double>(high), right);
     if (value != std::floor(value)) refuse_value(field, right);

@@ -192,7 +192,8 @@ void read_object(const JsonField& field,
     if (known == materials.end()) {
         std::vector<std::string> names;
         for (const auto& [name, id] : materials) names.push_back(name);
-        refuse_value(material, "one of the materials " + in_a_row(names, "or"));
+        refuse_value(material,
+                     std::string("one of the materials ") + in_a_row(names, "or"));
     }
     RgbT<T> emission{T(0)};
     const auto emitted = find(field, "emission");
@@ -250,7 +251,8 @@ template <std::floating_point T = float>
     loaded.height =
         static_cast<int>(whole_number(member(image, "height"), 1, max_pixels));
     if (loaded.width > max_pixels / loaded.height)
-        refuse(image, "has more than " + std::to_string(max_pixels) + " pixels");
+        refuse(image, std::string("has more than ").append(std::to_string(max_pixels)) +
+                          " pixels");
     if (const auto filter = find(image, "pixel_filter");
         filter && text(*filter).substr(0, 3) != "box")
         refuse_value(*filter, "\"box\", the only filter that there is");
@@ -268,8 +270,9 @@ template <std::floating_point T = float>
     if (loaded.scene.lights.empty())
         refuse(objects, "has no light; at least one needs an emission above 0");
     if (loaded.scene.lights.size() > 65535)
-        refuse(objects, "has " + std::to_string(loaded.scene.lights.size()) +
-                            " lights; it must have at most 65535");
+        refuse(objects, std::string("has ")
+                            .append(std::to_string(loaded.scene.lights.size()))
+                            .append(" lights; it must have at most 65535"));
     return loaded;
 }
 

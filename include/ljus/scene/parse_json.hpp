@@ -79,9 +79,10 @@ private:
             if (open[i]->is_object())
                 all = path_of_member(all, keys[i]);
             else
-                all += "[" +
-                       std::to_string(open[i]->size() - (i + 1 < open.size() ? 1 : 0)) +
-                       "]";
+                all.append("[")
+                    .append(
+                        std::to_string(open[i]->size() - (i + 1 < open.size() ? 1 : 0)))
+                    .append("]");
         }
         return all.empty() ? "the file" : all;
     }
