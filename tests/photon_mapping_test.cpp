@@ -207,16 +207,16 @@ TEST_CASE("photon mapping: away from edges the bias falls with the square of the
     const float radii[] = {0.8f, 0.4f, 0.2f, 0.1f};
     Mean seen[4];
     for (std::uint64_t seed = 1; seed <= 32; ++seed) {
-        const auto traced = trace_photons(room, PhotonLaw::caustics,
-                                          {.photons = 50000, .seed = seed, .threads = 1});
+        const auto traced = trace_photons(
+            room, PhotonLaw::caustics, {.photons = 50000, .seed = seed, .threads = 1});
         const PhotonMap map = make_photon_map(traced.photons);
         std::uint64_t gathered = 0;
         for (std::size_t i = 0; i < 4; ++i)
-            seen[i].add(double(estimate_radiance(
-                                   map, surface, white, Vec3{0, 0, 1},
-                                   {.radius = radii[i]}, [](PhotonKind) { return true; },
-                                   gathered)
-                                   .x));
+            seen[i].add(
+                double(estimate_radiance(
+                           map, surface, white, Vec3{0, 0, 1}, {.radius = radii[i]},
+                           [](PhotonKind) { return true; }, gathered)
+                           .x));
     }
     const double exact = smoothed_radiance(0);
     double bias[4];
@@ -237,7 +237,8 @@ TEST_CASE("photon mapping: away from edges the bias falls with the square of the
     CHECK(bias[0] / bias[1] < 4.4);
 }
 
-TEST_CASE("photon mapping: the general map in place of indirect rays, within its bias") {
+TEST_CASE(
+    "photon mapping: the general map in place of indirect rays, within its bias") {
     // Its bias is that of discs that hang over the edges of walls, in proportion to the
     // radius: it is dark there.
     const Camera camera = room_camera<float>();
