@@ -15,11 +15,11 @@ using namespace ljus;
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float quiet_nan = std::numeric_limits<float>::quiet_NaN();
 
 /// Numbers of all sizes and signs; a few special ones among them.
 Lanes numbers(RandomStream& stream) {
-    constexpr std::array special{0.0f, -0.0f, infinity, -infinity, nan, 1e-45f, 3e38f};
+    constexpr std::array special{0.0f, -0.0f, infinity, -infinity, quiet_nan, 1e-45f, 3e38f};
     Lanes result{};
     for (float& x : result.lane) {
         const float u = next_1d(stream);
@@ -60,8 +60,8 @@ TEST_CASE("lanes: arithmetic is that of single floats, to the bit") {
 }
 
 TEST_CASE("lanes: NaN is no to every comparison, and gives way in min and max") {
-    const Lanes a{{nan, 1, 1, 2, nan, -infinity, -0.0f, 5}};
-    const Lanes b{{1, nan, 2, 1, nan, infinity, 0.0f, 5}};
+    const Lanes a{{quiet_nan, 1, 1, 2, quiet_nan, -infinity, -0.0f, 5}};
+    const Lanes b{{1, quiet_nan, 2, 1, quiet_nan, infinity, 0.0f, 5}};
     const LaneMask mask = a <= b;
     const std::array<std::int32_t, 8> expected{0, 0, -1, 0, 0, -1, -1, -1};
     for (std::size_t i = 0; i < 8; ++i) CHECK(mask.lane[i] == expected[i]);
