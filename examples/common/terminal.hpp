@@ -36,12 +36,15 @@ namespace examples {
 [[nodiscard]] inline std::string duration_text(double seconds) {
     if (!(seconds >= 0.0 && seconds < 360000.0)) return "?";
     const long whole = std::lround(seconds);
-    const auto two_digits = [](long n) {
-        return (n < 10 ? "0" : "") + std::to_string(n);
-    };
-    const std::string end = ":" + two_digits(whole % 60);
-    if (whole < 3600) return std::to_string(whole / 60) + end;
-    return std::to_string(whole / 3600) + ":" + two_digits(whole / 60 % 60) + end;
+    const int hours = static_cast<int>(whole / 3600);
+    const int minutes = static_cast<int>(whole / 60 % 60);
+    const int rest = static_cast<int>(whole % 60);
+    char text[32];
+    if (hours > 0)
+        std::snprintf(text, sizeof text, "%d:%02d:%02d", hours, minutes, rest);
+    else
+        std::snprintf(text, sizeof text, "%d:%02d", minutes, rest);
+    return text;
 }
 
 /// The text of a bar, without the carriage return in front.

@@ -24,7 +24,7 @@ expect() {
         seen=test
     fi
     [ "$status" -eq 0 ] && seen=passes
-    if [ "$seen" = "$step" ] && echo "$output" | tr -s ' \n' '  ' | grep -qF "$sentence"; then
+    if [ "$seen" = "$step" ] && echo "$output" | tr -s ' \n' '  ' | grep -F "$sentence" >/dev/null; then
         echo "as it should: $name: $step: $sentence"
     else
         echo "WRONG: $name should be: $step, with '$sentence'; it was: $seen, with"

@@ -68,7 +68,7 @@ case $way in
             >"$folder/configure.log" 2>&1; then
             echo "note: GLM was found in spite of all; its sentence is not tested"
         else
-            tr -s ' \n' '  ' <"$folder/configure.log" | grep -qF "Ljus needs GLM"
+            tr -s " \n" "  " <"$folder/configure.log" | grep -F "Ljus needs GLM" >/dev/null
         fi
         ;;
     add_subdirectory)
@@ -99,7 +99,9 @@ case $way in
         depends() {
             # shellcheck disable=SC2086
             echo "#include <$1>" | "$LJUS_CXX" $LJUS_PACKAGE_FLAGS -M -x c++ - 2>/dev/null |
-                tr ' \\' '\n\n' | grep "$1\$" | head -n 1
+                tr ' \\' '\n\n' | awk -v end="$1" \
+                'substr($0, length($0) - length(end)) == "/" end && !seen++' |
+                grep .
         }
         glm=$(depends glm/vec3.hpp)
         stb=$(depends stb/stb_image_write.h || depends stb_image_write.h) || skip "no stb"

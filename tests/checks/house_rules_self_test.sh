@@ -32,7 +32,7 @@ finds() {
     if output=$(rules); then
         echo "WRONG: nothing found, although: $1"
         wrong=1
-    elif ! echo "$output" | grep -qF "$1"; then
+    elif ! echo "$output" | grep -F "$1" >/dev/null; then
         echo "WRONG: should be found: $1; it says: $output"
         wrong=1
     fi
@@ -63,7 +63,9 @@ header ljus/render/c.hpp
 finds "does not include \"ljus/render/c.hpp\""
 header ljus/attic/c.hpp
 finds "no floor"
-printf '#pragma once\n/// \\file ljus/math/a.hpp\n/// \\brief A.\n' >"$folder/ljus/math/a.hpp"
+printf '#pragma once\n/// \\file ljus/math/a.hpp\n/// \\brief A.\n#include "ljus/math/c.hpp"\n' \
+    >"$folder/ljus/math/a.hpp"
+printf '#pragma once\n/// \\file ljus/math/c.hpp\n/// \\brief C.\n' >"$folder/ljus/math/c.hpp"
 finds "does not reach ljus/version.hpp"
 printf '\n#pragma once\n' >"$folder/ljus/math/a.hpp"
 finds "first line"

@@ -36,12 +36,20 @@ template <typename Compute = void, std::floating_point T>
         [](C u, C v) { return u >= C(0) && v >= C(0) && u <= C(1) && v <= C(1); });
 }
 
+/// \f$ E_1 \times E_2 \f$, in double, as for a triangle.
+/// \param quad  Any quad.
+/// \return A normal as long as the area.
+template <std::floating_point T>
+[[nodiscard]] Vec3T<WideT<T>> cross_of_edges(const QuadT<T>& quad) noexcept {
+    return glm::cross(Vec3T<WideT<T>>{quad.edge_u}, Vec3T<WideT<T>>{quad.edge_v});
+}
+
 /// The unit normal, along \f$ E_1 \times E_2 \f$.
 /// \param quad  A quad with an area.
 /// \return Unit vector.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> normal(const QuadT<T>& quad) noexcept {
-    return glm::normalize(glm::cross(quad.edge_u, quad.edge_v));
+    return Vec3T<T>(glm::normalize(cross_of_edges(quad)));
 }
 
 /// The area, in squared scene units.
@@ -49,7 +57,7 @@ template <std::floating_point T>
 /// \return At least 0.
 template <std::floating_point T>
 [[nodiscard]] T area(const QuadT<T>& quad) noexcept {
-    return glm::length(glm::cross(quad.edge_u, quad.edge_v));
+    return static_cast<T>(glm::length(cross_of_edges(quad)));
 }
 
 /// The point of a quad at u, v.

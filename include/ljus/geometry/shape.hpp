@@ -24,7 +24,7 @@ template <std::floating_point T>
     return {.t = t};
 }
 
-/// \copydoc as_hit
+/// The hit of a flat shape, as it is.
 template <std::floating_point T>
 [[nodiscard]] constexpr FlatHitT<T> as_hit(const FlatHitT<T>& hit) noexcept {
     return hit;
@@ -71,8 +71,9 @@ template <std::floating_point T>
 }
 
 /// \name Bounding spheres
-/// A sphere around a shape, not always the smallest. Photons are aimed at it.
 /// \{
+
+/// A sphere around the shape, not always the smallest. Photons are aimed at it.
 template <std::floating_point T>
 [[nodiscard]] SphereT<T> bounding_sphere(const SphereT<T>& sphere) noexcept {
     return sphere;
@@ -95,9 +96,10 @@ template <std::floating_point T>
 /// \}
 
 /// \name Checks
-/// Refuse data that no picture can be made of, with a sentence.
-/// \throws std::invalid_argument  with the name and the value.
 /// \{
+
+/// Refuses data that no picture can be made of, with a sentence.
+/// \throws std::invalid_argument  with the name and the value.
 template <std::floating_point T>
 void check(const TriangleT<T>& triangle) {
     require_finite("triangle.v1", triangle.v1);

@@ -3,6 +3,7 @@
 /// \file ljus/geometry/surface.hpp
 /// \brief A point of a surface, how well it is known, and how a ray leaves it.
 
+#include <algorithm>
 #include <limits>
 
 #include "ljus/geometry/ray.hpp"
@@ -39,7 +40,9 @@ template <std::floating_point T>
 /// A fixed distance (the report's program has four, from 0.0001 to 0.1) is too long for
 /// a small scene and too short far from the origin. Here the distance is twice the
 /// error of the point, along the normal, and 4 units in the last place of its largest
-/// coordinate for the rounding of the sum.
+/// coordinate for the rounding of the sum. It is never 0, for at t = 0 the ray would
+/// meet the surface again: the error counts among the coordinates, of which all three
+/// may be 0.
 ///
 /// \param point      A point of the surface, with its error.
 /// \param direction  Where the ray goes; its length does not matter.
@@ -50,9 +53,10 @@ template <std::floating_point T>
 [[nodiscard]] Vec3T<T> leave(const SurfacePointT<T>& point,
                              const Vec3T<T>& direction) noexcept {
     const Vec3T<T>& n = point.normal;
-    const T last_place =
-        max_component(glm::abs(point.position)) * std::numeric_limits<T>::epsilon();
-    const T distance = T(2) * glm::dot(glm::abs(n), point.error) + T(4) * last_place;
+    const T last_place = max_component(glm::abs(point.position) + point.error) *
+                         std::numeric_limits<T>::epsilon();
+    const T distance = T(2) * glm::dot(glm::abs(n), point.error) +
+                       std::max(T(4) * last_place, std::numeric_limits<T>::min());
     return point.position + std::copysign(distance, glm::dot(direction, n)) * n;
 }
 // [leave]

@@ -95,8 +95,8 @@ template <std::floating_point T, std::floating_point U>
     return std::sqrt(detail::mean(detail::pixel_errors(image, reference, square)));
 }
 
-/// The relative mean square error, mean (x - r)^2 / (r^2 + epsilon) \cite
-/// rousselle2011.
+/// The relative mean square error, mean (x - r)^2 / (r^2 + epsilon)
+/// \cite rousselle2011.
 ///
 /// Relative, as the eye is, and the default here.
 /// *Trap*: figures with different epsilons, or divided by (r + epsilon)^2 as some tools

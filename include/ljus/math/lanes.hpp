@@ -62,6 +62,8 @@ template <typename F, typename... B>
 
 /// \name Arithmetic, lane by lane
 /// \{
+
+/// The operation on each pair of lanes.
 [[nodiscard]] constexpr Lanes operator+(const Lanes& a, const Lanes& b) noexcept {
     return each_lane([](float x, float y) { return x + y; }, a, b);
 }
@@ -126,6 +128,8 @@ template <typename F, typename... B>
 
 /// \name Vectors, lane by lane
 /// \{
+
+/// The operation on each pair of vectors.
 [[nodiscard]] constexpr Lanes3 operator-(const Lanes3& a, const Lanes3& b) noexcept {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
 }

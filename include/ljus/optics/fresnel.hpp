@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "ljus/optics/schlick.hpp"
+#include "ljus/version.hpp"
 
 namespace ljus {
 

@@ -4,7 +4,9 @@
 /// \brief The plain k-d tree: points near a point.
 
 #include <algorithm>
+#include <compare>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -17,11 +19,41 @@ namespace ljus {
 /// tree".
 /// \{
 
-/// A point that a search has found.
-template <std::floating_point T>
-struct NeighborT {
+/// A point that a search has found. The nearer one is less.
+struct Neighbor {
     double distance2 = 0;    ///< Squared, in double.
     std::uint32_t index = 0; ///< Its place in the tree's order.
+
+    /// By distance, then by place.
+    friend auto operator<=>(const Neighbor&, const Neighbor&) = default;
+};
+
+/// The nearest points of a search so far: a heap in the caller's memory, the farthest
+/// of them on top, at `found[0]`.
+struct Nearest {
+    std::span<Neighbor> found; ///< Room for as many as are wanted, at least one.
+    double limit2 = 0;         ///< The search's radius, squared.
+    std::size_t count = 0;     ///< How many there are.
+
+    /// Whether a point at this distance belongs to them. Once the room is full it must
+    /// be nearer than the farthest: a thousand equal points are not tried one by one.
+    [[nodiscard]] bool reaches(double distance2) const noexcept {
+        return count < found.size() ? distance2 <= limit2
+                                    : distance2 < found[0].distance2;
+    }
+
+    /// Takes a point that belongs to them; the farthest one leaves if the room is full.
+    void take(const Neighbor& neighbor) {
+        const auto last = [&] {
+            return found.begin() + static_cast<std::ptrdiff_t>(count);
+        };
+        if (count == found.size())
+            std::pop_heap(found.begin(), last());
+        else
+            ++count;
+        found[count - 1] = neighbor;
+        std::push_heap(found.begin(), last());
+    }
 };
 
 /// A balanced k-d tree \cite bentley1975 without a single pointer: the middle of each
@@ -37,9 +69,9 @@ public:
     KdTreeT() = default;
 
     /// Builds the tree.
-    /// \param points  Any points, equal ones too.
+    /// \param points  Any points, equal ones too; below 2^32.
     /// \throws std::invalid_argument  if a point is not finite.
-    /// \cost O(n log n); 17 bytes a point in float.
+    /// \cost O(n log n), whatever the points; 17 bytes a point in float.
     explicit KdTreeT(std::span<const Vec3T<T>> points);
 
     /// Where the points came from: order()[i] is the number of the i-th point of the
@@ -58,32 +90,66 @@ public:
 
     /// Calls `visit(index, distance2)` for each point within a closed ball.
     /// \param center  Of the ball.
-    /// \param radius  At least 0, infinity for all; not squared.
+    /// \param radius  Not squared; infinity for all. Below 0, and if it or the centre
+    ///                is NaN, the ball is empty.
     /// \param visit   Takes the place in the tree's order and the squared distance.
+    /// \cost In the mean O(log n) and one step a point found.
+    // [within]
     template <typename Visit>
     void visit_within(const Vec3T<T>& center, T radius, Visit&& visit) const {
-        const double r = double(radius);
-        descend(0, points_.size(), center, [&](std::uint32_t index, double distance2) {
-            if (distance2 <= r * r) visit(index, distance2);
-            return r;
-        });
+        if (!(radius >= T(0))) return;
+        const double limit2 = double(radius) * double(radius);
+        walk(
+            center,
+            [&](std::uint32_t index, double distance2) {
+                if (distance2 <= limit2) visit(index, distance2);
+            },
+            [&](double distance2) { return distance2 <= limit2; });
     }
+    // [within]
 
     /// The nearest points within a closed ball.
     /// \param center  Of the ball.
-    /// \param radius  At least 0, infinity for all.
+    /// \param radius  As for visit_within().
     /// \param found   Room for as many as are wanted; filled as a heap, farthest first.
     /// \param wanted  Called with a place in the tree's order; false passes it over.
-    /// \return How many were found.
+    /// \return How many were found; of several that are equally far, any, but always
+    ///         the same ones.
+    /// \cost In the mean O(log n) and some steps a point that is wanted, also where
+    ///       many points are equal; where few of those around are wanted, more.
+    // [nearest]
     template <typename Wanted>
     [[nodiscard]] std::size_t nearest(const Vec3T<T>& center, T radius,
-                                      std::span<NeighborT<T>> found,
-                                      Wanted wanted) const;
+                                      std::span<Neighbor> found, Wanted wanted) const {
+        if (found.empty() || !(radius >= T(0))) return 0;
+        Nearest best{.found = found, .limit2 = double(radius) * double(radius)};
+        walk(
+            center,
+            [&](std::uint32_t index, double distance2) {
+                if (best.reaches(distance2) && wanted(index))
+                    best.take({distance2, index});
+            },
+            [&](double distance2) { return best.reaches(distance2); });
+        return best.count;
+    }
+    // [nearest]
+
+    /// The way that every search takes, and that a search of your own can take: down
+    /// the side where the centre lies, then the root, then the other side.
+    /// \param center   Where the search is.
+    /// \param offer    Called as offer(index, distance2) with each point on the way.
+    /// \param reaches  Called as reaches(distance2) before the other side, with the
+    ///                 squared distance to the plane between: no point there is nearer.
+    ///                 False leaves them out.
+    template <typename Offer, typename Reaches>
+    void walk(const Vec3T<T>& center, Offer&& offer, Reaches&& reaches) const {
+        descend(0, points_.size(), center, offer, reaches);
+    }
 
 private:
-    template <typename Offer>
-    double descend(std::size_t first, std::size_t last, const Vec3T<T>& center,
-                   Offer&& offer, double radius = 1e300) const;
+    template <typename Offer, typename Reaches>
+    void descend(std::size_t first, std::size_t last, const Vec3T<T>& center,
+                 Offer& offer, Reaches& reaches) const;
     void build(std::span<const Vec3T<T>> points, std::size_t first, std::size_t last);
 
     std::vector<Vec3T<T>> points_;
@@ -95,6 +161,9 @@ using KdTree = KdTreeT<float>; ///< KdTreeT in float.
 // [build]
 template <std::floating_point T>
 KdTreeT<T>::KdTreeT(std::span<const Vec3T<T>> points) : axis_(points.size()) {
+    require(points.size() <= std::numeric_limits<std::uint32_t>::max(),
+            "the number of points in a k-d tree", static_cast<long long>(points.size()),
+            "below 2^32");
     order_.reserve(points.size());
     for (const Vec3T<T>& point : points) {
         require_finite("a point of the k-d tree", point);
@@ -139,58 +208,34 @@ void KdTreeT<T>::build(std::span<const Vec3T<T>> points, std::size_t first,
 }
 // [build]
 
-// [search]
+// [walk]
 template <std::floating_point T>
-template <typename Offer>
-double KdTreeT<T>::descend(std::size_t first, std::size_t last, const Vec3T<T>& center,
-                           Offer&& offer, double radius) const {
-    if (first >= last) return radius;
+template <typename Offer, typename Reaches>
+void KdTreeT<T>::descend(std::size_t first, std::size_t last, const Vec3T<T>& center,
+                         Offer& offer, Reaches& reaches) const {
+    if (first >= last) return;
     const std::size_t middle = first + (last - first) / 2;
     const int axis = axis_[middle];
-    const double from_plane = double(center[axis]) - double(points_[middle][axis]);
+    const glm::dvec3 offset = glm::dvec3(center) - glm::dvec3(points_[middle]);
 
-    // The side of the centre first; the offer answers with the radius that is left.
-    const bool low_side = from_plane < 0;
-    radius = low_side ? descend(first, middle, center, offer, radius)
-                      : descend(middle + 1, last, center, offer, radius);
-    const glm::dvec3 offset = glm::dvec3(points_[middle]) - glm::dvec3(center);
-    radius = offer(static_cast<std::uint32_t>(middle), glm::dot(offset, offset));
-    if (std::abs(from_plane) > radius) return radius;
-    return low_side ? descend(middle + 1, last, center, offer, radius)
-                    : descend(first, middle, center, offer, radius);
-}
-// [search]
+    // Equal coordinates lie on both sides of the plane: which one is first is a matter
+    // of speed, whether the other is left out is for its distance to say.
+    const bool low_first = offset[axis] < 0;
+    if (low_first)
+        descend(first, middle, center, offer, reaches);
+    else
+        descend(middle + 1, last, center, offer, reaches);
 
-template <std::floating_point T>
-template <typename Wanted>
-std::size_t KdTreeT<T>::nearest(const Vec3T<T>& center, T radius,
-                                std::span<NeighborT<T>> found, Wanted wanted) const {
-    const auto farther = [](const NeighborT<T>& a, const NeighborT<T>& b) {
-        return a.distance2 < b.distance2 ||
-               (a.distance2 == b.distance2 && a.index < b.index);
-    };
-    const auto heap = [&](std::size_t count) {
-        return found.begin() + static_cast<std::ptrdiff_t>(count);
-    };
-    if (found.empty()) return 0;
-    double limit = double(radius);
-    std::size_t count = 0;
-    descend(0, points_.size(), center, [&](std::uint32_t index, double distance2) {
-        const NeighborT<T> candidate{distance2, index};
-        if (count < found.size()) {
-            if (distance2 > limit * limit || !wanted(index)) return limit;
-            found[count++] = candidate;
-            std::push_heap(found.begin(), heap(count), farther);
-        } else if (farther(candidate, found[0]) && wanted(index)) {
-            std::pop_heap(found.begin(), heap(count), farther);
-            found[count - 1] = candidate;
-            std::push_heap(found.begin(), heap(count), farther);
-        }
-        // A full heap's farthest point is the new limit.
-        return count == found.size() ? std::sqrt(found[0].distance2) : limit;
-    });
-    return count;
+    offer(static_cast<std::uint32_t>(middle), glm::dot(offset, offset));
+
+    // Squares are compared, rounded as those of the points are.
+    if (!reaches(offset[axis] * offset[axis])) return;
+    if (low_first)
+        descend(middle + 1, last, center, offer, reaches);
+    else
+        descend(first, middle, center, offer, reaches);
 }
+// [walk]
 
 /// \}
 

@@ -19,8 +19,7 @@ enum class Kernel : std::uint8_t {
     box,          ///< The report's: the same weight in the whole disc.
     cone,         ///< 1 - d/r: Jensen's cone filter with k = 1 \cite jensen2001.
     gaussian,     ///< exp(-2 d^2 / r^2), cut at r.
-    epanechnikov, ///< 1 - d^2/r^2: the least variance at equal bias \cite
-                  ///< silverman1986.
+    epanechnikov, ///< 1 - d^2/r^2: least variance, equal bias \cite silverman1986.
     biweight      ///< (1 - d^2/r^2)^2: smooth at its edge.
 };
 
@@ -30,8 +29,7 @@ enum class Kernel : std::uint8_t {
 /// \return At least 0; the mean over the disc is 1.
 /// \report{Section 3.2.6}
 /// \erratum{The report's program multiplied by 1 - d/r without the factor 3 that keeps
-/// the
-///          flux, and made up for it by hand.}
+///          the flux, and made up for it by hand.}
 // [kernel]
 template <std::floating_point T>
 [[nodiscard]] T kernel_weight(Kernel kernel, T x) noexcept {
@@ -41,8 +39,7 @@ template <std::floating_point T>
     case Kernel::cone:
         return T(3) * (T(1) - std::sqrt(x));
     case Kernel::gaussian:
-        // The factor is 2 / (1 - e^-2): the Gaussian's mean over the disc, turned
-        // round.
+        // 2 / (1 - e^-2): one over the mean of the Gaussian over the disc.
         return T(2.3130352854993312) * std::exp(T(-2) * x);
     case Kernel::epanechnikov:
         return T(2) * (T(1) - x);

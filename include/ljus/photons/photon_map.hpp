@@ -42,12 +42,16 @@ using PhotonMap = PhotonMapT<float>; ///< PhotonMapT in float.
 /// Builds a map.
 /// \param photons  In any order, which it does not keep.
 /// \return The map.
-/// \throws std::invalid_argument  if a position is not finite.
+/// \throws std::invalid_argument  if a position, a direction or a flux is not finite.
 template <std::floating_point T>
 [[nodiscard]] PhotonMapT<T> make_photon_map(const std::vector<PhotonT<T>>& photons) {
     std::vector<Vec3T<T>> positions;
     positions.reserve(photons.size());
-    for (const PhotonT<T>& photon : photons) positions.push_back(photon.position);
+    for (const PhotonT<T>& photon : photons) {
+        require_finite("photon.direction", photon.direction);
+        require_finite("photon.flux", photon.flux);
+        positions.push_back(photon.position);
+    }
 
     PhotonMapT<T> map{.tree = KdTreeT<T>(positions), .records = {}};
     map.records.reserve(photons.size());
@@ -75,8 +79,9 @@ struct Gather {
 inline void check(const Gather& gather) {
     require_positive("gather.radius", gather.radius);
     require_positive("gather.thickness", gather.thickness);
-    require(gather.nearest <= max_gathered, "gather.nearest",
-            static_cast<long long>(gather.nearest), "at most 512");
+    require(gather.nearest != 1 && gather.nearest <= max_gathered, "gather.nearest",
+            static_cast<long long>(gather.nearest),
+            "0 for all within the radius, or 2 to 512 (one photon sets the radius)");
 }
 
 /// The radiance that the photons around a point send towards an observer:
@@ -85,7 +90,11 @@ inline void check(const Gather& gather) {
 ///     \Delta\Phi_i \f]
 ///
 /// With the k nearest, the k-th sets the radius and is left out of the sum: counting it
-/// would be too bright by k/(k-1).
+/// would be too bright by k/(k-1). Fewer than k within the radius are summed over the
+/// whole disc, and the mean stays right.
+///
+/// At a surface's edge half of the disc lies beside it, in a corner three quarters, and
+/// the estimate reads 1/2 and 1/4 of what it should.
 ///
 /// \param map       The photons.
 /// \param surface   Where they are gathered.
@@ -94,11 +103,11 @@ inline void check(const Gather& gather) {
 /// \param gather    Radius, k, kernel.
 /// \param wanted    Which kinds count: called with a PhotonKind.
 /// \param gathered  Counts the photons that were summed.
-/// \return Radiance, W/(m^2 sr).
+/// \return Radiance, W/(m^2 sr); 0 if the k nearest photons all lie at x itself, a disc
+///         without an area.
 /// \report{Section 3.2.6}
 /// \erratum{The report's R_i is called a radiance; it is the BRDF times the photon's
-/// flux.
-///          There is no cosine: the flux that arrives on the surface holds it.}
+///          flux. There is no cosine: the flux that arrives on the surface holds it.}
 // [estimate]
 template <std::floating_point T, typename Material, typename Wanted>
 [[nodiscard]] RgbT<T>
@@ -107,36 +116,39 @@ estimate_radiance(const PhotonMapT<T>& map, const SurfaceT<T>& surface,
                   Wanted wanted, std::uint64_t& gathered) {
     if (map.empty()) return RgbT<T>{T(0)};
     const Vec3T<T>& x = surface.point.position;
-    T radius = T(gather.radius);
-    RgbT<T> sum{T(0)};
+    double radius2 = double(gather.radius) * double(gather.radius);
+    RgbT<double> sum{0}; // many small terms: a float would lose the last of them
     const auto add = [&](std::uint32_t i, double distance2) {
         const PhotonRecordT<T>& photon = map.records[i];
         // Photons of another wall lie outside of the disc.
-        const T height = glm::dot(map.tree.points()[i] - x, surface.point.normal);
-        if (std::abs(height) > T(gather.thickness) * radius) return;
+        const double height = glm::dot(glm::dvec3(map.tree.points()[i]) - glm::dvec3(x),
+                                       glm::dvec3(surface.point.normal));
+        const double limit = double(gather.thickness);
+        if (height * height > limit * limit * radius2) return;
         const Vec3T<T> wi = to_local(surface.frame, -photon.direction);
         const T weight =
-            kernel_weight(gather.kernel, static_cast<T>(distance2) / (radius * radius));
-        sum += weight * evaluate(material, wo, wi) * photon.flux;
+            kernel_weight(gather.kernel, static_cast<T>(distance2 / radius2));
+        sum += RgbT<double>(weight * evaluate(material, wo, wi) * photon.flux);
         ++gathered;
     };
     const auto counts = [&](std::uint32_t i) { return wanted(map.records[i].kind); };
     if (gather.nearest == 0) {
-        map.tree.visit_within(x, radius, [&](std::uint32_t i, double distance2) {
-            if (counts(i)) add(i, distance2);
-        });
+        map.tree.visit_within(x, T(gather.radius),
+                              [&](std::uint32_t i, double distance2) {
+                                  if (counts(i)) add(i, distance2);
+                              });
     } else {
-        std::array<NeighborT<T>, max_gathered> room;
-        const std::span<NeighborT<T>> found(room.data(), gather.nearest);
-        const std::size_t count = map.tree.nearest(x, radius, found, counts);
+        std::array<Neighbor, max_gathered> room;
+        const std::span<Neighbor> found(room.data(), gather.nearest);
+        const std::size_t count = map.tree.nearest(x, T(gather.radius), found, counts);
         const bool full = count == gather.nearest;
-        if (full) radius = static_cast<T>(std::sqrt(found[0].distance2));
+        if (full) radius2 = found[0].distance2;
         // All photons in one point have no area: there is no estimate.
-        if (!(radius > T(0))) return RgbT<T>{T(0)};
+        if (!(radius2 > 0)) return RgbT<T>{T(0)};
         for (std::size_t i = full ? 1 : 0; i < count; ++i)
             add(found[i].index, found[i].distance2);
     }
-    return sum * (std::numbers::inv_pi_v<T> / (radius * radius));
+    return RgbT<T>(sum / (std::numbers::pi * radius2));
 }
 // [estimate]
 

@@ -38,14 +38,14 @@ struct TracedPhotonsT {
 
 /// Compensated Russian roulette: a photon survives with the probability of its
 /// reflection, and a survivor carries what the dead had \cite arvo1990.
-/// \param flux  Before the surface.
+/// \param flux    Before the surface; not black.
 /// \param weight  f |cos| / pdf of the new direction.
-/// \param u  In [0, 1).
-/// \param audit  Takes what was absorbed, and what the game moved.
+/// \param u       In [0, 1).
+/// \param audit   Takes what was absorbed, and what the game moved.
 /// \return The flux that goes on; nothing if the photon dies.
 /// \report{Section 3.2.2}
 /// \erratum{The report does not say that a survivor must be divided by its probability;
-///     its program did not, and lost the absorbed part twice.}
+///          its program did not, and lost the absorbed part twice.}
 // [roulette]
 template <std::floating_point T>
 [[nodiscard]] std::optional<RgbT<T>> play_roulette(const RgbT<T>& flux,

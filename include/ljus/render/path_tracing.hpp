@@ -94,7 +94,7 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
     Vec3T<T> from{T(0)}; // the surface it came from
     log.begin();
 
-    for (int depth = 1; depth <= limits.max_depth; ++depth) {
+    for (int depth = 1;; ++depth) {
         start_bounce(stream, static_cast<std::uint64_t>(depth));
         const auto hit = closest_hit(scene, ray);
         if (!hit) break;
@@ -110,6 +110,7 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
             log.term("emission", "L", term);
             sum += term;
         }
+        if (depth > limits.max_depth) break;
 
         const bool goes_on =
             scene.visit_material(at.surface.object.material, [&](const auto& material) {
@@ -131,11 +132,12 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
                     log.term("shadow ray", "DL", term);
                     sum += term;
                 }
-                if (depth == limits.max_depth) return false;
-
                 const auto next =
                     sample(material, at.wo, next_3d<T>(stream), Transport::radiance);
                 if (!next) return false;
+                // From the last surface a path goes on to the lamp that its shadow ray
+                // left a share of, and to nothing else.
+                if (depth == limits.max_depth && next->specular) return false;
                 throughput *= next->weight;
                 bsdf_pdf = next->pdf;
                 from = at.surface.point.position;

@@ -41,6 +41,7 @@ struct RenderedT {
 /// \param renderer  A PathTracer, a PhotonMapper, or anything with a radiance().
 /// \param camera    The camera.
 /// \param picture   Size and rays.
+/// \param strata    strata_for() the rays of a pixel.
 /// \param x         Column of the pixel.
 /// \param y         Row of the pixel.
 /// \param number    Which of the pixel's rays.

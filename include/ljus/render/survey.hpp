@@ -69,11 +69,26 @@ struct Plan {
     PlanItem flat_loop;      ///< How the first object on a ray is found.
 
     /// All items, in the order in which they are printed.
-    [[nodiscard]] std::array<const PlanItem*, 6> items() const {
+    [[nodiscard]] std::array<const PlanItem*, 6> items() const& {
         return {&shadow_rays, &indirect_rays,  &caustics_map,
                 &general_map, &shadow_photons, &flat_loop};
     }
+    /// Not of a temporary: the items would be gone before they are read.
+    std::array<const PlanItem*, 6> items() const&& = delete;
 };
+
+/// A plan, one line an item: its name, on or off, and why.
+/// \param plan  The plan.
+/// \return Lines that end with a line feed.
+[[nodiscard]] inline std::string to_text(const Plan& plan) {
+    std::string text;
+    for (const PlanItem* item : plan.items()) {
+        std::string name = item->pass;
+        name.resize(16, ' ');
+        text += name + (item->on ? "on   " : "off  ") + item->why + "\n";
+    }
+    return text;
+}
 
 /// What a survey counts in a scene.
 struct SceneNeeds {

@@ -62,7 +62,7 @@ template <std::floating_point T>
                 std::tan(view.vfov_degrees * std::numbers::pi_v<T> / T(360))};
 }
 
-/// \copydoc look_at(const ViewT<T>&)
+/// The same in float, for a view written in braces.
 [[nodiscard]] inline Camera look_at(const View& view) {
     return look_at<float>(view);
 }

@@ -26,7 +26,7 @@ using PointLight = PointLightT<float>; ///< PointLightT in float.
 /// One light of a scene. Its number, the place in Scene::lights, goes with its photons.
 template <std::floating_point T>
 struct LightT {
-    std::optional<ObjectId> object; ///< The emissive object; none for a point light.
+    std::optional<ObjectId> object{}; ///< The emissive object; none for a point light.
     Vec3T<T> position{T(0)};        ///< Of a point light.
     RgbT<T> emission{T(0)};         ///< Radiance of an object, or intensity of a point.
     RgbT<T> flux{T(0)};             ///< W that leave the light in all.

@@ -18,6 +18,7 @@ namespace ljus {
 struct MaterialId {
     std::uint32_t type = 0;  ///< Place in Materials<...>.
     std::uint32_t index = 0; ///< Place in that type's array.
+    /// Whether both name the same material.
     friend bool operator==(const MaterialId&, const MaterialId&) = default;
 };
 
@@ -25,6 +26,7 @@ struct MaterialId {
 struct ObjectId {
     std::uint32_t type = 0;  ///< Place in Shapes<...>.
     std::uint32_t index = 0; ///< Place in that type's array.
+    /// Whether both name the same shape.
     friend bool operator==(const ObjectId&, const ObjectId&) = default;
 };
 
