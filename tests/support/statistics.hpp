@@ -38,7 +38,8 @@ inline bool chi_square_agrees(const std::vector<double>& counts,
     if (rest_expected >= 1)
         add(rest_count, rest_expected);
     else if (rest_count > 8)
-        return false; // something fell where nothing can
+        return false;                 // something fell where nothing can
+    if (cells < 2) return sum < 1e-9; // no choice, no chance
     return sum <= chi_square_limit(cells - 1, z);
 }
 
