@@ -14,18 +14,8 @@
 # a crash is not a test that notices. Texts with quotes or several lines are written
 # [[like this]].
 
+include("${CMAKE_CURRENT_LIST_DIR}/LjusWriteIfDifferent.cmake")
 set(LJUS_BREAK_IT_FOLDER "${CMAKE_CURRENT_LIST_DIR}")
-
-# Writes a file only if that changes it, so that nothing is rebuilt for nothing.
-function(ljus_write_if_different file text)
-    if(EXISTS "${file}")
-        file(READ "${file}" old)
-        if("x${old}" STREQUAL "x${text}")
-            return()
-        endif()
-    endif()
-    file(WRITE "${file}" "${text}")
-endfunction()
 
 function(ljus_break_it)
     cmake_parse_arguments(PARSE_ARGV 0 row "" "NAME;HEADER;TEST;FROM;TO;CASES" "")

@@ -5,7 +5,10 @@ include(CMakePackageConfigHelpers)
 
 set(ljus_package_folder "${CMAKE_INSTALL_DATADIR}/cmake/ljus")
 if(CMAKE_VERSION VERSION_GREATER_EQUAL 3.23)
-    install(TARGETS ljus EXPORT ljus-targets FILE_SET HEADERS)
+    if(ljus_optional_headers)
+        set(ljus_optional_set FILE_SET optional_headers)
+    endif()
+    install(TARGETS ljus EXPORT ljus-targets FILE_SET HEADERS ${ljus_optional_set})
 else()
     install(TARGETS ljus EXPORT ljus-targets)
     install(DIRECTORY "${LJUS_INCLUDE_DIR}/ljus"

@@ -22,8 +22,13 @@ configure() {
     mkdir -p "$folder"
     log="$folder/configure.log"
     cmake -S "$root" -B "$folder" "$@" >"$log" 2>&1 || status=$?
-    grep -E '^-- Ljus: .*(fetched|not installed|not found)' "$log" || true
+    grep -E '^-- Ljus: .*(fetched|not installed|not found|left out)' "$log" || true
     if [ "$status" -ne 0 ]; then
+        # Its own sentence, if it is one of ours; all that it said, if not.
+        if grep -q 'Ljus: .* is not installed; install' "$log"; then
+            fail "$(sed -n '/Ljus: .* is not installed; install/,/^ *$/p' "$log" |
+                tr -s ' \n' '  ' | sed 's/^ *Ljus: //; s/ *$//')"
+        fi
         cat "$log" >&2
         fail "cmake could not configure $folder; its messages are above."
     fi

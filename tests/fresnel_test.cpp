@@ -13,10 +13,10 @@
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
-#include "support/numbers.hpp"
+#include "support/draws.hpp"
 
 using ljus::fresnel;
-using ljus_test::Numbers;
+using ljus_test::Draws;
 
 namespace {
 
@@ -48,16 +48,16 @@ TEST_CASE_TEMPLATE(
     "1e-3 to 1e3 and all angles",
     T, float, double) {
     const Exact u = Exact(std::numeric_limits<T>::epsilon()) / 2;
-    Numbers numbers;
+    Draws draws;
     double worst = 0;
     for (int i = 0; i < 24000; ++i) {
-        T c = numbers.unit<T>();
-        if (i % 3 == 1) c = static_cast<T>(std::pow(10.0, numbers.between(-6.0, 0.0)));
+        T c = draws.unit<T>();
+        if (i % 3 == 1) c = static_cast<T>(std::pow(10.0, draws.between(-6.0, 0.0)));
         if (i % 3 == 2)
-            c = T(1) - static_cast<T>(std::pow(10.0, numbers.between(-6.0, 0.0)));
-        double n = numbers.between(1.0, 4.0);
-        if (i / 3 % 3 == 1) n = 1 + std::pow(10.0, numbers.between(-6.0, 0.0));
-        if (i / 3 % 3 == 2) n = std::pow(10.0, numbers.between(-3.0, 3.0));
+            c = T(1) - static_cast<T>(std::pow(10.0, draws.between(-6.0, 0.0)));
+        double n = draws.between(1.0, 4.0);
+        if (i / 3 % 3 == 1) n = 1 + std::pow(10.0, draws.between(-6.0, 0.0));
+        if (i / 3 % 3 == 2) n = std::pow(10.0, draws.between(-3.0, 3.0));
         T n_i = static_cast<T>(n), n_t = i % 5 == 0 ? T(1.3) : T(1);
         if (i / 9 % 2) std::swap(n_i, n_t);
         const Exact r = exact_fresnel(c, n_i, n_t);
@@ -93,10 +93,10 @@ TEST_CASE("fresnel: at Brewster's angle only one polarisation is left") {
 }
 
 TEST_CASE("fresnel: both sides of a boundary reflect the same along one path") {
-    Numbers numbers{4};
+    Draws draws{4};
     for (int i = 0; i < 20000; ++i) {
-        const double c = numbers.unit<double>();
-        const double n = numbers.between(1.01, 4.0);
+        const double c = draws.unit<double>();
+        const double n = draws.between(1.01, 4.0);
         const double t = std::sqrt(1 - (1 - c * c) / (n * n));
         REQUIRE(fresnel(c, 1.0, n) ==
                 doctest::Approx(fresnel(t, n, 1.0)).epsilon(1e-9));

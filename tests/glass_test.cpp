@@ -39,13 +39,13 @@ TEST_CASE_TEMPLATE("glass: both branches have the weight 1, radiance the square 
                    "index ratio on top, for index ratios 1e-3 to 1e3",
                    T, float, double) {
     static_assert(ljus::Bsdf<GlassT<T>>);
-    Numbers numbers;
+    Draws draws;
     int reflected = 0, refracted = 0;
     for (int i = 0; i < 20000; ++i) {
         const GlassT<T> m{.index =
-                              static_cast<T>(std::pow(10, numbers.between(-3.0, 3.0)))};
-        const auto wo = numbers.direction<T>();
-        const auto u = numbers.cube<T>();
+                              static_cast<T>(std::pow(10, draws.between(-3.0, 3.0)))};
+        const auto wo = draws.direction<T>();
+        const auto u = draws.cube<T>();
         const auto flux = sample(m, wo, u, Transport::flux);
         const auto radiance = sample(m, wo, u, Transport::radiance);
         REQUIRE(flux);
@@ -106,10 +106,10 @@ TEST_CASE("glass: beyond the critical angle all stays inside") {
 TEST_CASE_TEMPLATE("glass: the index of its surroundings makes it invisible", T, float,
                    double) {
     const GlassT<T> m{.index = 1};
-    Numbers numbers;
+    Draws draws;
     for (int i = 0; i < 5000; ++i) {
-        const auto wo = numbers.direction<T>();
-        const auto s = sample(m, wo, numbers.cube<T>(), Transport::radiance);
+        const auto wo = draws.direction<T>();
+        const auto s = sample(m, wo, draws.cube<T>(), Transport::radiance);
         REQUIRE(s);
         REQUIRE(glm::length(s->wi + wo) <= 4 * std::numeric_limits<T>::epsilon());
         REQUIRE(s->weight == Vec3T<T>{1, 1, 1});
@@ -145,18 +145,18 @@ TEST_CASE(
     "inside included") {
     const GlassT<double> m{.index = 1.5};
     const double table[][2] = {{0, 2 * 1.5 / (1.5 * 1.5 + 1)}, {60, 0.8362}};
-    Numbers numbers;
+    Draws draws;
     constexpr int count = 200000;
     for (const auto& [degrees, expected] : table) {
         CAPTURE(degrees);
         int passed = 0;
         for (int i = 0; i < count; ++i) {
-            auto s = sample(m, at_degrees<double>(degrees), numbers.cube<double>(),
+            auto s = sample(m, at_degrees<double>(degrees), draws.cube<double>(),
                             Transport::flux);
             int crossings = 0;
             while (s->wi.z < 0) { // inside
                 ++crossings;
-                s = sample(m, at_other_face(s->wi), numbers.cube<double>(),
+                s = sample(m, at_other_face(s->wi), draws.cube<double>(),
                            Transport::flux);
             }
             passed += crossings % 2;

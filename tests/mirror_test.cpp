@@ -15,17 +15,17 @@ using namespace ljus_test;
 TEST_CASE_TEMPLATE("mirror: the mirror direction, on the side that is looked at", T,
                    float, double) {
     const MirrorT<T> m{.reflectance{T(0.9), T(0.8), T(0.1)}};
-    Numbers numbers;
+    Draws draws;
     for (int i = 0; i < 2000; ++i) {
-        const auto wo = numbers.direction<T>();
-        const auto s = sample(m, wo, numbers.cube<T>(), Transport::radiance);
+        const auto wo = draws.direction<T>();
+        const auto s = sample(m, wo, draws.cube<T>(), Transport::radiance);
         REQUIRE(s);
         REQUIRE(s->wi == ljus::Vec3T<T>{-wo.x, -wo.y, wo.z});
         REQUIRE(s->weight == m.reflectance);
         REQUIRE(s->specular);
         REQUIRE(s->pdf == 0);
         // The other way round it is the same path.
-        const auto back = sample(m, s->wi, numbers.cube<T>(), Transport::flux);
+        const auto back = sample(m, s->wi, draws.cube<T>(), Transport::flux);
         REQUIRE(back->wi == wo);
     }
     check_extremes(m, 1);

@@ -114,9 +114,9 @@ TEST_CASE_TEMPLATE(
     T, float, double) {
     const RgbT<T> color{T(0.2), T(0.5), T(0.8)};
     const T u3 = 3 * std::numeric_limits<T>::epsilon();
-    Numbers numbers;
+    Draws draws;
     for (int i = 0; i < 2000; ++i) {
-        const auto wo = numbers.direction<T>(), wi = numbers.direction<T>();
+        const auto wo = draws.direction<T>(), wi = draws.direction<T>();
         const auto near = [u3](const RgbT<T>& a, const RgbT<T>& b) {
             return glm::length(a - b) <= u3 * glm::length(b);
         };
@@ -125,7 +125,7 @@ TEST_CASE_TEMPLATE(
         REQUIRE(near(
             evaluate(MixtureT<T>{.color = color, .sigma = T(0.4)}, wo, wi),
             evaluate(ljus::OrenNayarT<T>{.albedo = color, .sigma = T(0.4)}, wo, wi)));
-        const auto u = numbers.cube<T>();
+        const auto u = draws.cube<T>();
         for (const auto transport : {Transport::radiance, Transport::flux}) {
             const auto mirror =
                 sample(MixtureT<T>{.reflectivity = 1}, wo, u, transport);
@@ -212,12 +212,12 @@ TEST_CASE("mixture: asking for deltas only gives all that the deltas carry") {
 }
 
 TEST_CASE("mixture: without roughness no weight is above 1, so that no path grows") {
-    Numbers numbers;
+    Draws draws;
     for (D m : kinds) {
         m.sigma = 0;
         for (int i = 0; i < 5000; ++i) {
-            const auto s = sample(m, numbers.direction<double>(),
-                                  numbers.cube<double>(), Transport::flux);
+            const auto s = sample(m, draws.direction<double>(), draws.cube<double>(),
+                                  Transport::flux);
             if (s) REQUIRE(ljus::max_component(s->weight) <= 1 + 1e-12);
         }
     }

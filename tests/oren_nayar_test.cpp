@@ -57,13 +57,13 @@ double closed_form(double sigma, double theta) {
 TEST_CASE_TEMPLATE("oren_nayar: within 64 roundoffs of the printed formula", T, float,
                    double) {
     const long double u = std::numeric_limits<T>::epsilon() / 2;
-    Numbers numbers;
+    Draws draws;
     long double worst = 0;
     for (int i = 0; i < 100000; ++i) {
-        const T sigma = i % 2 ? numbers.unit<T>() : numbers.between(T(0), T(100));
-        auto wo = numbers.above<T>(), wi = numbers.above<T>();
+        const T sigma = i % 2 ? draws.unit<T>() : draws.between(T(0), T(100));
+        auto wo = draws.above<T>(), wi = draws.above<T>();
         if (i % 5 == 0) wi = wo; // the same angle
-        if (i % 7 == 0) wo = at_degrees<T>(numbers.between(85.0, 89.9), 20);
+        if (i % 7 == 0) wo = at_degrees<T>(draws.between(85.0, 89.9), 20);
         const long double exact = printed(sigma, wo, wi);
         const long double ours =
             static_cast<long double>(ljus::oren_nayar_ratio(sigma, wo, wi));
@@ -106,11 +106,11 @@ TEST_CASE_TEMPLATE("oren_nayar: without roughness it is Lambert, to the last bit
                    float, double) {
     const OrenNayarT<T> rough{.albedo{T(0.2), T(0.5), T(1)}, .sigma = 0};
     const ljus::LambertianT<T> matt{.albedo = rough.albedo};
-    Numbers numbers;
+    Draws draws;
     for (int i = 0; i < 2000; ++i) {
-        const auto wo = numbers.direction<T>(), wi = numbers.direction<T>();
+        const auto wo = draws.direction<T>(), wi = draws.direction<T>();
         REQUIRE(evaluate(rough, wo, wi) == evaluate(matt, wo, wi));
-        const auto u = numbers.cube<T>();
+        const auto u = draws.cube<T>();
         const auto a = sample(rough, wo, u, ljus::Transport::flux);
         const auto b = sample(matt, wo, u, ljus::Transport::flux);
         REQUIRE(bool(a));

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <limits>
 
-#include "support/numbers.hpp"
+#include "support/draws.hpp"
 
 using ljus::Vec3T;
-using ljus_test::Numbers;
+using ljus_test::Draws;
 
 TEST_CASE("reflection: a ball that bounces off the floor") {
     const ljus::Vec3 up{0, 0, 1};
@@ -24,10 +24,10 @@ TEST_CASE("reflection: a ball that bounces off the floor") {
 TEST_CASE_TEMPLATE("reflection: length and angle are kept, the part along the surface "
                    "too, and twice is back",
                    T, float, double) {
-    Numbers numbers;
+    Draws draws;
     const T u = std::numeric_limits<T>::epsilon() / 2;
     for (int i = 0; i < 20000; ++i) {
-        const Vec3T<T> d = numbers.direction<T>(), n = numbers.direction<T>();
+        const Vec3T<T> d = draws.direction<T>(), n = draws.direction<T>();
         const Vec3T<T> r = ljus::reflect(d, n);
         REQUIRE(std::abs(glm::length(r) - 1) <= 12 * u);
         REQUIRE(std::abs(glm::dot(r, n) + glm::dot(d, n)) <= 8 * u);
@@ -48,9 +48,9 @@ TEST_CASE_TEMPLATE("reflection: any length is kept", T, float, double) {
 TEST_CASE_TEMPLATE("reflection: the frame of a material has the same law, directions "
                    "pointing away",
                    T, float, double) {
-    Numbers numbers{2};
+    Draws draws{2};
     for (int i = 0; i < 2000; ++i) {
-        const Vec3T<T> wo = numbers.direction<T>();
+        const Vec3T<T> wo = draws.direction<T>();
         const Vec3T<T> wi = ljus::reflect(wo);
         REQUIRE(wi == Vec3T<T>{-wo.x, -wo.y, wo.z});
         // Light that comes from wi travels along -wi, and leaves along wo.

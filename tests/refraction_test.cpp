@@ -15,10 +15,10 @@
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
-#include "support/numbers.hpp"
+#include "support/draws.hpp"
 
 using ljus::Vec3T;
-using ljus_test::Numbers;
+using ljus_test::Draws;
 
 namespace {
 
@@ -48,24 +48,24 @@ Exact sine(const Exact3& a, const Exact3& b) {
 
 /// An index ratio from 1e-3 to 1e3, as often below 1 as above.
 template <typename T>
-T ratio(Numbers& numbers) {
-    return static_cast<T>(std::pow(10.0, numbers.between(-3.0, 3.0)));
+T ratio(Draws& draws) {
+    return static_cast<T>(std::pow(10.0, draws.between(-3.0, 3.0)));
 }
 
 /// A direction towards a normal: at any angle, at grazing ones, and for a large index
 /// ratio at those that can pass, and close to the critical one.
 template <typename T>
-Vec3T<T> incoming(Numbers& numbers, const Vec3T<T>& normal, T eta, int kind) {
+Vec3T<T> incoming(Draws& draws, const Vec3T<T>& normal, T eta, int kind) {
     using L = long double;
     const auto unit = [](const glm::vec<3, L>& v) { return v / glm::length(v); };
     const glm::vec<3, L> n = unit(glm::vec<3, L>(normal));
-    const glm::vec<3, L> d = numbers.direction<double>();
+    const glm::vec<3, L> d = draws.direction<double>();
     const glm::vec<3, L> along = unit(d - glm::dot(d, n) * n);
     const L most = std::min(L(1), 1 / L(eta));
-    L s = numbers.unit<double>();
+    L s = draws.unit<double>();
     if (kind == 1) s *= most;
-    if (kind == 2) s = most * (1 - std::pow(L(10), L(numbers.between(-16.0, -2.0))));
-    if (kind == 3) s = std::pow(L(10), L(numbers.between(-12.0, 0.0))) * most;
+    if (kind == 2) s = most * (1 - std::pow(L(10), L(draws.between(-16.0, -2.0))));
+    if (kind == 3) s = std::pow(L(10), L(draws.between(-12.0, 0.0))) * most;
     return Vec3T<T>(unit(s * along - std::sqrt((1 - s) * (1 + s)) * n));
 }
 
@@ -77,12 +77,12 @@ struct Worst {
 template <typename T, typename Refract>
 Worst worst(Refract refract_it, bool local) {
     const Exact u = Exact(std::numeric_limits<T>::epsilon()) / 2;
-    Numbers numbers;
+    Draws draws;
     Worst worst;
     for (int i = 0; i < 20000; ++i) {
-        const Vec3T<T> n = local ? Vec3T<T>{0, 0, 1} : numbers.direction<T>();
-        const T eta = ratio<T>(numbers);
-        const Vec3T<T> d = incoming(numbers, n, eta, i % 4);
+        const Vec3T<T> n = local ? Vec3T<T>{0, 0, 1} : draws.direction<T>();
+        const T eta = ratio<T>(draws);
+        const Vec3T<T> d = incoming(draws, n, eta, i % 4);
         const auto t = refract_it(d, n, eta);
         if (!t) continue;
         const Exact3 en(n), ed(d), et(*t);
@@ -124,21 +124,21 @@ TEST_CASE_TEMPLATE("refraction: total reflection is decided right unless it take
                    "less than 8 roundoffs to change it",
                    T, float, double) {
     const Exact u = Exact(std::numeric_limits<T>::epsilon()) / 2;
-    Numbers numbers{3};
+    Draws draws{3};
     int passed = 0, reflected = 0;
     double farthest = 0; // of a wrong decision from the critical angle, in roundoffs
     for (int i = 0; i < 40000; ++i) {
         const bool local = i % 2 == 0;
-        const Vec3T<T> n = local ? Vec3T<T>{0, 0, 1} : numbers.direction<T>();
+        const Vec3T<T> n = local ? Vec3T<T>{0, 0, 1} : draws.direction<T>();
         const T eta =
-            i % 4 < 2 ? static_cast<T>(std::pow(10.0, numbers.between(0.0, 3.0)))
-                      : static_cast<T>(1 + std::pow(10.0, numbers.between(-9.0, 0.0)));
+            i % 4 < 2 ? static_cast<T>(std::pow(10.0, draws.between(0.0, 3.0)))
+                      : static_cast<T>(1 + std::pow(10.0, draws.between(-9.0, 0.0)));
         // Sines from a bit below the critical one to a bit above.
-        Vec3T<T> d = incoming(numbers, n, eta, 2);
-        const double few = numbers.between(-40.0, 40.0);
+        Vec3T<T> d = incoming(draws, n, eta, 2);
+        const double few = draws.between(-40.0, 40.0);
         d = Vec3T<T>(glm::vec<3, long double>(d) +
                      static_cast<long double>(few) * std::numeric_limits<T>::epsilon() *
-                         glm::vec<3, long double>(numbers.direction<double>()));
+                         glm::vec<3, long double>(draws.direction<double>()));
         const Exact q = Exact(eta) * sine(Exact3(n), Exact3(d));
         const auto t = local ? ljus::refract(-d, eta) : ljus::refract(d, n, eta);
         ++(t ? passed : reflected);
@@ -168,11 +168,11 @@ TEST_CASE_TEMPLATE("refraction: the known bend into glass and out of it", T, flo
 }
 
 TEST_CASE_TEMPLATE("refraction: a path can be walked back", T, float, double) {
-    Numbers numbers{11};
+    Draws draws{11};
     const double u = std::numeric_limits<T>::epsilon() / 2;
     for (int i = 0; i < 20000; ++i) {
-        const Vec3T<T> wo = numbers.direction<T>();
-        const T eta = static_cast<T>(std::pow(10.0, numbers.between(-1.0, 1.0)));
+        const Vec3T<T> wo = draws.direction<T>();
+        const T eta = static_cast<T>(std::pow(10.0, draws.between(-1.0, 1.0)));
         const auto wi = ljus::refract(wo, eta);
         if (!wi) continue;
         const auto back = ljus::refract(*wi, T(1) / eta);
@@ -191,10 +191,10 @@ TEST_CASE_TEMPLATE(
     "refraction: into the same index a ray goes straight on, even where it "
     "grazes",
     T, float, double) {
-    Numbers numbers{5};
+    Draws draws{5};
     const T u = std::numeric_limits<T>::epsilon() / 2;
     for (int i = 0; i < 20000; ++i) {
-        Vec3T<T> wo = numbers.direction<T>();
+        Vec3T<T> wo = draws.direction<T>();
         if (i % 2) wo = glm::normalize(Vec3T<T>{wo.x, wo.y, T(1e-6) * wo.z});
         const auto wi = ljus::refract(wo, T(1));
         REQUIRE(wi);
@@ -217,10 +217,10 @@ TEST_CASE_TEMPLATE("refraction: straight down stays straight down", T, float, do
 
 TEST_CASE_TEMPLATE("refraction: the normal may point to either side", T, float,
                    double) {
-    Numbers numbers{9};
+    Draws draws{9};
     for (int i = 0; i < 2000; ++i) {
-        const Vec3T<T> n = numbers.direction<T>(), d = numbers.direction<T>();
-        const T eta = ratio<T>(numbers);
+        const Vec3T<T> n = draws.direction<T>(), d = draws.direction<T>();
+        const T eta = ratio<T>(draws);
         const auto a = ljus::refract(d, n, eta), b = ljus::refract(d, -n, eta);
         REQUIRE(bool(a) == bool(b));
         if (a) REQUIRE(*a == *b);

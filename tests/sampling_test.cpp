@@ -12,11 +12,11 @@
 #include <numbers>
 #include <vector>
 
-#include "support/numbers.hpp"
+#include "support/draws.hpp"
 #include "support/statistics.hpp"
 
 using ljus::Vec2T, ljus::Vec3T;
-using ljus_test::Numbers;
+using ljus_test::Draws;
 
 namespace {
 
@@ -69,10 +69,10 @@ int failures(double z_low, double z_high, Sample sample, Pdf pdf) {
         }
     int failed = 0;
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
-        Numbers numbers{seed * 7919 + 1};
+        Draws draws{seed * 7919 + 1};
         std::vector<double> counts(expected.size());
         for (int i = 0; i < count; ++i) {
-            const Vec3T<T> d = sample(numbers.square<T>());
+            const Vec3T<T> d = sample(draws.square<T>());
             const double phi = std::atan2(double(d.y), double(d.x));
             const double across = (phi < 0 ? phi + 2 * pi : phi) / dphi;
             const double up = (double(d.z) - z_low) / dz;
@@ -127,14 +127,14 @@ TEST_CASE_TEMPLATE("sampling: points of disc and triangle are uniform in area ov
         return index(a) * cells + index(b);
     };
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
-        Numbers numbers{seed * 104729 + 3};
+        Draws draws{seed * 104729 + 3};
         std::vector<double> disc(cells * cells), triangle(cells * cells);
         for (int i = 0; i < count; ++i) {
-            const auto p = ljus::sample_concentric_disc(numbers.square<T>());
+            const auto p = ljus::sample_concentric_disc(draws.square<T>());
             // Radius squared and azimuth are uniform on a uniform disc.
             disc[cell(double(p.x * p.x + p.y * p.y),
                       (std::atan2(double(p.y), double(p.x)) + pi) / (2 * pi))] += 1;
-            const auto b = ljus::sample_uniform_triangle(numbers.square<T>());
+            const auto b = ljus::sample_uniform_triangle(draws.square<T>());
             // So are the area beyond a parallel to a side, and the place along it.
             const double beyond = double(b.x + b.y);
             triangle[cell(beyond * beyond, beyond > 0 ? double(b.x) / beyond : 0)] += 1;

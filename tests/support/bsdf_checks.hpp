@@ -16,7 +16,7 @@
 #include <doctest/doctest.h>
 
 #include "ljus/materials/bsdf.hpp"
-#include "support/numbers.hpp"
+#include "support/draws.hpp"
 #include "support/statistics.hpp"
 
 namespace ljus_test {
@@ -64,9 +64,9 @@ ljus::RgbT<double> specular_albedo(const M& m,
 template <ljus::Bsdf M>
 void check_reciprocity(const M& m, double roundoffs = 4) {
     using T = typename M::Scalar;
-    Numbers numbers{17};
+    Draws draws{17};
     for (int i = 0; i < 5000; ++i) {
-        const auto a = numbers.direction<T>(), b = numbers.direction<T>();
+        const auto a = draws.direction<T>(), b = draws.direction<T>();
         const auto ab = evaluate(m, a, b), ba = evaluate(m, b, a);
         for (int c = 0; c < 3; ++c) {
             REQUIRE(ab[c] >= 0);
@@ -108,10 +108,10 @@ void check_sampling(const M& m, const ljus::Vec3T<typename M::Scalar>& wo,
     expected.back() = std::max(0.0, 1 - dense) * count;
     if (expected.back() < 1) expected.back() = 0; // quadrature error
 
-    Numbers numbers{seed};
+    Draws draws{seed};
     const T u = std::numeric_limits<T>::epsilon() / 2;
     for (int i = 0; i < count; ++i) {
-        const auto s = sample(m, wo, numbers.cube<T>(), ljus::Transport::flux, which);
+        const auto s = sample(m, wo, draws.cube<T>(), ljus::Transport::flux, which);
         if (!s || s->specular) counts.back() += 1;
         if (!s) continue;
         REQUIRE(std::abs(glm::length(s->wi) - 1) <= 4 * u);

@@ -20,10 +20,10 @@ namespace ljus {
 /// \report{Definition 3.1}
 template <std::floating_point T>
 struct RayT {
-    Vec3T<T> origin{T(0)};                           ///< O, in scene units.
-    Vec3T<T> direction{T(0), T(0), T(-1)};           ///< D: any length but zero.
-    T t_min = T(0);                                  ///< First t that counts, >= 0.
-    T t_max = std::numeric_limits<T>::infinity();    ///< Last t that counts.
+    Vec3T<T> origin{T(0)};                        ///< O, in scene units.
+    Vec3T<T> direction{T(0), T(0), T(-1)};        ///< D: any length but zero.
+    T t_min = T(0);                               ///< First t that counts, >= 0.
+    T t_max = std::numeric_limits<T>::infinity(); ///< Last t that counts.
 };
 using Ray = RayT<float>; ///< RayT in float.
 

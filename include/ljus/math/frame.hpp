@@ -8,7 +8,8 @@
 namespace ljus {
 
 /// \defgroup frame Frames
-/// \brief Materials and samplers work with z along the normal; a frame takes them there.
+/// \brief Materials and samplers work with z along the normal; a frame takes them
+/// there.
 /// \{
 
 /// Three orthonormal vectors; `normal` plays the part of z.

@@ -4,6 +4,9 @@
 /// \brief The checks at the border of the library, each with a sentence to act on.
 
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -16,14 +19,23 @@ namespace ljus {
 /// \brief Data are checked once, where a scene, a camera, a map or an image is made.
 /// \{
 
-/// A value as a message shows it.
+/// A number as a person writes it: -1, 0.5, 1e-7, 1e+30, NaN, infinity; with as many
+/// digits, from 6 on, as bring the same value back, so that 1.0000001 is not "1".
+/// \param value  Any number.
+/// \return The text.
 template <std::floating_point T>
 [[nodiscard]] std::string to_text(T value) {
     if (std::isnan(value)) return "NaN";
-    std::string text = std::to_string(value);
-    // std::to_string prints six decimals: too few for a small value, so show its size.
-    if (value != T(0) && std::abs(value) < T(1e-3))
-        text = std::to_string(value * T(1e6)) + "e-6";
+    if (std::isinf(value)) return value < T(0) ? "-infinity" : "infinity";
+    char digits[40];
+    for (int count = 6; count <= std::numeric_limits<T>::max_digits10; ++count) {
+        std::snprintf(digits, sizeof digits, "%.*g", count, double(value));
+        if (static_cast<T>(std::strtod(digits, nullptr)) == value) break;
+    }
+    std::string text = digits;
+    // C writes at least two digits of an exponent: 1e-07.
+    const std::size_t e = text.find('e');
+    if (e != std::string::npos && text[e + 2] == '0') text.erase(e + 2, 1);
     return text;
 }
 
@@ -99,8 +111,8 @@ void require_unit(std::string_view what, const RgbT<T>& value) {
 /// \throws std::invalid_argument  as require().
 template <std::floating_point T>
 void require_radiance(std::string_view what, const RgbT<T>& value) {
-    const bool ok = is_finite(value) && value.x >= T(0) && value.y >= T(0) &&
-                    value.z >= T(0);
+    const bool ok =
+        is_finite(value) && value.x >= T(0) && value.y >= T(0) && value.z >= T(0);
     require(ok, what, value, "finite and at least 0 in every channel");
 }
 

@@ -39,6 +39,11 @@ using Rgb = RgbT<float>; ///< RgbT in float.
 template <typename Compute, std::floating_point T>
 using ComputeT = std::conditional_t<std::is_void_v<Compute>, T, Compute>;
 
+/// At least double: for the few places where neither the digits nor the range of float
+/// will do, and speed does not matter.
+template <std::floating_point T>
+using WideT = decltype(T() + double());
+
 /// Whether every component is neither NaN nor infinite.
 template <std::floating_point T>
 [[nodiscard]] bool is_finite(const Vec3T<T>& v) noexcept {

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "ljus/optics/schlick.hpp"
+#include "ljus/version.hpp"
 
 namespace ljus {
 

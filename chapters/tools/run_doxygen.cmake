@@ -1,0 +1,15 @@
+# Runs Doxygen in FOLDER and shows its warnings, which it also leaves in warnings.txt.
+cmake_minimum_required(VERSION 3.22)
+execute_process(COMMAND "${DOXYGEN}" Doxyfile WORKING_DIRECTORY "${FOLDER}"
+    RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+set(warnings)
+if(EXISTS "${FOLDER}/warnings.txt")
+    file(READ "${FOLDER}/warnings.txt" warnings)
+endif()
+if(NOT "x${warnings}" STREQUAL "x")
+    message("${warnings}")
+endif()
+if(NOT result EQUAL 0)
+    message("${output}")
+    message(FATAL_ERROR "Doxygen is not content with the book; its messages are above.")
+endif()

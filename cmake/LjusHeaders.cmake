@@ -1,0 +1,34 @@
+# ljus_sort_headers(<required> <optional>): all headers, found where they belong.
+#
+# A header that needs a package beyond GLM and stb is optional: it is checked only where
+# that package is there, and no other header includes it.
+set(LJUS_OPTIONAL_PACKAGES nlohmann/json.hpp tiny_obj_loader.h stb/stb_image.h)
+
+function(ljus_sort_headers required optional)
+    file(GLOB_RECURSE headers CONFIGURE_DEPENDS "${LJUS_INCLUDE_DIR}/ljus/*.hpp")
+    set(with)
+    set(without)
+    foreach(header IN LISTS headers)
+        ljus_packages_of("${header}" packages)
+        if(packages)
+            list(APPEND with "${header}")
+        else()
+            list(APPEND without "${header}")
+        endif()
+    endforeach()
+    set(${required} "${without}" PARENT_SCOPE)
+    set(${optional} "${with}" PARENT_SCOPE)
+endfunction()
+
+# The headers of other packages that an optional header of ours names.
+function(ljus_packages_of header result)
+    file(READ "${header}" text)
+    set(packages)
+    foreach(package IN LISTS LJUS_OPTIONAL_PACKAGES)
+        string(FIND "${text}" "#include <${package}>" at)
+        if(NOT at EQUAL -1)
+            list(APPEND packages "${package}")
+        endif()
+    endforeach()
+    set(${result} "${packages}" PARENT_SCOPE)
+endfunction()

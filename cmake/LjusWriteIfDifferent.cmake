@@ -1,0 +1,10 @@
+# Writes a file only if that changes it, so that nothing is rebuilt for nothing.
+function(ljus_write_if_different file text)
+    if(EXISTS "${file}")
+        file(READ "${file}" old)
+        if("x${old}" STREQUAL "x${text}")
+            return()
+        endif()
+    endif()
+    file(WRITE "${file}" "${text}")
+endfunction()

@@ -1,0 +1,271 @@
+// The one file that includes CLI11.
+#include "command_line.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+
+#include <CLI/CLI.hpp>
+
+#include "ljus/image/file.hpp"
+#include "ljus/parallel.hpp"
+
+namespace examples {
+
+namespace {
+
+std::string version_text() {
+    return "Ljus " + std::to_string(LJUS_VERSION_MAJOR) + "." +
+           std::to_string(LJUS_VERSION_MINOR) + "." +
+           std::to_string(LJUS_VERSION_PATCH);
+}
+
+// Makes the folder if it is missing, and writes and removes a file in it: whether that
+// works depends on more than the permissions.
+void require_folder(const std::string& folder) {
+    const auto fail = [&](const std::string& why) {
+        throw std::runtime_error("cannot write into the folder '" + folder +
+                                 "' of --out: " + why);
+    };
+    if (folder.empty()) fail("its name is empty");
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) fail(error.message());
+    if (!std::filesystem::is_directory(folder, error)) fail("it is no folder");
+    try {
+        const unsigned char byte[1] = {0};
+        ljus::detail::FileBeside probe(
+            (std::filesystem::path(folder) / ".ljus").string());
+        probe.write(byte);
+        probe.close();
+    } catch (const std::system_error& problem) {
+        fail(problem.code().message());
+    }
+}
+
+// One line without its full stop.
+std::string without_end(std::string text) {
+    const std::size_t end = text.find_last_not_of(" \n.");
+    text.erase(end == std::string::npos ? 0 : end + 1);
+    for (char& c : text)
+        if (c == '\n') c = ' ';
+    return text;
+}
+
+// All digits, and below 2^64: the parser's own conversion takes -1 for the largest seed.
+std::optional<std::uint64_t> to_seed(const std::string& text) {
+    std::uint64_t seed = 0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, seed);
+    if (error != std::errc() || rest != end) return std::nullopt;
+    return seed;
+}
+
+std::string check_seed(const std::string& text) {
+    if (to_seed(text)) return "";
+    return "Value " + text + " not in range 0 to 18446744073709551615";
+}
+
+} // namespace
+
+void require_writable(const std::string& path) {
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    require_folder(folder.empty() ? "." : folder.string());
+    const unsigned char byte[1] = {0};
+    ljus::detail::FileBeside probe(ljus::detail::file_to_replace(path));
+    probe.write(byte);
+    probe.close();
+}
+
+std::string Options::path(const std::string& name) const {
+    stop_if_asked();
+    return (std::filesystem::path(out) / name).string();
+}
+
+struct CommandLine::Parser {
+    CLI::App app;
+    std::vector<std::string> arguments;
+    std::vector<std::string> file_types;
+    Options options;
+    std::string quality = "report";
+    std::string seed = "1";
+};
+
+CommandLine::CommandLine(std::vector<std::string> arguments)
+    : parser_(std::make_unique<Parser>()) {
+    CLI::App& app = parser_->app;
+    Options& options = parser_->options;
+    parser_->arguments = std::move(arguments);
+    const std::string program =
+        parser_->arguments.empty() ? "example" : parser_->arguments.front();
+    app.name(std::filesystem::path(program).filename().string());
+    app.set_version_flag("--version", version_text());
+    app.get_formatter()->column_width(32);
+
+    // Given twice, the last one counts: a script's options can be followed by one's own.
+    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    app.add_option("--out", options.out,
+                   "Folder for the files, made if it is missing [.]")
+        ->option_text("DIR");
+    app.add_option("--quality", parser_->quality,
+                   "draft, report or reference: size and rays [report]")
+        ->check(CLI::IsMember({"draft", "report", "reference"}).description(""))
+        ->option_text("WORD");
+    app.add_option("--seed", parser_->seed, "Another seed, other noise [1]")
+        ->check(check_seed)
+        ->option_text("N");
+    app.add_option("--threads", options.threads, "0 for all processors [0]")
+        ->check(CLI::Range(0, ljus::max_threads_allowed).description(""))
+        ->option_text("N");
+    app.add_option("--width", options.width, "Width of the picture in pixels")
+        ->check(CLI::Range(1, 65536).description(""))
+        ->option_text("N");
+    app.add_option("--height", options.height, "Height of the picture in pixels")
+        ->check(CLI::Range(1, 65536).description(""))
+        ->option_text("N");
+    app.add_option("--rays,--spp", options.rays, "Rays per pixel")
+        ->check(CLI::Range(1, 100'000'000).description(""))
+        ->option_text("N");
+    app.add_flag("--quiet", options.quiet, "No progress bar and no text");
+}
+
+CommandLine::~CommandLine() = default;
+
+void CommandLine::about(const std::string& text) {
+    parser_->app.description(text);
+}
+
+void CommandLine::add(const std::string& name, int& value, const std::string& help,
+                      int least, int most) {
+    parser_->app.add_option(name, value, help + " [" + std::to_string(value) + "]")
+        ->check(CLI::Range(least, most).description(""))
+        ->option_text("N");
+}
+
+void CommandLine::add(const std::string& name, long long& value,
+                      const std::string& help, long long least, long long most) {
+    parser_->app.add_option(name, value, help + " [" + std::to_string(value) + "]")
+        ->check(CLI::Range(least, most).description(""))
+        ->option_text("N");
+}
+
+void CommandLine::add(const std::string& name, double& value, const std::string& help,
+                      double least, double most) {
+    char text[32];
+    const auto show = [&text](double number) {
+        std::snprintf(text, sizeof text, "%g", number);
+        return std::string(text);
+    };
+    const std::string range = show(least) + " to " + show(most);
+    parser_->app.add_option(name, value, help + " [" + show(value) + "]")
+        ->check([least, most, range](const std::string& given) {
+            double number = 0.0;
+            const bool ok = CLI::detail::lexical_cast(given, number) &&
+                            number >= least && number <= most; // NaN is not
+            return ok ? std::string() : "Value " + given + " not in range " + range;
+        })
+        ->option_text("X");
+}
+
+void CommandLine::add(const std::string& name, std::string& value,
+                      const std::string& help, const std::vector<std::string>& words) {
+    CLI::Option* const option =
+        parser_->app.add_option(name, value, help + " [" + value + "]");
+    option->option_text("WORD");
+    if (!words.empty()) option->check(CLI::IsMember(words).description(""));
+}
+
+void CommandLine::add(const std::string& name, bool& value, const std::string& help) {
+    parser_->app.add_flag(name, value, help);
+}
+
+void CommandLine::add_positional(const std::string& name, std::string& value,
+                                 const std::string& help) {
+    parser_->app.add_option(name, value, help)->required();
+}
+
+void CommandLine::file_types(const std::vector<std::string>& types) {
+    parser_->file_types = types;
+    parser_->app.get_option("--out")
+        ->description("The file, or a folder for it [.]")
+        ->option_text("PATH");
+}
+
+bool CommandLine::given(const std::string& name) const {
+    return parser_->app.count(name) > 0;
+}
+
+Options CommandLine::parse(const Presets& presets) {
+    CLI::App& app = parser_->app;
+    Options& options = parser_->options;
+    std::vector<const char*> words;
+    for (const std::string& word : parser_->arguments) words.push_back(word.c_str());
+    try {
+        app.parse(static_cast<int>(words.size()), words.data());
+    } catch (const CLI::ParseError& error) {
+        // --help and --version arrive here as well: those are no errors.
+        if (error.get_exit_code() == 0) throw Exit{app.exit(error)};
+        throw std::invalid_argument(without_end(error.what()) + " (see --help)");
+    }
+    options.quality = parser_->quality == "draft"    ? Quality::draft
+                      : parser_->quality == "report" ? Quality::report
+                                                     : Quality::reference;
+    options.seed = to_seed(parser_->seed).value();
+    const Frame frame = options.pick(presets.draft, presets.report, presets.reference);
+    if (!given("--width")) options.width = frame.width;
+    if (!given("--height")) options.height = frame.height;
+    if (!given("--rays")) options.rays = frame.rays;
+    const std::vector<std::string>& types = parser_->file_types;
+    const std::filesystem::path out = options.out;
+    if (std::find(types.begin(), types.end(), out.extension()) != types.end() &&
+        !std::filesystem::is_directory(out)) {
+        options.file = out.filename().string();
+        options.out = out.has_parent_path() ? out.parent_path().string() : ".";
+    }
+    if (types.empty()) require_folder(options.out);
+    return options;
+}
+
+int run_main(int argc, const char* const* argv,
+             const std::function<void(CommandLine&)>& body) {
+    std::string name = argc > 0 ? argv[0] : "example";
+    const auto complain = [&name](const std::string& what) {
+        std::fprintf(stderr, "%s: %s.\n", name.c_str(), without_end(what).c_str());
+        return 2;
+    };
+    try {
+        name = std::filesystem::path(name).filename().string();
+        handle_signals();
+        CommandLine line({argv, argv + argc});
+        body(line);
+        // What was said to a full disk or a closed pipe must not be lost in silence.
+        if (std::fflush(stdout) != 0) {
+            const int error = errno;
+            return complain("cannot write to standard output: " +
+                            std::generic_category().message(error));
+        }
+        stop_if_asked();
+        return 0;
+    } catch (const Exit& exit) {
+        return exit.code;
+    } catch (const Interrupted&) {
+        return 128 + stop_signal();
+    } catch (const std::bad_alloc&) {
+        return complain("there is not enough memory");
+    } catch (const std::exception& error) {
+        // An error in the wake of Ctrl-C is no news.
+        if (stop_signal() != 0) return 128 + stop_signal();
+        return complain(error.what());
+    } catch (...) {
+        return complain("something unknown went wrong");
+    }
+}
+
+} // namespace examples

@@ -1,0 +1,151 @@
+#pragma once
+
+/// \file examples/common/command_line.hpp
+/// \brief The command line that all example programs share.
+///
+/// The work is done by CLI11 in command_line.cpp, which is compiled once: its header
+/// takes longer to compile than a whole chapter.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "signals.hpp"
+
+namespace examples {
+
+/// How much time a picture may take.
+enum class Quality {
+    draft,    ///< A second or so: does it work?
+    report,   ///< As the report has it.
+    reference ///< As good as it gets.
+};
+
+/// The size of a picture and the rays per pixel.
+struct Frame {
+    int width = 400;  ///< In pixels.
+    int height = 400; ///< In pixels.
+    int rays = 64;    ///< Rays per pixel.
+};
+
+/// What each quality stands for in a program; what is given by name comes before it.
+struct Presets {
+    Frame draft{.width = 100, .height = 100, .rays = 4};        ///< --quality draft
+    Frame report{.width = 400, .height = 400, .rays = 64};      ///< --quality report
+    Frame reference{.width = 400, .height = 400, .rays = 1024}; ///< --quality reference
+};
+
+/// What the user asked for.
+struct Options {
+    std::string out = ".";             ///< --out: the folder of all files; it exists.
+    std::string file;                  ///< The file's name, if --out named a file.
+    Quality quality = Quality::report; ///< --quality
+    std::uint64_t seed = 1;            ///< --seed
+    int threads = 0;                   ///< --threads: 0 for all processors.
+    int width = 0;                     ///< --width, in pixels.
+    int height = 0;                    ///< --height, in pixels.
+    int rays = 0;                      ///< --rays, per pixel.
+    bool quiet = false;                ///< --quiet: no progress bar, no text.
+
+    /// The path of a file in the folder.
+    /// \param name  Name of the file, as "ch04_sphere.png".
+    /// \throws Interrupted  after Ctrl-C, so that no half-made picture is saved.
+    [[nodiscard]] std::string path(const std::string& name) const;
+
+    /// One of three values, that of the quality.
+    template <typename Value>
+    [[nodiscard]] Value pick(Value draft, Value report, Value reference) const {
+        if (quality == Quality::draft) return draft;
+        return quality == Quality::report ? report : reference;
+    }
+};
+
+/// The command line of one program: first its own options, then parse().
+class CommandLine {
+public:
+    /// \param arguments  The program's name and what follows it.
+    explicit CommandLine(std::vector<std::string> arguments);
+    CommandLine(const CommandLine&) = delete;
+    CommandLine& operator=(const CommandLine&) = delete;
+    ~CommandLine();
+
+    /// One sentence at the top of --help.
+    void about(const std::string& text);
+
+    /// An option of the program with a number; `value` holds the default, and must live
+    /// until parse() has been called.
+    /// \param name   As "--radius".
+    /// \param value  The default, and then what the user gave.
+    /// \param help   One line.
+    /// \param least  The least value that is allowed.
+    /// \param most   The largest value that is allowed.
+    void add(const std::string& name, int& value, const std::string& help, int least,
+             int most);
+    /// The same for large whole numbers.
+    void add(const std::string& name, long long& value, const std::string& help,
+             long long least, long long most);
+    /// The same for numbers with a fraction; NaN is refused.
+    void add(const std::string& name, double& value, const std::string& help,
+             double least, double most);
+    /// A word out of a list; any text if the list is empty.
+    void add(const std::string& name, std::string& value, const std::string& help,
+             const std::vector<std::string>& words = {});
+    /// A switch: false unless it is given.
+    void add(const std::string& name, bool& value, const std::string& help);
+
+    /// An argument without a name in front, which must be given.
+    /// \param name   What --help calls it.
+    /// \param value  Takes what the user gave.
+    /// \param help   One line.
+    void add_positional(const std::string& name, std::string& value,
+                        const std::string& help);
+    /// Lets --out name a file of one of these types, or a folder for one; neither is
+    /// made or tried by parse(): see require_writable().
+    /// \param types  As ".png".
+    void file_types(const std::vector<std::string>& types);
+
+    /// Whether an option was given by name, and does not come from a quality or
+    /// default.
+    [[nodiscard]] bool given(const std::string& name) const;
+
+    /// Reads the command line, and makes the folder for the files and tries it, before
+    /// any work is done in vain.
+    /// \param presets  What the qualities stand for.
+    /// \throws Exit  for --help and --version, which have printed their text.
+    /// \throws std::invalid_argument  for a wrong command line.
+    /// \throws std::runtime_error     for a folder that cannot be used.
+    [[nodiscard]] Options parse(const Presets& presets = {});
+
+private:
+    struct Parser;
+    std::unique_ptr<Parser> parser_;
+};
+
+/// Makes sure that a file can be written, before any work is done in vain; makes its
+/// folder if it is missing.
+/// \param path  The file; an older one is left as it is.
+/// \throws std::runtime_error  with the path and the reason.
+void require_writable(const std::string& path);
+
+/// Ends a program with this code; run_main() returns it.
+struct Exit {
+    int code = 0; ///< 0 for success, 2 for a wrong use.
+};
+
+/// The main() of an example program.
+///
+///     int main(int argc, char** argv) {
+///         return examples::run_main(argc, argv, [](examples::CommandLine& line) {
+///             const examples::Options options = line.parse();
+///             ...
+///         });
+///     }
+///
+/// \return 0; 2 with one sentence on stderr for anything that is thrown; 130 after
+///         Ctrl-C (128 plus the signal).
+int run_main(int argc, const char* const* argv,
+             const std::function<void(CommandLine&)>& body);
+
+} // namespace examples

@@ -1,0 +1,156 @@
+#pragma once
+
+/// \file plot.hpp
+/// \brief Plots and tables of the book, written as data and as instructions.
+///
+/// A program that makes figures writes NAME.csv, which anybody can read, and beside it
+/// NAME.gp for gnuplot or NAME.html for a chapter. `scripts/plot FOLDER` turns each .gp
+/// into an .svg that follows the page into dark mode.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "ljus/image/file.hpp"
+
+namespace examples {
+
+/// One line of a plot or table: a number a column; NaN leaves the cell empty.
+using Row = std::vector<double>;
+
+/// A plot: the first column is x, each further one a curve named by its heading.
+struct Plot {
+    std::string name;                 ///< Of the files, e.g. "sphere-wrong".
+    std::vector<std::string> columns; ///< Headings; that of x labels its axis.
+    std::string y_label;              ///< What the curves show, with its unit.
+    std::vector<Row> rows{};          ///< The data.
+    bool log_x = false;               ///< Logarithmic x axis.
+    bool log_y = false;               ///< Logarithmic y axis.
+    std::string more = {}; ///< Further lines for gnuplot, e.g. "set key left".
+};
+
+/// A table: text or numbers, shown as they are given.
+struct Table {
+    std::string name;                           ///< Of the files.
+    std::vector<std::string> columns;           ///< Headings.
+    std::vector<std::vector<std::string>> rows{}; ///< Cells.
+};
+
+/// A number as short as it may be: "%.4g", or nothing for NaN.
+/// \param value   The number.
+/// \param format  For printf.
+/// \return The text.
+[[nodiscard]] inline std::string text(double value, const char* format = "%.4g") {
+    if (std::isnan(value)) return {};
+    char buffer[64];
+    std::snprintf(buffer, sizeof buffer, format, value);
+    return buffer;
+}
+
+/// Saves a text as a whole, or not at all.
+/// \param path      The file.
+/// \param contents  What it shall hold.
+inline void save_text(const std::string& path, const std::string& contents) {
+    ljus::save_file(path, ljus::Bytes(contents.begin(), contents.end()));
+}
+
+/// One line of a CSV file.
+/// \param cells  What it shall hold; cells with a comma or a quote are quoted.
+/// \return The line with its end.
+[[nodiscard]] inline std::string csv_line(const std::vector<std::string>& cells) {
+    std::string line;
+    for (const std::string& cell : cells) {
+        if (!line.empty() || &cell != &cells.front()) line += ',';
+        if (cell.find_first_of(",\"") == std::string::npos) {
+            line += cell;
+            continue;
+        }
+        line += '"';
+        for (const char c : cell)
+            line += c == '"' ? std::string("\"\"") : std::string(1, c);
+        line += '"';
+    }
+    return line + '\n';
+}
+
+/// Saves the data of a plot as NAME.csv and its instructions as NAME.gp.
+/// \param folder  Where to; it exists.
+/// \param plot    The plot.
+inline void save_plot(const std::string& folder, const Plot& plot) {
+    std::string csv = csv_line(plot.columns);
+    for (const Row& row : plot.rows) {
+        std::vector<std::string> cells;
+        for (const double value : row) cells.push_back(text(value, "%.9g"));
+        csv += csv_line(cells);
+    }
+    save_text(folder + "/" + plot.name + ".csv", csv);
+
+    std::string gp =
+        "# gnuplot " + plot.name + ".gp; scripts/plot does it for a folder.\n";
+    gp += "set terminal svg size 720,400 dynamic font 'sans-serif,14' linewidth 1.6\n";
+    gp += "set output '" + plot.name +
+          ".svg'\n"
+          "set datafile separator ','\nset datafile missing ''\n"
+          "set border 3\nset tics nomirror out\nset grid lc rgb '#80808080' lw 0.4\n"
+          "set key outside top horizontal center noenhanced\n"
+          "set linetype 1 lc rgb '#3b8ed0'\nset linetype 2 lc rgb '#e0752d'\n"
+          "set linetype 3 lc rgb '#2fa36b'\nset linetype 4 lc rgb '#a06cd5'\n"
+          "set linetype 5 lc rgb '#d64550'\nset linetype 6 lc rgb '#8c8c3a'\n";
+    const auto quoted = [](const std::string& label) {
+        std::string result = "'";
+        for (const char c : label)
+            result += c == '\'' ? std::string("''") : std::string(1, c);
+        return result + "'";
+    };
+    gp += "set xlabel " + quoted(plot.columns.front()) + " noenhanced\nset ylabel " +
+          quoted(plot.y_label) + " noenhanced\n";
+    if (plot.log_x) gp += "set logscale x\nset format x '10^{%L}'\n";
+    if (plot.log_y) gp += "set logscale y\nset format y '10^{%L}'\n";
+    gp += plot.more;
+    std::string curves;
+    for (std::size_t column = 1; column < plot.columns.size(); ++column) {
+        const bool empty =
+            std::all_of(plot.rows.begin(), plot.rows.end(),
+                        [column](const Row& row) { return std::isnan(row[column]); });
+        if (empty) continue; // e.g. an error of 0 everywhere, on a logarithmic axis
+        const std::string number = std::to_string(column + 1);
+        curves += (curves.empty() ? "\nplot '" : ", '") + plot.name +
+                  ".csv' using 1:" + number + " with linespoints lt " +
+                  std::to_string(column) + " pt 7 ps 0.35 title columnheader(" +
+                  number + ")";
+    }
+    gp += curves + "\n";
+    save_text(folder + "/" + plot.name + ".gp", gp);
+}
+
+/// Saves a table as NAME.csv and, for the chapter, as NAME.html.
+/// \param folder  Where to; it exists.
+/// \param table   The table.
+inline void save_table(const std::string& folder, const Table& table) {
+    std::string csv = csv_line(table.columns);
+    std::string html = "<table class=\"markdownTable ljus-table\">\n<tr>";
+    const auto escaped = [](const std::string& cell) {
+        std::string result;
+        for (const char c : cell)
+            result += c == '&'   ? std::string("&amp;")
+                      : c == '<' ? std::string("&lt;")
+                                 : std::string(1, c);
+        return result;
+    };
+    for (const std::string& heading : table.columns)
+        html += "<th>" + escaped(heading) + "</th>";
+    html += "</tr>\n";
+    for (const auto& row : table.rows) {
+        csv += csv_line(row);
+        html += "<tr>";
+        for (const std::string& cell : row) html += "<td>" + escaped(cell) + "</td>";
+        html += "</tr>\n";
+    }
+    save_text(folder + "/" + table.name + ".csv", csv);
+    save_text(folder + "/" + table.name + ".html", html + "</table>\n");
+}
+
+} // namespace examples

@@ -1,0 +1,265 @@
+/// \file render.cpp
+/// \brief Renders a scene file: by photon mapping, or by path tracing as its judge.
+///
+///     render scene.json --out picture.png
+///     render scene.json --out picture.pfm --renderer path --rays 1000
+///     render scene.json --plan                 what would run, and why
+///     render scene.json --explain 120,80       why a pixel has its colour
+
+#include <charconv>
+#include <cinttypes>
+#include <cstdio>
+#include <filesystem>
+
+#include "common/clock.hpp"
+#include "common/command_line.hpp"
+#include "common/terminal.hpp"
+#include "ljus/image/hdr.hpp"
+#include "ljus/image/pfm.hpp"
+#include "ljus/image/png.hpp"
+#include "ljus/render/explain.hpp"
+#include "ljus/render/photon_mapping.hpp"
+#include "ljus/scene/load_json.hpp"
+
+namespace {
+
+using namespace ljus;
+
+/// Any renderer, but Ctrl-C ends it between two rays: a block of pixels with a million
+/// rays each would take minutes.
+template <typename Renderer>
+struct Stoppable {
+    const Renderer& renderer;
+};
+
+template <typename Renderer, std::floating_point T, typename Log>
+RgbT<T> radiance(const Stoppable<Renderer>& stoppable, const RayT<T>& ray,
+                 RandomStream& stream, Counts& counts, Log&& log) {
+    examples::stop_if_asked();
+    return radiance(stoppable.renderer, ray, stream, counts, log);
+}
+
+/// What the user asked for, besides what all programs share.
+struct Request {
+    std::string scene;
+    std::string renderer = "photon";
+    std::string indirect = "rays";
+    std::string kernel = "epanechnikov";
+    std::string pixel;
+    int depth = 1000;
+    int roulette = 4;
+    int shadow_rays = 1;
+    int nearest = 0;
+    long long caustic_photons = 100'000;
+    long long general_photons = 100'000;
+    double radius = 0.1;
+    double general_radius = 0.3;
+    double exposure = 0.0;
+    bool plan = false;
+};
+
+constexpr const char* kernels[] = {"box", "cone", "gaussian", "epanechnikov",
+                                   "biweight"};
+
+PhotonMapping settings_of(const Request& request, const examples::Options& options) {
+    PhotonMapping settings;
+    settings.max_depth = request.depth;
+    settings.roulette_depth = request.roulette;
+    settings.shadow_rays = request.shadow_rays;
+    settings.indirect = request.indirect == "rays"  ? IndirectLight::rays
+                        : request.indirect == "map" ? IndirectLight::map
+                                                    : IndirectLight::none;
+    settings.caustics.photons = request.caustic_photons;
+    settings.general.photons = request.general_photons;
+    for (PhotonPass* pass : {&settings.caustics, &settings.general}) {
+        pass->seed = options.seed;
+        pass->threads = options.threads;
+    }
+    settings.gather_caustics.radius = static_cast<float>(request.radius);
+    settings.gather_general.radius = static_cast<float>(request.general_radius);
+    for (Gather* gather : {&settings.gather_caustics, &settings.gather_general}) {
+        gather->nearest = static_cast<std::size_t>(request.nearest);
+        for (std::uint8_t i = 0; i < std::size(kernels); ++i)
+            if (request.kernel == kernels[i]) gather->kernel = static_cast<Kernel>(i);
+    }
+    return settings;
+}
+
+void print(const Plan& plan) {
+    for (const PlanItem* item : plan.items())
+        std::printf("  %-16s %-4s %s\n", item->pass, item->on ? "on" : "off",
+                    item->why.c_str());
+}
+
+/// The numbers of "120,80".
+std::pair<int, int> pixel_of(const std::string& text, const Picture& picture) {
+    int x = 0;
+    int y = 0;
+    const char* const end = text.data() + text.size();
+    const auto first = std::from_chars(text.data(), end, x);
+    const bool comma = first.ec == std::errc{} && first.ptr != end && *first.ptr == ',';
+    const auto second = comma ? std::from_chars(first.ptr + 1, end, y)
+                              : std::from_chars_result{end, {}};
+    if (!comma || second.ec != std::errc{} || second.ptr != end || x < 0 || y < 0 ||
+        x >= picture.width || y >= picture.height)
+        throw std::invalid_argument(
+            "--explain is " + shown(text) +
+            "; it must be X,Y, from the upper left corner, within [0, " +
+            std::to_string(picture.width - 1) + "],[0, " +
+            std::to_string(picture.height - 1) + "]");
+    return {x, y};
+}
+
+/// Renders, or explains one pixel.
+/// \return What was rendered; no image if a pixel was explained.
+template <typename Renderer>
+RenderedT<float> run(const Renderer& renderer, const Camera& camera, Picture picture,
+                     const Request& request, bool quiet) {
+    const Stoppable<Renderer> stoppable{renderer};
+    if (!request.pixel.empty()) {
+        const auto [x, y] = pixel_of(request.pixel, picture);
+        std::fputs(explain(stoppable, camera, picture, x, y).c_str(), stdout);
+        return {};
+    }
+    examples::ProgressBar bar("render", quiet);
+    picture.progress = bar;
+    auto rendered = render(stoppable, camera, picture);
+    examples::stop_if_asked();
+    return rendered;
+}
+
+/// One pass of photons, with the time that it takes.
+PhotonMapsT<float> photon_pass(const LoadedScene& loaded, PhotonMapping settings,
+                               bool caustics, bool quiet) {
+    (caustics ? settings.general : settings.caustics).photons = 0;
+    const Plan plan = survey(loaded.scene, settings);
+    if (!(caustics ? plan.caustics_map.on : plan.general_map.on)) return {};
+    const examples::StopWatch watch;
+    examples::ProgressBar bar(caustics ? "caustics photons" : "general photons", quiet);
+    (caustics ? settings.caustics : settings.general).progress = bar;
+    auto maps = make_photon_maps(loaded.scene, settings);
+    examples::stop_if_asked();
+    const auto& kept = caustics ? maps.caustics.records : maps.general.records;
+    if (!quiet)
+        std::printf("  %-16s %8.2f s  %lld photons emitted, %zu kept\n",
+                    caustics ? "caustics map" : "general map", watch.seconds(),
+                    (caustics ? settings.caustics : settings.general).photons,
+                    kept.size());
+    return maps;
+}
+
+RenderedT<float> render_scene(const LoadedScene& loaded, const Picture& picture,
+                              const Request& request,
+                              const examples::Options& options) {
+    if (request.renderer == "path") {
+        const auto tracer =
+            make_path_tracer(loaded.scene, {.max_depth = request.depth,
+                                            .roulette_depth = request.roulette});
+        return run(tracer, loaded.camera, picture, request, options.quiet);
+    }
+    const PhotonMapping settings = settings_of(request, options);
+    auto maps = photon_pass(loaded, settings, true, options.quiet);
+    auto general = photon_pass(loaded, settings, false, options.quiet);
+    maps.general = std::move(general.general);
+    const auto mapper = make_photon_mapper(loaded.scene, maps, settings);
+    return run(mapper, loaded.camera, picture, request, options.quiet);
+}
+
+void save(const Image& image, const std::string& path, double exposure) {
+    const std::string kind = std::filesystem::path(path).extension().string();
+    if (kind == ".pfm")
+        save_pfm(image, path);
+    else if (kind == ".hdr")
+        save_hdr(image, path);
+    else
+        save_png(image, path, {.exposure = exposure});
+}
+
+void body(examples::CommandLine& line) {
+    Request request;
+    line.about("Renders a scene file into one picture: --out NAME.png, NAME.hdr or "
+               "NAME.pfm, or a folder for SCENE.png.");
+    line.add_positional("SCENE.json", request.scene, "The scene file");
+    line.file_types({".png", ".hdr", ".pfm"});
+    line.add("--renderer", request.renderer, "photon or path", {"photon", "path"});
+    line.add("--depth", request.depth, "Surfaces on a path, mirrors counted", 1, 1000);
+    line.add("--roulette", request.roulette, "Surface from which roulette ends paths",
+             1, 1'000'000);
+    line.add("--shadow-rays", request.shadow_rays, "To each light (photon)", 1, 10'000);
+    line.add("--caustic-photons", request.caustic_photons, "Aimed at mirrors and glass",
+             0, 1'000'000'000);
+    line.add("--general-photons", request.general_photons, "For --indirect map", 0,
+             1'000'000'000);
+    line.add("--radius", request.radius, "Of a caustics estimate, scene units", 1e-6,
+             1e6);
+    line.add("--general-radius", request.general_radius,
+             "Of a general estimate, scene units", 1e-6, 1e6);
+    line.add("--nearest", request.nearest, "Photons of an estimate, 0: all in radius",
+             0, static_cast<int>(max_gathered));
+    line.add("--kernel", request.kernel, "Weight of a photon by its distance",
+             {std::begin(kernels), std::end(kernels)});
+    line.add("--indirect", request.indirect, "rays, map or none",
+             {"rays", "map", "none"});
+    line.add("--exposure", request.exposure, "Of a PNG file, in stops", -100, 100);
+    line.add("--explain", request.pixel, "X,Y: print that pixel's paths, no picture");
+    line.add("--plan", request.plan, "Print what would run and why, no picture");
+    const examples::Options options = line.parse();
+
+    const LoadedScene loaded = load_json(request.scene);
+    const Picture picture{.width = line.given("--width") ? options.width : loaded.width,
+                          .height =
+                              line.given("--height") ? options.height : loaded.height,
+                          .rays = options.rays,
+                          .seed = options.seed,
+                          .threads = options.threads};
+    require_image_size(picture.width, picture.height);
+    const std::string stem = std::filesystem::path(request.scene).stem().string();
+    const std::string path =
+        options.path(options.file.empty() ? stem + ".png" : options.file);
+    if (!request.pixel.empty())
+        (void)pixel_of(request.pixel, picture);
+    else if (!request.plan)
+        examples::require_writable(path);
+
+    const std::string name = loaded.name.empty() ? stem : shown(loaded.name);
+    if (!options.quiet || request.plan)
+        std::printf("%s: %zu objects, %zu lights; %d x %d, %d rays a pixel, %s\n",
+                    name.c_str(), loaded.scene.size(), loaded.scene.lights.size(),
+                    picture.width, picture.height, picture.rays,
+                    request.renderer == "path" ? "path tracing" : "photon mapping");
+    if (request.plan) {
+        if (request.renderer == "photon")
+            print(survey(loaded.scene, settings_of(request, options)));
+        return;
+    }
+
+    const examples::StopWatch watch;
+    const RenderedT<float> rendered = render_scene(loaded, picture, request, options);
+    if (rendered.image.pixels.empty()) return;
+    const double seconds = watch.seconds();
+    save(rendered.image, path, request.exposure);
+    if (options.quiet) return;
+    const Counts& counts = rendered.counts;
+    const double samples = static_cast<double>(counts.camera_rays);
+    std::printf("  %-16s %8.2f s  %" PRIu64 " rays, %.2f a sample, %.2f million/s\n",
+                "all passes", seconds, counts.rays(),
+                static_cast<double>(counts.rays()) / samples,
+                static_cast<double>(counts.rays()) / seconds * 1e-6);
+    if (counts.map_queries > 0)
+        std::printf("  %-16s %10s  %.1f photons a query, %.2f queries a sample\n", "",
+                    "",
+                    static_cast<double>(counts.map_photons) /
+                        static_cast<double>(counts.map_queries),
+                    static_cast<double>(counts.map_queries) / samples);
+    if (counts.rejected > 0)
+        std::printf("  %" PRIu64 " samples were not finite and are left out\n",
+                    counts.rejected);
+    std::printf("  %s\n", path.c_str());
+}
+
+} // namespace
+
+/// Renders a scene file.
+int main(int argc, char** argv) {
+    return examples::run_main(argc, argv, body);
+}

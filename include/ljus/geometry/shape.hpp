@@ -1,0 +1,134 @@
+#pragma once
+
+/// \file ljus/geometry/shape.hpp
+/// \brief What every shape can do, and the shapes of the house together.
+
+#include <numbers>
+#include <string>
+
+#include "ljus/geometry/quad.hpp"
+#include "ljus/geometry/sphere.hpp"
+#include "ljus/geometry/triangle.hpp"
+#include "ljus/math/require.hpp"
+#include "ljus/math/sampling.hpp"
+
+namespace ljus {
+
+/// \defgroup shape Shapes
+/// \brief What a scene asks of a shape; a new shape needs these overloads and no more.
+/// \{
+
+/// Where a ray meets any shape; a sphere has no use for u and v.
+template <std::floating_point T>
+[[nodiscard]] constexpr FlatHitT<T> as_hit(T t) noexcept {
+    return {.t = t};
+}
+
+/// The hit of a flat shape, as it is.
+template <std::floating_point T>
+[[nodiscard]] constexpr FlatHitT<T> as_hit(const FlatHitT<T>& hit) noexcept {
+    return hit;
+}
+
+/// The point of a sphere that a ray hit: at(ray, t), put back onto the sphere.
+/// \param sphere  The sphere.
+/// \param ray     The ray.
+/// \param hit     What intersect() returned.
+/// \return Position, its error bound, the outer normal.
+template <std::floating_point T>
+[[nodiscard]] SurfacePointT<T> surface_point(const SphereT<T>& sphere,
+                                             const RayT<T>& ray,
+                                             const FlatHitT<T>& hit) noexcept {
+    const Vec3T<T> n = glm::normalize(at(ray, hit.t) - sphere.center);
+    const Vec3T<T> offset = sphere.radius * n;
+    return {.position = sphere.center + offset,
+            .error =
+                rounding_bound<T>(5) * (glm::abs(sphere.center) + glm::abs(offset)),
+            .normal = n};
+}
+
+/// The point of a flat shape that a ray hit, from its coordinates u and v.
+/// \param shape  A triangle or a quad.
+/// \param hit    What intersect() returned.
+/// \return Position, its error bound, the normal.
+template <typename Flat, std::floating_point T>
+[[nodiscard]] SurfacePointT<T> surface_point(const Flat& shape, const RayT<T>&,
+                                             const FlatHitT<T>& hit) noexcept {
+    return point_at(shape, hit.u, hit.v);
+}
+
+/// A point of a sphere, uniform over its area.
+/// \param sphere  The sphere.
+/// \param u       Point of the unit square.
+/// \return The point; density 1 / area per squared scene unit.
+template <std::floating_point T>
+[[nodiscard]] SurfacePointT<T> sample_area(const SphereT<T>& sphere,
+                                           const Vec2T<T>& u) noexcept {
+    const Vec3T<T> n = sample_uniform_sphere(u);
+    return {.position = sphere.center + sphere.radius * n,
+            .error = rounding_bound<T>(5) * (glm::abs(sphere.center) + sphere.radius),
+            .normal = n};
+}
+
+/// \name Bounding spheres
+/// \{
+
+/// A sphere around the shape, not always the smallest. Photons are aimed at it.
+template <std::floating_point T>
+[[nodiscard]] SphereT<T> bounding_sphere(const SphereT<T>& sphere) noexcept {
+    return sphere;
+}
+template <std::floating_point T>
+[[nodiscard]] SphereT<T> bounding_sphere(const TriangleT<T>& triangle) noexcept {
+    const Vec3T<T> center = (triangle.v1 + triangle.v2 + triangle.v3) / T(3);
+    return {.center = center,
+            .radius = std::max({glm::distance(center, triangle.v1),
+                                glm::distance(center, triangle.v2),
+                                glm::distance(center, triangle.v3)})};
+}
+template <std::floating_point T>
+[[nodiscard]] SphereT<T> bounding_sphere(const QuadT<T>& quad) noexcept {
+    return {.center = quad.corner + (quad.edge_u + quad.edge_v) / T(2),
+            .radius = std::max(glm::length(quad.edge_u + quad.edge_v),
+                               glm::length(quad.edge_u - quad.edge_v)) /
+                      T(2)};
+}
+/// \}
+
+/// \name Checks
+/// \{
+
+/// Refuses data that no picture can be made of, with a sentence.
+/// \throws std::invalid_argument  with the name and the value.
+template <std::floating_point T>
+void check(const TriangleT<T>& triangle) {
+    require_finite("triangle.v1", triangle.v1);
+    require_finite("triangle.v2", triangle.v2);
+    require_finite("triangle.v3", triangle.v3);
+}
+template <std::floating_point T>
+void check(const QuadT<T>& quad) {
+    require_finite("quad.corner", quad.corner);
+    require_finite("quad.edge_u", quad.edge_u);
+    require_finite("quad.edge_v", quad.edge_v);
+}
+/// \}
+
+/// The precision of a shape's data.
+template <typename S>
+using ScalarOf = decltype(area(std::declval<const S&>()));
+
+/// What a scene asks of a shape.
+template <typename S>
+concept Shape = requires(const S& shape, RayT<ScalarOf<S>> ray, Vec2T<ScalarOf<S>> u,
+                         FlatHitT<ScalarOf<S>> hit) {
+    as_hit(*intersect(ray, shape));
+    { surface_point(shape, ray, hit) } -> std::same_as<SurfacePointT<ScalarOf<S>>>;
+    { sample_area(shape, u) } -> std::same_as<SurfacePointT<ScalarOf<S>>>;
+    { bounding_sphere(shape) } -> std::same_as<SphereT<ScalarOf<S>>>;
+    check(shape);
+};
+
+/// \}
+
+} // namespace ljus

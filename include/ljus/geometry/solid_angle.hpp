@@ -1,0 +1,135 @@
+#pragma once
+
+/// \file ljus/geometry/solid_angle.hpp
+/// \brief Points of a shape, chosen for an observer: densities per steradian.
+
+#include "ljus/geometry/shape.hpp"
+#include "ljus/math/frame.hpp"
+
+namespace ljus {
+
+/// \defgroup solid_angle Shapes as an observer sees them
+/// \brief Section 3.2.3: shadow rays end at a point of a lamp; its density per
+/// steradian holds the cosine and the inverse square that the report's program forgot.
+/// \{
+
+/// The directions from a point to a sphere: a cone.
+template <std::floating_point T>
+struct ConeT {
+    Vec3T<T> axis{T(0), T(0), T(1)}; ///< Unit vector to the centre.
+    T one_minus_cos = T(2); ///< 1 - cos of the half angle: 2 is every direction.
+};
+
+/// The cone of directions in which a sphere is seen.
+/// \param sphere  The sphere.
+/// \param from    The observer.
+/// \return The cone; every direction if the observer is inside.
+template <std::floating_point T>
+[[nodiscard]] ConeT<T> cone_towards(const SphereT<T>& sphere,
+                                    const Vec3T<T>& from) noexcept {
+    const Vec3T<T> way = sphere.center - from;
+    const T sin2 = sphere.radius * sphere.radius / glm::dot(way, way);
+    if (!(sin2 < T(1))) return {};
+    // 1 - cos = sin^2 / (1 + cos) does not cancel for a small, distant sphere.
+    return {.axis = glm::normalize(way),
+            .one_minus_cos = sin2 / (T(1) + std::sqrt(T(1) - sin2))};
+}
+
+/// A point of a shape, and the density with which an observer's direction fell on it.
+template <std::floating_point T>
+struct SeenPointT {
+    SurfacePointT<T> point; ///< The point.
+    T pdf = T(0);           ///< Per steradian of the observer.
+};
+
+/// The density per steradian of a point that was chosen uniformly over the area.
+/// \param from   The observer.
+/// \param point  The point of the shape.
+/// \param area   The shape's area.
+/// \return distance^2 / (|cos| area); infinity if the surface is seen edge-on.
+/// \cite veach1997
+template <std::floating_point T>
+[[nodiscard]] T pdf_from_area(const Vec3T<T>& from, const SurfacePointT<T>& point,
+                              T area) noexcept {
+    const Vec3T<T> way = point.position - from;
+    const T distance2 = glm::dot(way, way);
+    const T cosine = std::abs(glm::dot(way, point.normal)) / std::sqrt(distance2);
+    return distance2 / (cosine * area);
+}
+
+/// Whether an observer samples a sphere by the cone in which it is seen: from inside,
+/// or so close that the cone is a hemisphere, the area serves better.
+template <std::floating_point T>
+[[nodiscard]] bool sees_cone(const SphereT<T>& sphere, const Vec3T<T>& from) noexcept {
+    const Vec3T<T> way = sphere.center - from;
+    return glm::dot(way, way) > T(1.0001) * sphere.radius * sphere.radius;
+}
+
+/// A point of any shape, uniform over its area.
+/// \param shape  The shape.
+/// \param from   The observer.
+/// \param u      Point of the unit square.
+/// \return The point and its density per steradian of the observer.
+template <Shape S, std::floating_point T>
+[[nodiscard]] SeenPointT<T> sample_towards(const S& shape, const Vec3T<T>& from,
+                                           const Vec2T<T>& u) noexcept {
+    const SurfacePointT<T> point = sample_area(shape, u);
+    return {.point = point, .pdf = pdf_from_area(from, point, area(shape))};
+}
+
+/// The density of sample_towards() at a point of the shape.
+/// \param shape  The shape.
+/// \param from   The observer.
+/// \param point  The point of the shape in question.
+/// \return Per steradian.
+template <Shape S, std::floating_point T>
+[[nodiscard]] T pdf_towards(const S& shape, const Vec3T<T>& from,
+                            const SurfacePointT<T>& point) noexcept {
+    return pdf_from_area(from, point, area(shape));
+}
+
+/// A point of the near side of a sphere, uniform over the cone in which it is seen;
+/// from inside, uniform over its area.
+/// \param sphere  The sphere.
+/// \param from  The observer.
+/// \param u  Point of the unit square.
+/// \return The point and its density per steradian of the observer. \cite shirley1996
+// [sample_towards]
+template <std::floating_point T>
+[[nodiscard]] SeenPointT<T> sample_towards(const SphereT<T>& sphere,
+                                           const Vec3T<T>& from,
+                                           const Vec2T<T>& u) noexcept {
+    if (!sees_cone(sphere, from)) {
+        const SurfacePointT<T> point = sample_area(sphere, u);
+        return {.point = point, .pdf = pdf_from_area(from, point, area(sphere))};
+    }
+    const ConeT<T> cone = cone_towards(sphere, from);
+    const Vec3T<T> local = sample_uniform_cone(u, cone.one_minus_cos);
+
+    // From the centre, the point lies at the angle that the chord leaves.
+    const Vec3T<T> direction = to_world(frame_around(cone.axis), local);
+    const T distance = glm::distance(sphere.center, from);
+    const T sine2 = local.x * local.x + local.y * local.y;
+    const T half_chord2 = sphere.radius * sphere.radius - distance * distance * sine2;
+    const T t = distance * local.z - std::sqrt(std::max(T(0), half_chord2));
+    const RayT<T> ray{.origin = from, .direction = direction};
+    return {.point = surface_point(sphere, ray, {.t = t}),
+            .pdf = pdf_uniform_cone(cone.one_minus_cos)};
+}
+// [sample_towards]
+
+/// The density of sample_towards() for a sphere.
+/// \param sphere  The sphere.
+/// \param from    The observer.
+/// \param point   The point of the sphere in question.
+/// \return Per steradian.
+template <std::floating_point T>
+[[nodiscard]] T pdf_towards(const SphereT<T>& sphere, const Vec3T<T>& from,
+                            const SurfacePointT<T>& point) noexcept {
+    if (!sees_cone(sphere, from)) return pdf_from_area(from, point, area(sphere));
+    return pdf_uniform_cone(cone_towards(sphere, from).one_minus_cos);
+}
+
+/// \}
+
+} // namespace ljus

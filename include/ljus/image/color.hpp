@@ -1,0 +1,70 @@
+#pragma once
+
+/// \file ljus/image/color.hpp
+/// \brief From radiance to the 256 steps of a screen: exposure and the sRGB curve.
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+
+#include "ljus/math/vector.hpp"
+
+namespace ljus {
+
+/// \defgroup color Colour
+/// \brief Radiance is linear and has no upper end; a screen's bytes are neither.
+/// \{
+
+/// A colour, brighter by a number of stops.
+/// \param radiance  Linear colour.
+/// \param stops     Any number: +1 doubles, -1 halves, 0 changes nothing.
+/// \return radiance * 2^stops.
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> expose(const RgbT<T>& radiance, double stops) noexcept {
+    return radiance * static_cast<T>(std::exp2(stops));
+}
+
+/// The luminance Y of a linear sRGB colour (Rec. 709 primaries, white D65).
+/// \param c  Linear colour.
+/// \return 0.2126 R + 0.7152 G + 0.0722 B; 1 for white.
+template <std::floating_point T>
+[[nodiscard]] constexpr T luminance(const RgbT<T>& c) noexcept {
+    return T(0.2126) * c.x + T(0.7152) * c.y + T(0.0722) * c.z;
+}
+
+/// The sRGB curve (IEC 61966-2-1): from linear light to the encoded value.
+/// \param linear  Any number.
+/// \return 0 for NaN and for linear <= 0, 1 for linear >= 1, between them the curve.
+// [srgb_encode]
+[[nodiscard]] inline double srgb_encode(double linear) noexcept {
+    if (!(linear > 0.0)) return 0.0; // written so that NaN is black
+    const double x = std::min(linear, 1.0);
+    return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
+}
+// [srgb_encode]
+
+/// The inverse of srgb_encode().
+/// \param encoded  Any number.
+/// \return 0 for NaN and for encoded <= 0, 1 for encoded >= 1, between them linear
+/// light.
+[[nodiscard]] inline double srgb_decode(double encoded) noexcept {
+    if (!(encoded > 0.0)) return 0.0;
+    const double y = std::min(encoded, 1.0);
+    return y <= 0.04045 ? y / 12.92 : std::pow((y + 0.055) / 1.055, 2.4);
+}
+
+/// The byte of a picture file for one channel.
+///
+/// In float, 200 of the 765 numbers at and beside the 255 thresholds come out off by
+/// one; in double, none.
+/// \param linear  Any number: NaN and negatives are 0, 1 and above are 255.
+/// \return floor(255 y + 1/2), y the encoded value.
+// [srgb_byte]
+[[nodiscard]] inline unsigned char srgb_byte(double linear) noexcept {
+    return static_cast<unsigned char>(std::floor(255.0 * srgb_encode(linear) + 0.5));
+}
+// [srgb_byte]
+
+/// \}
+
+} // namespace ljus

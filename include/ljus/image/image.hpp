@@ -1,0 +1,111 @@
+#pragma once
+
+/// \file ljus/image/image.hpp
+/// \brief A picture: width times height linear colours.
+
+#include <cassert>
+#include <concepts>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "ljus/math/vector.hpp"
+
+namespace ljus {
+
+/// \defgroup image Images
+/// \brief What a renderer makes: linear radiance, before any exposure or encoding.
+/// \{
+
+/// The largest number of pixels of an image: 2^28, three gigabytes in float.
+inline constexpr long long max_pixels = 1LL << 28;
+
+/// A rectangle of linear colours. make_image() makes one of a given size.
+template <std::floating_point T>
+struct ImageT {
+    int width = 0;               ///< Pixels in a row.
+    int height = 0;              ///< Rows.
+    std::vector<RgbT<T>> pixels; ///< Row by row, from the top left: y * width + x.
+};
+using Image = ImageT<float>; ///< ImageT in float.
+
+/// Refuses the size of an image.
+/// \param width   Pixels in a row.
+/// \param height  Rows.
+/// \throws std::invalid_argument  unless both are at least 1 and the image has at most
+///         max_pixels.
+inline void require_image_size(long long width, long long height) {
+    // The division keeps the test itself from overflowing.
+    if (width >= 1 && height >= 1 && width <= max_pixels / height) return;
+    throw std::invalid_argument("The image's size is " + std::to_string(width) + " x " +
+                                std::to_string(height) +
+                                "; width and height must be at least 1, and their "
+                                "product at most " +
+                                std::to_string(max_pixels) + ".");
+}
+
+/// An image of one colour.
+/// \param width   Pixels in a row, at least 1.
+/// \param height  Rows, at least 1.
+/// \param fill    The colour of every pixel.
+/// \return The image, with all its pixels in place.
+/// \throws std::invalid_argument  as require_image_size(), before any memory is taken.
+// [make_image]
+template <std::floating_point T = float>
+[[nodiscard]] ImageT<T> make_image(int width, int height,
+                                   RgbT<T> fill = RgbT<T>(T(0))) {
+    require_image_size(width, height);
+    const auto count =
+        static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    return {.width = width, .height = height, .pixels = {count, fill}};
+}
+// [make_image]
+
+/// Refuses an image whose number of pixels does not fit its size.
+/// \param image  Any image.
+/// \throws std::invalid_argument  unless pixels.size() = width * height, at least 1.
+template <std::floating_point T>
+void check(const ImageT<T>& image) {
+    require_image_size(image.width, image.height);
+    const long long count = static_cast<long long>(image.width) * image.height;
+    if (static_cast<long long>(image.pixels.size()) == count) return;
+    throw std::invalid_argument("The image has " + std::to_string(image.pixels.size()) +
+                                " pixels; its size, " + std::to_string(image.width) +
+                                " x " + std::to_string(image.height) + ", requires " +
+                                std::to_string(count) + ".");
+}
+
+/// Where pixel (x, y) stands in `pixels`.
+/// \param image  The image.
+/// \param x      Column from the left, in [0, width).
+/// \param y      Row from the top, in [0, height).
+template <std::floating_point T>
+[[nodiscard]] std::size_t pixel_index(const ImageT<T>& image, int x, int y) noexcept {
+    assert(x >= 0 && x < image.width && "x is a column of the image");
+    assert(y >= 0 && y < image.height && "y is a row of the image");
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+           static_cast<std::size_t>(x);
+}
+
+/// The colour of pixel (x, y), to be changed.
+/// \param image  The image.
+/// \param x      Column from the left, in [0, width).
+/// \param y      Row from the top, in [0, height).
+template <std::floating_point T>
+[[nodiscard]] RgbT<T>& pixel(ImageT<T>& image, int x, int y) noexcept {
+    return image.pixels[pixel_index(image, x, y)];
+}
+
+/// The colour of pixel (x, y), to be read.
+/// \param image  The image.
+/// \param x      Column from the left, in [0, width).
+/// \param y      Row from the top, in [0, height).
+template <std::floating_point T>
+[[nodiscard]] const RgbT<T>& pixel(const ImageT<T>& image, int x, int y) noexcept {
+    return image.pixels[pixel_index(image, x, y)];
+}
+
+/// \}
+
+} // namespace ljus

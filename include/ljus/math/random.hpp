@@ -1,0 +1,102 @@
+#pragma once
+
+/// \file ljus/math/random.hpp
+/// \brief Random numbers that depend on where they are used, not on who draws first.
+
+#include <cstdint>
+
+#include "ljus/math/vector.hpp"
+
+namespace ljus {
+
+/// \defgroup random Random streams
+/// \brief Counter-based streams: the same seed gives the same picture on any number of
+/// threads, because a number depends only on its place.
+/// \{
+
+/// The parts of the work that draw numbers; each has streams of its own.
+enum class Pass : std::uint32_t {
+    camera,           ///< Camera paths.
+    general_photons,  ///< Photons of the general map.
+    caustics_photons, ///< Photons of the caustics map.
+    user = 1000       ///< The first number that is free for the reader's own passes.
+};
+
+/// Scrambles 64 bits so that each input bit changes half of the output's: the
+/// finaliser of SplitMix64 \cite steele2014, a bijection.
+/// \param x  Any number.
+/// \return The scrambled number.
+// [mix]
+[[nodiscard]] constexpr std::uint64_t mix(std::uint64_t x) noexcept {
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return x ^ (x >> 31);
+}
+// [mix]
+
+/// The numbers of one path. The n-th number is a function of the key and of n alone;
+/// n holds the bounce in its upper and the dimension in its lower 16 bits.
+struct RandomStream {
+    std::uint64_t key = 0;     ///< Made by random_stream() from seed, pass and path.
+    std::uint64_t counter = 0; ///< The place of the next number.
+};
+
+/// The stream of one path.
+/// \param seed       The user's seed.
+/// \param pass       Which part of the work draws.
+/// \param iteration  Which repetition of the pass, for progressive methods.
+/// \param path       Which path of the pass.
+/// \return A stream at bounce 0, dimension 0.
+[[nodiscard]] constexpr RandomStream random_stream(std::uint64_t seed, Pass pass,
+                                                   std::uint64_t iteration,
+                                                   std::uint64_t path) noexcept {
+    constexpr std::uint64_t odd = 0x9e3779b97f4a7c15u; // 2^64 over the golden ratio
+    const std::uint64_t work = mix(mix(seed + odd) + static_cast<std::uint64_t>(pass));
+    return {.key = mix(mix(work + odd * (iteration + 1)) ^ mix(path + odd))};
+}
+
+/// Moves a stream to the start of a bounce, whatever was drawn in the one before.
+/// \param stream  The stream.
+/// \param bounce  Which bounce; 0 is the camera or the light.
+constexpr void start_bounce(RandomStream& stream, std::uint64_t bounce) noexcept {
+    stream.counter = bounce << 16;
+}
+
+/// The next number, uniform in [0, 1): never 1, in float or in double.
+/// \param stream  Moves on by one dimension.
+/// \return A multiple of 2^-24 (float) or 2^-53 (double).
+/// \cost Two multiplications and a few shifts; no state is shared.
+// [next]
+template <std::floating_point T = float>
+[[nodiscard]] constexpr T next_1d(RandomStream& stream) noexcept {
+    constexpr std::uint64_t odd = 0x9e3779b97f4a7c15u;
+    const std::uint64_t bits = mix(stream.key + odd * ++stream.counter);
+    if constexpr (sizeof(T) == 4)
+        return static_cast<T>(bits >> 40) * T(0x1p-24);
+    else
+        return static_cast<T>(bits >> 11) * T(0x1p-53);
+}
+// [next]
+
+/// The next point of the unit square [0, 1)^2.
+/// \param stream  Moves on by two dimensions.
+/// \return Two independent numbers.
+template <std::floating_point T = float>
+[[nodiscard]] constexpr Vec2T<T> next_2d(RandomStream& stream) noexcept {
+    const T x = next_1d<T>(stream);
+    return {x, next_1d<T>(stream)};
+}
+
+/// The next point of the unit cube [0, 1)^3: a direction and the choice of a lobe.
+/// \param stream  Moves on by three dimensions.
+/// \return Three independent numbers.
+template <std::floating_point T = float>
+[[nodiscard]] constexpr Vec3T<T> next_3d(RandomStream& stream) noexcept {
+    const T x = next_1d<T>(stream);
+    const T y = next_1d<T>(stream);
+    return {x, y, next_1d<T>(stream)};
+}
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,226 @@
+#pragma once
+
+/// \file ljus/parallel.hpp
+/// \brief Loops over blocks by several threads: the one place that knows OpenMP.
+
+#include <atomic>
+#include <concepts>
+#include <cstddef>
+#include <exception>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "ljus/version.hpp"
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+namespace ljus {
+
+/// \defgroup parallel Parallel loops
+/// \brief The same answer, byte by byte, whatever the number of threads.
+///
+/// Work is cut into blocks that do not depend on the number of threads; a block writes
+/// what no other block writes; sums are formed block by block and added in the order of
+/// the blocks. Compiled without OpenMP, the blocks run one after the other.
+/// \{
+
+/// The largest number of threads that one may ask for.
+inline constexpr int max_threads_allowed = 1024;
+
+/// The number of threads that `threads = 0` stands for: that of the processors, or what
+/// OMP_NUM_THREADS says; 1 without OpenMP.
+[[nodiscard]] inline int max_threads() noexcept {
+#ifdef _OPENMP
+    return omp_get_max_threads();
+#else
+    return 1;
+#endif
+}
+
+/// A reference to what a loop reports to: anything that can be called as
+/// `bool progress(long long done, long long total)`; false stops the loop.
+///
+/// It refers to a callable with a name and does not own it, so that the callable must
+/// live as long as the loop:
+///
+///     auto progress = [&](long long done, long long total) { return !stopped; };
+///     parallel_blocks(count, body, {.progress = progress});
+class Progress {
+public:
+    /// Nothing to report to.
+    constexpr Progress() noexcept = default;
+
+    /// Reports to `callable`.
+    template <typename F>
+    requires(!std::same_as<std::remove_cv_t<F>, Progress> && std::is_object_v<F> &&
+             std::is_invocable_r_v<bool, F&, long long,
+                                   long long>) constexpr Progress(F& callable) noexcept
+        : callable_(&callable),
+          call_([](const void* f, long long done, long long total) {
+              return static_cast<bool>(
+                  (*static_cast<F*>(const_cast<void*>(f)))(done, total));
+          }) {}
+
+    /// Not to a temporary: give the callable a name.
+    template <typename F>
+    requires(!std::same_as<std::remove_cvref_t<F>, Progress>)
+        Progress(const F&& callable)
+    = delete;
+
+    /// \return Whether to go on; true if there is nothing to report to.
+    bool operator()(long long done, long long total) const {
+        return call_ == nullptr || call_(callable_, done, total);
+    }
+
+private:
+    const void* callable_ = nullptr;
+    bool (*call_)(const void*, long long, long long) = nullptr;
+};
+
+/// How a parallel loop runs.
+struct ParallelOptions {
+    int threads = 0;        ///< 1 to max_threads_allowed; 0: max_threads().
+    Progress progress = {}; ///< Called after a block, by one thread at a time.
+};
+
+/// The number of blocks that cover `total` things.
+/// \param total  At least 0.
+/// \param size   Things in a block, at least 1; the last block may have fewer.
+[[nodiscard]] constexpr long long block_count(long long total,
+                                              long long size) noexcept {
+    return total / size + (total % size != 0 ? 1 : 0);
+}
+
+/// The things of a block: first <= i < last.
+struct BlockRange {
+    long long first = 0; ///< The first one.
+    long long last = 0;  ///< One past the last one.
+};
+
+/// The things of block number `block`.
+/// \param block  In [0, block_count(total, size)).
+/// \param size   Things in a block, at least 1.
+/// \param total  All things.
+[[nodiscard]] constexpr BlockRange block_range(long long block, long long size,
+                                               long long total) noexcept {
+    const long long first = block * size;
+    return {first, total - first < size ? total : first + size};
+}
+
+/// Calls `body(block)` once for each block in [0, count), by several threads.
+///
+/// Blocks are handed out in order, one at a time, to whichever thread is free: small
+/// enough, they keep all threads busy to the end; a loop can be stopped between blocks
+/// only, so they should take well below a second. A loop inside a body runs on the
+/// thread that it is called from.
+/// \param count    The number of blocks; none if it is 0 or less.
+/// \param body     Called as body(long long); calls run at the same time, in any order.
+/// \param options  Threads and progress. `progress(done, total)` comes after a block
+///                 unless another thread is reporting, with ascending `done`; when all
+///                 blocks are done, (count, count) has been reported once.
+/// \return Whether all blocks ran: false when `progress` stopped the loop.
+/// \throws std::invalid_argument  for a number of threads that is not allowed; and what
+///         a body or `progress` threw: no further block is then begun, and of several
+///         exceptions that of the first block in order is thrown, always the same one.
+/// \cost A few microseconds to wake the threads (some 100 the first time), some 0.1 a
+///       block.
+// [parallel_blocks]
+template <std::invocable<long long> Body>
+bool parallel_blocks(long long count, Body&& body,
+                     const ParallelOptions& options = {}) {
+    if (options.threads < 0 || options.threads > max_threads_allowed)
+        throw std::invalid_argument(
+            "The number of threads is " + std::to_string(options.threads) +
+            "; it must be within [0, " + std::to_string(max_threads_allowed) + "].");
+
+    std::atomic<long long> next{0}; // the block to begin next
+    std::atomic<long long> done{0}; // blocks that have run to their end
+    std::atomic<bool> stop{false};  // no further block shall begin
+    std::atomic_flag reporting;     // held by the thread that calls progress
+    std::atomic_flag failing;       // held by the thread that looks at the exception
+    bool stopped = false;           // by progress
+    long long reported = 0;         // what progress heard last
+    long long failed_block = count; // the first block, in order, that threw
+    std::exception_ptr failure;
+
+    const auto report = [&] {
+        if (reporting.test_and_set(std::memory_order_acquire)) return;
+        const long long now = done.load();
+        if (now > reported && !stopped) {
+            reported = now;
+            stopped = !options.progress(now, count);
+            if (stopped) stop.store(true);
+        }
+        reporting.clear(std::memory_order_release);
+    };
+    const auto work = [&] {
+        while (!stop.load()) {
+            const long long block = next.fetch_add(1);
+            if (block >= count) return;
+            try {
+                body(block);
+                done.fetch_add(1);
+                report();
+            } catch (...) {
+                stop.store(true);
+                while (failing.test_and_set(std::memory_order_acquire)) {
+                }
+                // Every block before this one has begun and runs to its end, so that
+                // the first one that throws is the same for any number of threads.
+                if (block < failed_block) {
+                    failed_block = block;
+                    failure = std::current_exception();
+                }
+                failing.clear(std::memory_order_release);
+            }
+        }
+    };
+
+#ifdef _OPENMP
+    const long long wanted = options.threads == 0 ? max_threads() : options.threads;
+    const int threads = static_cast<int>(wanted < count ? wanted : count);
+    if (threads > 1) {
+#pragma omp parallel num_threads(threads)
+        work();
+    } else {
+        work();
+    }
+#else
+    work();
+#endif
+
+    if (failure) std::rethrow_exception(failure);
+    report(); // the last blocks may have ended while another thread was reporting
+    return done.load() >= count;
+}
+// [parallel_blocks]
+
+/// The sum of `body(block)` over all blocks, added in the order of the blocks.
+/// \param count    The number of blocks, at least 0.
+/// \param body     Called as body(long long); returns the sum of its block.
+/// \param threads  As in ParallelOptions.
+/// \return The sum, the same for any number of threads; R() for no block.
+/// \throws As parallel_blocks().
+// [parallel_sum]
+template <std::invocable<long long> Body>
+[[nodiscard]] auto parallel_sum(long long count, Body&& body, int threads = 0) {
+    using R = std::remove_cvref_t<std::invoke_result_t<Body&, long long>>;
+    static_assert(!std::same_as<R, bool>, "A sum of bool: return an int instead.");
+    std::vector<R> sums(count > 0 ? static_cast<std::size_t>(count) : 0);
+    parallel_blocks(
+        count,
+        [&](long long block) { sums[static_cast<std::size_t>(block)] = body(block); },
+        {.threads = threads});
+    R sum{};
+    for (const R& block_sum : sums) sum = sum + block_sum;
+    return sum;
+}
+// [parallel_sum]
+
+/// \}
+
+} // namespace ljus

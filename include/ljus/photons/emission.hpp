@@ -1,0 +1,172 @@
+#pragma once
+
+/// \file ljus/photons/emission.hpp
+/// \brief How a photon leaves a light.
+
+#include "ljus/math/random.hpp"
+#include "ljus/scene/light_choice.hpp"
+#include "ljus/scene/query.hpp"
+
+namespace ljus {
+
+/// \defgroup emission Photon emission
+/// \brief Section 3.2.2: photons are "shot from all the light sources into the scene".
+/// \{
+
+/// A photon on its way.
+template <std::floating_point T>
+struct FlightT {
+    RayT<T> ray{};      ///< Where it is and where it goes.
+    RgbT<T> flux{T(0)}; ///< W, of all paths together: divide by how many are emitted.
+    std::uint16_t light = 0; ///< The number of its light.
+};
+
+/// A photon of a light chosen by power, from a point uniform over its area, in a
+/// direction with density cos / pi; of a point light, uniform over the sphere.
+///
+/// Each photon of a white light then carries the same flux, the scene's whole flux over
+/// the number of photons; a coloured light's differs in its channels only.
+/// \param scene   The scene.
+/// \param choice  Of the scene's lights; at least one.
+/// \param stream  Five numbers are drawn.
+/// \return The photon; its flux is that of all paths together.
+/// \report{Section 3.2.2}
+/// \erratum{The program behind the report gives every light the same number of photons
+///          and the same flux whatever its area, and multiplies the flux by the cosine
+///          that the direction's density already holds.}
+// [emit]
+template <typename Scene>
+[[nodiscard]] FlightT<typename Scene::Scalar>
+emit(const Scene& scene, const LightChoice& choice, RandomStream& stream) {
+    using T = typename Scene::Scalar;
+    const ChosenLightT<T> chosen = choose_light(choice, next_1d<T>(stream));
+    const LightT<T>& light = scene.lights[chosen.light];
+    const Vec2T<T> u_point = next_2d<T>(stream);
+    const Vec2T<T> u_direction = next_2d<T>(stream);
+    FlightT<T> flight{.flux = light.flux / chosen.probability,
+                      .light = static_cast<std::uint16_t>(chosen.light)};
+    if (!light.object) {
+        flight.ray = {.origin = light.position,
+                      .direction = sample_uniform_sphere(u_direction)};
+        return flight;
+    }
+    const SurfacePointT<T> point = light_point(scene, light, u_point);
+    const FrameT<T> frame = frame_around(point.normal);
+    flight.ray =
+        ray_from(point, to_world(frame, sample_cosine_hemisphere(u_direction)));
+    return flight;
+}
+// [emit]
+
+/// A point of an emissive object, uniform over its area, the normal where it shines to.
+/// \param scene  The scene.
+/// \param light  One of its lights that is an object.
+/// \param u      Point of the unit square.
+/// \return The point.
+template <typename Scene, std::floating_point T>
+[[nodiscard]] SurfacePointT<T> light_point(const Scene& scene, const LightT<T>& light,
+                                           const Vec2T<T>& u) {
+    SurfacePointT<T> point = scene.visit_shape(
+        *light.object, [&](const auto& shape) { return sample_area(shape, u); });
+    if (scene.object(*light.object).inside_out) point.normal = -point.normal;
+    return point;
+}
+
+/// The objects that mirror or refract, for photons to be aimed at.
+/// \param scene  The scene.
+/// \return Their numbers, in the order of the scene.
+template <typename Scene>
+[[nodiscard]] std::vector<ObjectId> specular_objects(const Scene& scene) {
+    std::vector<ObjectId> targets;
+    for (std::uint32_t type = 0; type < scene.objects.size(); ++type)
+        for (std::uint32_t i = 0; i < scene.objects[type].size(); ++i)
+            if (scene.visit_material(
+                    scene.objects[type][i].material,
+                    [](const auto& m) { return has(lobes(m), Lobes::specular); }))
+                targets.push_back({type, i});
+    return targets;
+}
+
+/// A photon that was aimed at an object.
+template <std::floating_point T>
+struct AimedFlightT {
+    FlightT<T> flight; ///< The photon.
+    ObjectId target;   ///< It counts only if this is what it meets first.
+};
+
+/// A photon aimed at one of several objects: at the cone in which the light's point
+/// sees the object's bounding sphere, uniformly; a wide cone is chosen more often, so
+/// that the density is the same, one over the sum of the cones, in all of them.
+///
+/// The flux makes up for the density of the direction: it is multiplied by
+/// \f$ (\cos\theta / \pi) / p(\omega) \f$, for a point light by
+/// \f$ (1/4\pi) / p(\omega) \f$. Where cones overlap, each direction belongs to the
+/// object that is met first; the caller drops the photons that were aimed at another.
+/// \param scene    The scene.
+/// \param choice   Of the scene's lights; at least one.
+/// \param targets  The objects; at least one.
+/// \param stream   Six numbers are drawn.
+/// \return The photon; nothing if its direction lies behind the light.
+/// \report{Section 3.2.2.2} \cite jensen1996
+/// \erratum{The program behind the report does not correct for the density of the
+///          direction, and divides by the photons that were stored: a caustic's
+///          brightness did not depend on how much light met the glass.}
+// [aim]
+template <typename Scene>
+[[nodiscard]] std::optional<AimedFlightT<typename Scene::Scalar>>
+aim(const Scene& scene, const LightChoice& choice, const std::vector<ObjectId>& targets,
+    RandomStream& stream) {
+    using T = typename Scene::Scalar;
+    const ChosenLightT<T> chosen = choose_light(choice, next_1d<T>(stream));
+    const LightT<T>& light = scene.lights[chosen.light];
+    const Vec2T<T> u_point = next_2d<T>(stream);
+    const T u_target = next_1d<T>(stream);
+    const Vec2T<T> u_direction = next_2d<T>(stream);
+
+    const SurfacePointT<T> point = light.object
+                                       ? light_point(scene, light, u_point)
+                                       : SurfacePointT<T>{.position = light.position};
+    const auto cone_of = [&](ObjectId target) {
+        const SphereT<T> bound = scene.visit_shape(
+            target, [](const auto& shape) { return bounding_sphere(shape); });
+        ConeT<T> cone = cone_towards(bound, point.position);
+        // Inside the bound of its target, a lamp aims at all it can shine on.
+        if (light.object && cone.one_minus_cos == T(2)) cone = {point.normal, T(1)};
+        return cone;
+    };
+
+    // Choose a target by the size of its cone.
+    T sum = T(0);
+    for (const ObjectId target : targets) sum += cone_of(target).one_minus_cos;
+    ObjectId target = targets.back();
+    ConeT<T> cone = cone_of(target);
+    T before = T(0);
+    for (const ObjectId candidate : targets) {
+        const ConeT<T> seen = cone_of(candidate);
+        before += seen.one_minus_cos;
+        if (u_target * sum < before) {
+            target = candidate;
+            cone = seen;
+            break;
+        }
+    }
+
+    const Vec3T<T> direction = to_world(
+        frame_around(cone.axis), sample_uniform_cone(u_direction, cone.one_minus_cos));
+    const T cosine = glm::dot(direction, point.normal);
+    if (light.object && !(cosine > T(0))) return std::nullopt;
+    const T emitted = light.object ? cosine * std::numbers::inv_pi_v<T>
+                                   : pdf_uniform_sphere(direction);
+    const T pdf = pdf_uniform_cone(sum);
+    FlightT<T> flight{.flux = light.flux * (emitted / (pdf * chosen.probability)),
+                      .light = static_cast<std::uint16_t>(chosen.light)};
+    flight.ray = light.object
+                     ? ray_from(point, direction)
+                     : RayT<T>{.origin = point.position, .direction = direction};
+    return AimedFlightT<T>{flight, target};
+}
+// [aim]
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,242 @@
+#pragma once
+
+/// \file ljus/photons/kd_tree.hpp
+/// \brief The plain k-d tree: points near a point.
+
+#include <algorithm>
+#include <compare>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "ljus/math/require.hpp"
+
+namespace ljus {
+
+/// \defgroup kd_tree The k-d tree
+/// \brief Section 3.2.2: "whenever a photon hits a surface, it is stored in a k-d
+/// tree".
+/// \{
+
+/// A point that a search has found. The nearer one is less.
+struct Neighbor {
+    double distance2 = 0;    ///< Squared, in double.
+    std::uint32_t index = 0; ///< Its place in the tree's order.
+
+    /// By distance, then by place.
+    friend auto operator<=>(const Neighbor&, const Neighbor&) = default;
+};
+
+/// The nearest points of a search so far: a heap in the caller's memory, the farthest
+/// of them on top, at `found[0]`.
+struct Nearest {
+    std::span<Neighbor> found; ///< Room for as many as are wanted, at least one.
+    double limit2 = 0;         ///< The search's radius, squared.
+    std::size_t count = 0;     ///< How many there are.
+
+    /// Whether a point at this distance belongs to them. Once the room is full it must
+    /// be nearer than the farthest: a thousand equal points are not tried one by one.
+    [[nodiscard]] bool reaches(double distance2) const noexcept {
+        return count < found.size() ? distance2 <= limit2
+                                    : distance2 < found[0].distance2;
+    }
+
+    /// Takes a point that belongs to them; the farthest one leaves if the room is full.
+    void take(const Neighbor& neighbor) {
+        const auto last = [&] {
+            return found.begin() + static_cast<std::ptrdiff_t>(count);
+        };
+        if (count == found.size())
+            std::pop_heap(found.begin(), last());
+        else
+            ++count;
+        found[count - 1] = neighbor;
+        std::push_heap(found.begin(), last());
+    }
+};
+
+/// A balanced k-d tree \cite bentley1975 without a single pointer: the middle of each
+/// range of the array is its root, the halves on either side are its subtrees.
+///
+/// The tree keeps the positions; what belongs to them is the caller's, put into the
+/// tree's order with order(). Searches are const, take no memory, and may run on any
+/// number of threads.
+template <std::floating_point T>
+class KdTreeT {
+public:
+    /// An empty tree: every search finds nothing.
+    KdTreeT() = default;
+
+    /// Builds the tree.
+    /// \param points  Any points, equal ones too; below 2^32.
+    /// \throws std::invalid_argument  if a point is not finite.
+    /// \cost O(n log n), whatever the points; 17 bytes a point in float.
+    explicit KdTreeT(std::span<const Vec3T<T>> points);
+
+    /// Where the points came from: order()[i] is the number of the i-th point of the
+    /// tree in the span it was built from.
+    [[nodiscard]] const std::vector<std::uint32_t>& order() const noexcept {
+        return order_;
+    }
+
+    /// The points, in the tree's order.
+    [[nodiscard]] const std::vector<Vec3T<T>>& points() const noexcept {
+        return points_;
+    }
+
+    /// How many points there are.
+    [[nodiscard]] std::size_t size() const noexcept { return points_.size(); }
+
+    /// Calls `visit(index, distance2)` for each point within a closed ball.
+    /// \param center  Of the ball.
+    /// \param radius  Not squared; infinity for all. Below 0, and if it or the centre
+    ///                is NaN, the ball is empty.
+    /// \param visit   Takes the place in the tree's order and the squared distance.
+    /// \cost In the mean O(log n) and one step a point found.
+    // [within]
+    template <typename Visit>
+    void visit_within(const Vec3T<T>& center, T radius, Visit&& visit) const {
+        if (!(radius >= T(0))) return;
+        const double limit2 = double(radius) * double(radius);
+        walk(
+            center,
+            [&](std::uint32_t index, double distance2) {
+                if (distance2 <= limit2) visit(index, distance2);
+            },
+            [&](double distance2) { return distance2 <= limit2; });
+    }
+    // [within]
+
+    /// The nearest points within a closed ball.
+    /// \param center  Of the ball.
+    /// \param radius  As for visit_within().
+    /// \param found   Room for as many as are wanted; filled as a heap, farthest first.
+    /// \param wanted  Called with a place in the tree's order; false passes it over.
+    /// \return How many were found; of several that are equally far, any, but always
+    ///         the same ones.
+    /// \cost In the mean O(log n) and some steps a point that is wanted, also where
+    ///       many points are equal; where few of those around are wanted, more.
+    // [nearest]
+    template <typename Wanted>
+    [[nodiscard]] std::size_t nearest(const Vec3T<T>& center, T radius,
+                                      std::span<Neighbor> found, Wanted wanted) const {
+        if (found.empty() || !(radius >= T(0))) return 0;
+        Nearest best{.found = found, .limit2 = double(radius) * double(radius)};
+        walk(
+            center,
+            [&](std::uint32_t index, double distance2) {
+                if (best.reaches(distance2) && wanted(index))
+                    best.take({distance2, index});
+            },
+            [&](double distance2) { return best.reaches(distance2); });
+        return best.count;
+    }
+    // [nearest]
+
+    /// The way that every search takes, and that a search of your own can take: down
+    /// the side where the centre lies, then the root, then the other side.
+    /// \param center   Where the search is.
+    /// \param offer    Called as offer(index, distance2) with each point on the way.
+    /// \param reaches  Called as reaches(distance2) before the other side, with the
+    ///                 squared distance to the plane between: no point there is nearer.
+    ///                 False leaves them out.
+    template <typename Offer, typename Reaches>
+    void walk(const Vec3T<T>& center, Offer&& offer, Reaches&& reaches) const {
+        descend(0, points_.size(), center, offer, reaches);
+    }
+
+private:
+    template <typename Offer, typename Reaches>
+    void descend(std::size_t first, std::size_t last, const Vec3T<T>& center,
+                 Offer& offer, Reaches& reaches) const;
+    void build(std::span<const Vec3T<T>> points, std::size_t first, std::size_t last);
+
+    std::vector<Vec3T<T>> points_;
+    std::vector<std::uint32_t> order_;
+    std::vector<std::uint8_t> axis_; // by which coordinate each root splits its range
+};
+using KdTree = KdTreeT<float>; ///< KdTreeT in float.
+
+// [build]
+template <std::floating_point T>
+KdTreeT<T>::KdTreeT(std::span<const Vec3T<T>> points) : axis_(points.size()) {
+    require(points.size() <= std::numeric_limits<std::uint32_t>::max(),
+            "the number of points in a k-d tree", static_cast<long long>(points.size()),
+            "below 2^32");
+    order_.reserve(points.size());
+    for (const Vec3T<T>& point : points) {
+        require_finite("a point of the k-d tree", point);
+        order_.push_back(static_cast<std::uint32_t>(order_.size()));
+    }
+    build(points, 0, points.size());
+    points_.reserve(points.size());
+    for (const std::uint32_t index : order_) points_.push_back(points[index]);
+}
+
+template <std::floating_point T>
+void KdTreeT<T>::build(std::span<const Vec3T<T>> points, std::size_t first,
+                       std::size_t last) {
+    if (first >= last) return;
+
+    // Split along the longest side of the range's box.
+    Vec3T<T> low = points[order_[first]];
+    Vec3T<T> high = low;
+    for (std::size_t i = first; i < last; ++i) {
+        low = glm::min(low, points[order_[i]]);
+        high = glm::max(high, points[order_[i]]);
+    }
+    const Vec3T<T> size = high / T(2) - low / T(2); // halves: no overflow
+    const int axis = size.x >= size.y && size.x >= size.z ? 0
+                     : size.y >= size.z                   ? 1
+                                                          : 2;
+
+    // The median goes to the middle; ties are split by the point's number.
+    const std::size_t middle = first + (last - first) / 2;
+    const auto begin = order_.begin();
+    std::nth_element(begin + static_cast<std::ptrdiff_t>(first),
+                     begin + static_cast<std::ptrdiff_t>(middle),
+                     begin + static_cast<std::ptrdiff_t>(last),
+                     [&](std::uint32_t a, std::uint32_t b) {
+                         const T x = points[a][axis];
+                         const T y = points[b][axis];
+                         return x < y || (x == y && a < b);
+                     });
+    axis_[middle] = static_cast<std::uint8_t>(axis);
+    build(points, first, middle);
+    build(points, middle + 1, last);
+}
+// [build]
+
+// [walk]
+template <std::floating_point T>
+template <typename Offer, typename Reaches>
+void KdTreeT<T>::descend(std::size_t first, std::size_t last, const Vec3T<T>& center,
+                         Offer& offer, Reaches& reaches) const {
+    if (first >= last) return;
+    const std::size_t middle = first + (last - first) / 2;
+    const int axis = axis_[middle];
+    const glm::dvec3 offset = glm::dvec3(center) - glm::dvec3(points_[middle]);
+
+    // Equal coordinates lie on both sides of the plane: which one is first is a matter
+    // of speed, whether the other is left out is for its distance to say.
+    const bool low_first = offset[axis] < 0;
+    if (low_first)
+        descend(first, middle, center, offer, reaches);
+    else
+        descend(middle + 1, last, center, offer, reaches);
+
+    offer(static_cast<std::uint32_t>(middle), glm::dot(offset, offset));
+
+    // Squares are compared, rounded as those of the points are.
+    if (!reaches(offset[axis] * offset[axis])) return;
+    if (low_first)
+        descend(middle + 1, last, center, offer, reaches);
+    else
+        descend(first, middle, center, offer, reaches);
+}
+// [walk]
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,62 @@
+#pragma once
+
+/// \file ljus/photons/photon.hpp
+/// \brief The photon: a packet of flux that has come to a surface.
+
+#include <cstdint>
+
+#include "ljus/math/vector.hpp"
+
+namespace ljus {
+
+/// \defgroup photon Photons
+/// \brief Section 2.3: what a photon map keeps.
+/// \{
+
+/// What has happened to a photon, in Heckbert's letters \cite heckbert1990.
+enum class PhotonKind : std::uint8_t {
+    direct,   ///< L D: it comes straight from its light.
+    caustic,  ///< L S+ D: only mirrors and glass lie between.
+    indirect, ///< L ... D ... D: it has met a diffuse surface before.
+    shadow ///< Not light: the first surface in its way hides this one from the light.
+};
+
+/// A photon where it met a surface.
+/// \report{Section 2.3}
+/// \erratum{The report gives a photon a radiance; it carries flux, in W.}
+template <std::floating_point T>
+struct PhotonT {
+    Vec3T<T> position{T(0)};  ///< In scene units.
+    Vec3T<T> direction{T(0)}; ///< Unit, the way it travels.
+    RgbT<T> flux{T(0)};       ///< W that arrive; of a shadow photon, that do not.
+    std::uint16_t light = 0;  ///< The number of the light it comes from.
+    PhotonKind kind = PhotonKind::direct; ///< What has happened to it.
+};
+using Photon = PhotonT<float>; ///< PhotonT in float: 40 bytes.
+
+/// Where the emitted flux of a photon pass has gone; in W, added in double.
+///
+/// Path by path, absorbed + escaped + cut + roulette = emitted: the first three are
+/// what materials took, what left the scene, and what a depth limit threw away;
+/// `roulette` is what the dead lost less what the survivors gained, and has the mean 0.
+struct FluxAudit {
+    RgbT<double> emitted{0};  ///< By the lights.
+    RgbT<double> absorbed{0}; ///< By materials and media.
+    RgbT<double> escaped{0};  ///< Past all objects.
+    RgbT<double> cut{0};      ///< By the limit of bounces.
+    RgbT<double> roulette{0}; ///< Lost by the dead, less what the survivors gained.
+
+    /// Adds another account.
+    FluxAudit& operator+=(const FluxAudit& other) noexcept {
+        emitted += other.emitted;
+        absorbed += other.absorbed;
+        escaped += other.escaped;
+        cut += other.cut;
+        roulette += other.roulette;
+        return *this;
+    }
+};
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,157 @@
+#pragma once
+
+/// \file ljus/photons/photon_map.hpp
+/// \brief Photons in a k-d tree, and the radiance they stand for.
+
+#include <array>
+#include <numbers>
+
+#include "ljus/materials/bsdf.hpp"
+#include "ljus/photons/kd_tree.hpp"
+#include "ljus/photons/kernel.hpp"
+#include "ljus/photons/photon.hpp"
+#include "ljus/scene/query.hpp"
+
+namespace ljus {
+
+/// \defgroup photon_map Photon maps
+/// \brief Sections 3.2.2 and 3.2.6: the general map and the caustics map.
+/// \{
+
+/// What a photon map keeps of a photon besides its position.
+template <std::floating_point T>
+struct PhotonRecordT {
+    Vec3T<T> direction{T(0)};             ///< Unit, the way it travels.
+    RgbT<T> flux{T(0)};                   ///< W.
+    std::uint16_t light = 0;              ///< The number of its light.
+    PhotonKind kind = PhotonKind::direct; ///< What has happened to it.
+};
+
+/// Photons, ordered for searching. The general map and the caustics map differ in what
+/// was traced into them, not in what they are.
+template <std::floating_point T>
+struct PhotonMapT {
+    KdTreeT<T> tree;                       ///< The positions.
+    std::vector<PhotonRecordT<T>> records; ///< The rest, in the order of the tree.
+
+    /// Whether there is nothing to be found.
+    [[nodiscard]] bool empty() const noexcept { return records.empty(); }
+};
+using PhotonMap = PhotonMapT<float>; ///< PhotonMapT in float.
+
+/// Builds a map.
+/// \param photons  In any order, which it does not keep.
+/// \return The map.
+/// \throws std::invalid_argument  if a position, a direction or a flux is not finite.
+template <std::floating_point T>
+[[nodiscard]] PhotonMapT<T> make_photon_map(const std::vector<PhotonT<T>>& photons) {
+    std::vector<Vec3T<T>> positions;
+    positions.reserve(photons.size());
+    for (const PhotonT<T>& photon : photons) {
+        require_finite("photon.direction", photon.direction);
+        require_finite("photon.flux", photon.flux);
+        positions.push_back(photon.position);
+    }
+
+    PhotonMapT<T> map{.tree = KdTreeT<T>(positions), .records = {}};
+    map.records.reserve(photons.size());
+    for (const std::uint32_t i : map.tree.order())
+        map.records.push_back(
+            {photons[i].direction, photons[i].flux, photons[i].light, photons[i].kind});
+    return map;
+}
+
+/// The most photons that an estimate with the k nearest takes.
+inline constexpr std::size_t max_gathered = 512;
+
+/// How photons are gathered.
+struct Gather {
+    float radius = 0.1f;                  ///< In scene units, above 0.
+    std::size_t nearest = 0;              ///< k within the radius; 0: all within it.
+    Kernel kernel = Kernel::epanechnikov; ///< The weight by distance.
+    float thickness = 0.1f; ///< Half the height of the disc over its radius: photons of
+                            ///< another wall lie outside.
+};
+
+/// Refuses a way to gather that gives no estimate.
+/// \param gather  The settings.
+/// \throws std::invalid_argument  with name and value.
+inline void check(const Gather& gather) {
+    require_positive("gather.radius", gather.radius);
+    require_positive("gather.thickness", gather.thickness);
+    require(gather.nearest != 1 && gather.nearest <= max_gathered, "gather.nearest",
+            static_cast<long long>(gather.nearest),
+            "0 for all within the radius, or 2 to 512 (one photon sets the radius)");
+}
+
+/// The radiance that the photons around a point send towards an observer:
+///
+/// \f[ L(x, \omega_o) = \frac{1}{\pi r^2} \sum_i w_i\, f(\omega_o, \omega_i)\,
+///     \Delta\Phi_i \f]
+///
+/// With the k nearest, the k-th sets the radius and is left out of the sum: counting it
+/// would be too bright by k/(k-1). Fewer than k within the radius are summed over the
+/// whole disc, and the mean stays right.
+///
+/// At a surface's edge half of the disc lies beside it, in a corner three quarters, and
+/// the estimate reads 1/2 and 1/4 of what it should.
+///
+/// \param map       The photons.
+/// \param surface   Where they are gathered.
+/// \param material  What the surface is made of.
+/// \param wo        Unit direction to the observer, in the surface's frame.
+/// \param gather    Radius, k, kernel.
+/// \param wanted    Which kinds count: called with a PhotonKind.
+/// \param gathered  Counts the photons that were summed.
+/// \return Radiance, W/(m^2 sr); 0 if the k nearest photons all lie at x itself, a disc
+///         without an area.
+/// \report{Section 3.2.6}
+/// \erratum{The report's R_i is called a radiance; it is the BRDF times the photon's
+///          flux. There is no cosine: the flux that arrives on the surface holds it.}
+// [estimate]
+template <std::floating_point T, typename Material, typename Wanted>
+[[nodiscard]] RgbT<T>
+estimate_radiance(const PhotonMapT<T>& map, const SurfaceT<T>& surface,
+                  const Material& material, const Vec3T<T>& wo, const Gather& gather,
+                  Wanted wanted, std::uint64_t& gathered) {
+    if (map.empty()) return RgbT<T>{T(0)};
+    const Vec3T<T>& x = surface.point.position;
+    double radius2 = double(gather.radius) * double(gather.radius);
+    RgbT<double> sum{0}; // many small terms: a float would lose the last of them
+    const auto add = [&](std::uint32_t i, double distance2) {
+        const PhotonRecordT<T>& photon = map.records[i];
+        // Photons of another wall lie outside of the disc.
+        const double height = glm::dot(glm::dvec3(map.tree.points()[i]) - glm::dvec3(x),
+                                       glm::dvec3(surface.point.normal));
+        const double limit = double(gather.thickness);
+        if (height * height > limit * limit * radius2) return;
+        const Vec3T<T> wi = to_local(surface.frame, -photon.direction);
+        const T weight =
+            kernel_weight(gather.kernel, static_cast<T>(distance2 / radius2));
+        sum += RgbT<double>(weight * evaluate(material, wo, wi) * photon.flux);
+        ++gathered;
+    };
+    const auto counts = [&](std::uint32_t i) { return wanted(map.records[i].kind); };
+    if (gather.nearest == 0) {
+        map.tree.visit_within(x, T(gather.radius),
+                              [&](std::uint32_t i, double distance2) {
+                                  if (counts(i)) add(i, distance2);
+                              });
+    } else {
+        std::array<Neighbor, max_gathered> room;
+        const std::span<Neighbor> found(room.data(), gather.nearest);
+        const std::size_t count = map.tree.nearest(x, T(gather.radius), found, counts);
+        const bool full = count == gather.nearest;
+        if (full) radius2 = found[0].distance2;
+        // All photons in one point have no area: there is no estimate.
+        if (!(radius2 > 0)) return RgbT<T>{T(0)};
+        for (std::size_t i = full ? 1 : 0; i < count; ++i)
+            add(found[i].index, found[i].distance2);
+    }
+    return RgbT<T>(sum / (std::numbers::pi * radius2));
+}
+// [estimate]
+
+/// \}
+
+} // namespace ljus

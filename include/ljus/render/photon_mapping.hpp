@@ -1,0 +1,181 @@
+#pragma once
+
+/// \file ljus/render/photon_mapping.hpp
+/// \brief The report's renderer: rays from the camera, and two photon maps.
+
+#include "ljus/photons/photon_map.hpp"
+#include "ljus/photons/tracing.hpp"
+#include "ljus/render/direct_light.hpp"
+#include "ljus/render/path_log.hpp"
+#include "ljus/render/survey.hpp"
+
+namespace ljus {
+
+/// \defgroup photon_mapping Photon mapping
+/// \brief Section 3: the two-pass renderer. Chapter: \ref ch_two_pass.
+///
+/// Every light path has one owner:
+///
+/// | path             | who carries it |
+/// |------------------|-----------------------------------------------------------------|
+/// | E S* L           | emission, while no diffuse surface has been met | | E ... D L
+/// | shadow rays                                                     | | E ... D S+ L
+/// | the caustics map, at every diffuse surface                      | | E ... D ... D
+/// .. | indirect rays, or the general map where the first of them ends  |
+/// \{
+
+/// What the first pass made. Plain data: it may be made in any other way.
+template <std::floating_point T>
+struct PhotonMapsT {
+    PhotonMapT<T> caustics; ///< L S+ D; empty if the scene has no mirror and no glass.
+    PhotonMapT<T> general; ///< L D, L ... D ... D, and shadows; empty unless asked for.
+    FluxAudit caustics_audit; ///< Where the flux of the caustics pass went.
+    FluxAudit general_audit;  ///< Where the flux of the general pass went.
+    bool complete = true;     ///< False if the progress callback stopped the pass.
+};
+
+/// Runs the first pass: the maps that the plan asks for, and no others.
+/// \param scene     The scene.
+/// \param settings  Photons, seed, threads.
+/// \return The maps, the same for any number of threads.
+/// \throws std::invalid_argument  if there is no light, or a setting is out of range.
+template <typename Scene>
+[[nodiscard]] PhotonMapsT<typename Scene::Scalar>
+make_photon_maps(const Scene& scene, const PhotonMapping& settings = {}) {
+    check(settings);
+    const Plan plan = survey(scene, settings);
+    PhotonMapsT<typename Scene::Scalar> maps;
+    const auto run = [&](PhotonLaw law, const PhotonPass& pass, auto& map,
+                         auto& audit) {
+        const auto traced = trace_photons(scene, law, pass);
+        map = make_photon_map(traced.photons);
+        audit = traced.audit;
+        maps.complete = maps.complete && traced.complete;
+    };
+    if (plan.caustics_map.on)
+        run(PhotonLaw::caustics, settings.caustics, maps.caustics, maps.caustics_audit);
+    if (plan.general_map.on)
+        run(PhotonLaw::general, settings.general, maps.general, maps.general_audit);
+    return maps;
+}
+
+/// A scene with its photon maps. It refers to both, which must outlive it.
+template <typename Scene>
+struct PhotonMapper {
+    const Scene& scene;                              ///< What is rendered.
+    const PhotonMapsT<typename Scene::Scalar>& maps; ///< Of the first pass.
+    PhotonMapping settings;                          ///< How.
+};
+
+/// Makes a photon mapper.
+/// \param scene     Must outlive the mapper.
+/// \param maps      Of make_photon_maps(); must outlive the mapper.
+/// \param settings  Depths, radii, who carries indirect light.
+/// \return The mapper.
+/// \throws std::invalid_argument  if a setting is out of range.
+template <typename Scene>
+[[nodiscard]] PhotonMapper<Scene>
+make_photon_mapper(const Scene& scene, const PhotonMapsT<typename Scene::Scalar>& maps,
+                   const PhotonMapping& settings = {}) {
+    check(settings);
+    return {scene, maps, settings};
+}
+
+/// The radiance that one camera path finds with the help of the photon maps.
+///
+/// At each diffuse surface: one shadow ray to each light, the caustics map, and one
+/// indirect ray; at each mirror or glass: one branch. With IndirectLight::map, the
+/// first diffuse surface that an indirect ray meets answers from the general map.
+/// \param mapper  The scene, the maps, the limits.
+/// \param ray     A primary ray.
+/// \param stream  The numbers of this path.
+/// \param counts  Counts rays and photons.
+/// \param log     Told of each vertex and each term.
+/// \return Radiance, W/(m^2 sr); biased by the radius of the estimates, and by the
+/// depth
+///         where one is set.
+/// \report{Sections 3.2.3, 3.2.4 and 3.2.6}
+/// \erratum{In the report's program an indirect ray that met a lamp added it again,
+/// though
+///          the shadow ray had counted it.}
+// [radiance]
+template <typename Scene, std::floating_point T, typename Log = NoLog>
+[[nodiscard]] RgbT<T> radiance(const PhotonMapper<Scene>& mapper, RayT<T> ray,
+                               RandomStream& stream, Counts& counts, Log&& log = {}) {
+    const Scene& scene = mapper.scene;
+    const PhotonMapping& settings = mapper.settings;
+    RgbT<T> sum{T(0)};
+    RgbT<T> throughput{T(1)};
+    RgbT<T> medium{T(0)};
+    bool met_diffuse = false;
+    log.begin();
+    const auto add = [&](const char* owner, const char* letters, const RgbT<T>& light) {
+        log.term(owner, letters, throughput * light);
+        sum += throughput * light;
+    };
+
+    for (int depth = 1; depth <= settings.max_depth; ++depth) {
+        start_bounce(stream, static_cast<std::uint64_t>(depth));
+        const auto hit = closest_hit(scene, ray);
+        if (!hit) break;
+        const ShadingT<T> at = shading(scene, ray, *hit, medium);
+        throughput *= transmittance(medium, hit->at.t);
+        if (at.shines() && !met_diffuse)
+            add("emission", "L", at.surface.object.emission);
+
+        const bool gather = met_diffuse && settings.indirect == IndirectLight::map;
+        const bool goes_on =
+            scene.visit_material(at.surface.object.material, [&](const auto& material) {
+                const auto from_map = [&](const PhotonMapT<T>& map, const Gather& how,
+                                          auto wanted) {
+                    ++counts.map_queries;
+                    return estimate_radiance(map, at.surface, material, at.wo, how,
+                                             wanted, counts.map_photons);
+                };
+                if (has(lobes(material), Lobes::diffuse)) {
+                    if (gather) {
+                        add("general map", "DL|D..DL",
+                            from_map(mapper.maps.general, settings.gather_general,
+                                     [](PhotonKind kind) {
+                                         return kind != PhotonKind::shadow;
+                                     }));
+                    } else {
+                        add("shadow ray", "DL",
+                            light_of_all(scene, at, material, settings.shadow_rays,
+                                         stream, counts));
+                    }
+                    if (!mapper.maps.caustics.empty())
+                        add("caustics map", "DS+L",
+                            from_map(mapper.maps.caustics, settings.gather_caustics,
+                                     [](PhotonKind) { return true; }));
+                }
+                if (depth == settings.max_depth) return false;
+
+                // Go on by one branch; after gathering, by mirrors and glass only.
+                const bool no_indirect =
+                    gather || settings.indirect == IndirectLight::none;
+                const auto next =
+                    sample(material, at.wo, next_3d<T>(stream), Transport::radiance,
+                           no_indirect ? Lobes::specular : Lobes::all);
+                if (!next) return false;
+                throughput *= next->weight;
+                met_diffuse = met_diffuse || !next->specular;
+                log.vertex(next->specular ? 'S' : 'D', at.surface.point.position,
+                           throughput, next->pdf);
+                medium = medium_beyond(medium, material, at.wo, next->wi);
+                ray = ray_from(at.surface.point, to_world(at.surface.frame, next->wi));
+                return true;
+            });
+        if (!goes_on || is_black(throughput)) break;
+        if (depth >= settings.roulette_depth &&
+            !survives(throughput, next_1d<T>(stream)))
+            break;
+        ++counts.bounce_rays;
+    }
+    return sum;
+}
+// [radiance]
+
+/// \}
+
+} // namespace ljus

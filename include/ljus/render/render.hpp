@@ -1,0 +1,115 @@
+#pragma once
+
+/// \file ljus/render/render.hpp
+/// \brief The pixel loop.
+
+#include <optional>
+
+#include "ljus/image/image.hpp"
+#include "ljus/parallel.hpp"
+#include "ljus/render/counts.hpp"
+#include "ljus/render/path_log.hpp"
+#include "ljus/scene/camera.hpp"
+#include "ljus/scene/stratified.hpp"
+
+namespace ljus {
+
+/// \defgroup render Rendering
+/// \brief Section 3.2: "in order to render an image, primary rays are cast into the
+/// scene".
+/// \{
+
+/// The picture that is asked for.
+struct Picture {
+    int width = 400;        ///< Pixels, at least 1.
+    int height = 400;       ///< Pixels, at least 1.
+    int rays = 64;          ///< Primary rays in a pixel, at least 1; exactly as many.
+    std::uint64_t seed = 1; ///< Of the random streams.
+    int threads = 0;        ///< 0: all that there are.
+    Progress progress = {}; ///< Called with (done, total); false stops.
+};
+
+/// What a rendering brings.
+template <std::floating_point T>
+struct RenderedT {
+    ImageT<T> image{};    ///< The mean radiance of each pixel.
+    Counts counts{};      ///< What it cost.
+    bool complete = true; ///< False if the progress callback stopped it.
+};
+
+/// The radiance of one primary ray, as the pixel loop asks for it.
+/// \param renderer  A PathTracer, a PhotonMapper, or anything with a radiance().
+/// \param camera    The camera.
+/// \param picture   Size and rays.
+/// \param strata    strata_for() the rays of a pixel.
+/// \param x         Column of the pixel.
+/// \param y         Row of the pixel.
+/// \param number    Which of the pixel's rays.
+/// \param counts    Counts the rays.
+/// \param log       Told of each vertex and each term.
+/// \return Radiance, W/(m^2 sr).
+template <typename Renderer, std::floating_point T, typename Log = NoLog>
+[[nodiscard]] RgbT<T> sample_pixel(const Renderer& renderer, const CameraT<T>& camera,
+                                   const Picture& picture, const Strata& strata, int x,
+                                   int y, int number, Counts& counts, Log&& log = {}) {
+    const auto pixel =
+        static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(picture.width) +
+        static_cast<std::uint64_t>(x);
+    const auto path = pixel * static_cast<std::uint64_t>(picture.rays) +
+                      static_cast<std::uint64_t>(number);
+    RandomStream stream = random_stream(picture.seed, Pass::camera, 0, path);
+    const Vec2T<T> place =
+        stratified(strata, number, mix(picture.seed) ^ pixel, next_2d<T>(stream));
+    const RayT<T> ray = primary_ray(camera, Vec2T<T>{T(x), T(y)} + place, picture.width,
+                                    picture.height);
+    ++counts.camera_rays;
+    return radiance(renderer, ray, stream, counts, log);
+}
+
+/// Renders a picture, row by row, by several threads.
+/// \param renderer  A PathTracer, a PhotonMapper, or anything with a radiance().
+/// \param camera    The camera.
+/// \param picture   Size, rays, seed, threads.
+/// \return The picture, the same for any number of threads. A sample that is not finite
+/// is
+///         left out and counted.
+/// \throws std::invalid_argument  if the size or the number of rays is below 1.
+// [render]
+template <typename Renderer, std::floating_point T>
+[[nodiscard]] RenderedT<T> render(const Renderer& renderer, const CameraT<T>& camera,
+                                  const Picture& picture) {
+    require(picture.rays >= 1, "rays", static_cast<long long>(picture.rays),
+            "at least 1");
+    RenderedT<T> result{.image = make_image<T>(picture.width, picture.height)};
+    const Strata strata = strata_for(picture.rays);
+    const int tiles = (picture.width + 15) / 16;
+    std::vector<Counts> counts(static_cast<std::size_t>(tiles) *
+                               static_cast<std::size_t>(picture.height));
+    const auto strip = [&](long long number) {
+        const int y = static_cast<int>(number / tiles);
+        const int first = static_cast<int>(number % tiles) * 16;
+        Counts& cost = counts[static_cast<std::size_t>(number)];
+        for (int x = first; x < std::min(first + 16, picture.width); ++x) {
+            Vec3T<T> sum{T(0)};
+            for (int i = 0; i < picture.rays; ++i) {
+                const RgbT<T> sample =
+                    sample_pixel(renderer, camera, picture, strata, x, y, i, cost);
+                if (is_finite(sample))
+                    sum += sample;
+                else
+                    ++cost.rejected;
+            }
+            pixel(result.image, x, y) = sum / T(picture.rays);
+        }
+    };
+    result.complete =
+        parallel_blocks(static_cast<long long>(counts.size()), strip,
+                        {.threads = picture.threads, .progress = picture.progress});
+    for (const Counts& cost : counts) result.counts += cost;
+    return result;
+}
+// [render]
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,92 @@
+#pragma once
+
+/// \file ljus/scene/camera.hpp
+/// \brief The pinhole camera.
+
+#include <numbers>
+
+#include "ljus/geometry/ray.hpp"
+#include "ljus/math/require.hpp"
+
+namespace ljus {
+
+/// \defgroup camera Cameras
+/// \brief Section 3.2: primary rays.
+/// \{
+
+/// A pinhole camera; look_at() makes one.
+template <std::floating_point T>
+struct CameraT {
+    Vec3T<T> position{T(0)};             ///< The pinhole, in scene units.
+    Vec3T<T> right{T(1), T(0), T(0)};    ///< Unit, to the right of the picture.
+    Vec3T<T> up{T(0), T(1), T(0)};       ///< Unit, to the top of the picture.
+    Vec3T<T> forward{T(0), T(0), T(-1)}; ///< Unit, into the picture.
+    T half_height = T(1); ///< tan(vfov / 2): half the picture at distance 1.
+};
+using Camera = CameraT<float>; ///< CameraT in float.
+
+/// Where a camera stands and what it looks at.
+template <std::floating_point T>
+struct ViewT {
+    Vec3T<T> position{T(0)};            ///< The pinhole, in scene units.
+    Vec3T<T> target{T(0), T(0), T(-1)}; ///< The point at the middle of the picture.
+    Vec3T<T> up{T(0), T(1), T(0)};      ///< Roughly up; not along the view.
+    T vfov_degrees = T(45);             ///< Full vertical angle, within (0, 180).
+};
+using View = ViewT<float>; ///< ViewT in float.
+
+/// The camera of a view.
+/// \param view  Where it stands and what it looks at.
+/// \return The camera.
+/// \throws std::invalid_argument  if the view has no direction, or no up, or no angle.
+template <std::floating_point T>
+[[nodiscard]] CameraT<T> look_at(const ViewT<T>& view) {
+    require_finite("camera.position", view.position);
+    require_finite("camera.target", view.target);
+    require_finite("camera.up", view.up);
+    require(view.vfov_degrees > T(0) && view.vfov_degrees < T(180),
+            "camera.vfov_degrees", view.vfov_degrees, "above 0 and below 180");
+    const Vec3T<T> way = view.target - view.position;
+    require(glm::dot(way, way) > T(0), "camera.target", view.target,
+            "another point than camera.position");
+    const Vec3T<T> forward = glm::normalize(way);
+    const Vec3T<T> side = glm::cross(forward, view.up);
+    require(glm::dot(side, side) > T(1e-12) * glm::dot(view.up, view.up), "camera.up",
+            view.up, "a direction that is not along the view");
+    const Vec3T<T> right = glm::normalize(side);
+    return {.position = view.position,
+            .right = right,
+            .up = glm::cross(right, forward),
+            .forward = forward,
+            .half_height =
+                std::tan(view.vfov_degrees * std::numbers::pi_v<T> / T(360))};
+}
+
+/// The same in float, for a view written in braces.
+[[nodiscard]] inline Camera look_at(const View& view) {
+    return look_at<float>(view);
+}
+
+/// The primary ray through a point of the picture.
+/// \param camera  The camera.
+/// \param pixel   From the upper left corner: x in [0, width], y in [0, height].
+/// \param width   Of the picture, in pixels.
+/// \param height  Of the picture, in pixels.
+/// \return A ray from the pinhole, its direction of unit length.
+/// \report{Section 3.2, Fig. 3}
+// [primary_ray]
+template <std::floating_point T>
+[[nodiscard]] RayT<T> primary_ray(const CameraT<T>& camera, const Vec2T<T>& pixel,
+                                  int width, int height) noexcept {
+    const T scale = T(2) * camera.half_height / T(height);
+    const T x = (pixel.x - T(width) / T(2)) * scale;
+    const T y = (T(height) / T(2) - pixel.y) * scale;
+    return {.origin = camera.position,
+            .direction =
+                glm::normalize(camera.forward + x * camera.right + y * camera.up)};
+}
+// [primary_ray]
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,71 @@
+#pragma once
+
+/// \file ljus/scene/light_choice.hpp
+/// \brief One light of many, chosen in proportion to its power.
+
+#include <vector>
+
+#include "ljus/scene/light.hpp"
+
+namespace ljus {
+
+/// \defgroup light_choice Choosing a light
+/// \brief Photons, and the path tracer's shadow rays, start at one light of all: a
+/// bright one more often.
+/// \{
+
+/// The lights of a scene, by power.
+struct LightChoice {
+    std::vector<double> cumulative; ///< Sums of the powers up to each light, in W.
+};
+
+/// One chosen light.
+template <std::floating_point T>
+struct ChosenLightT {
+    std::uint32_t light = 0; ///< Its number.
+    T probability = T(0);    ///< Of choosing this one.
+};
+
+/// The sums that choose_light() needs; a light's power is the sum of its channels.
+/// \param lights  The lights of a scene.
+/// \return One sum a light.
+template <std::floating_point T>
+[[nodiscard]] LightChoice light_choice(const std::vector<LightT<T>>& lights) {
+    LightChoice choice;
+    double sum = 0;
+    for (const LightT<T>& light : lights) {
+        sum += double(light.flux.x) + double(light.flux.y) + double(light.flux.z);
+        choice.cumulative.push_back(sum);
+    }
+    return choice;
+}
+
+/// The probability with which choose_light() returns a light.
+/// \param choice  Of the scene's lights.
+/// \param light   Its number.
+/// \return Its share of the power.
+template <std::floating_point T>
+[[nodiscard]] T probability_of(const LightChoice& choice,
+                               std::uint32_t light) noexcept {
+    const double before = light == 0 ? 0.0 : choice.cumulative[light - 1];
+    return static_cast<T>((choice.cumulative[light] - before) /
+                          choice.cumulative.back());
+}
+
+/// A light, with a probability in proportion to its power.
+/// \param choice  Of the scene's lights; at least one.
+/// \param u       In [0, 1).
+/// \return Its number and the probability.
+/// \cost A binary search.
+template <std::floating_point T>
+[[nodiscard]] ChosenLightT<T> choose_light(const LightChoice& choice, T u) noexcept {
+    const double power = double(u) * choice.cumulative.back();
+    const auto place =
+        std::upper_bound(choice.cumulative.begin(), choice.cumulative.end() - 1, power);
+    const auto light = static_cast<std::uint32_t>(place - choice.cumulative.begin());
+    return {light, probability_of<T>(choice, light)};
+}
+
+/// \}
+
+} // namespace ljus

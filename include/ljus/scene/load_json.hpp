@@ -1,0 +1,293 @@
+#pragma once
+
+/// \file ljus/scene/load_json.hpp
+/// \brief Scenes from JSON files.
+
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "ljus/geometry/pair_triangles.hpp"
+#include "ljus/image/file.hpp"
+#include "ljus/image/image.hpp"
+#include "ljus/materials/glass.hpp"
+#include "ljus/materials/lambertian.hpp"
+#include "ljus/materials/mirror.hpp"
+#include "ljus/materials/oren_nayar.hpp"
+#include "ljus/scene/camera.hpp"
+#include "ljus/scene/parse_json.hpp"
+#include "ljus/scene/scene.hpp"
+
+namespace ljus {
+
+/// \defgroup load_json Scene files
+/// \brief Optional (nlohmann-json): a scene, its camera and the size of its picture.
+///
+///     {"name": "a ball", "image": {"width": 200, "height": 200},
+///      "camera": {"position": [0, 1, 4], "look_at": [0, 1, 0], "up": [0, 1, 0],
+///                 "vfov_deg": 40},
+///      "materials": {"grey": {"type": "lambertian", "albedo": [0.5, 0.5, 0.5]}},
+///      "objects": [{"type": "sphere", "material": "grey", "center": [0, 1, 0],
+///                   "radius": 1, "emission": [2, 2, 2]}]}
+///
+/// | `type` of a material | its fields                                             |
+/// |----------------------|--------------------------------------------------------|
+/// | lambertian           | albedo                                                 |
+/// | oren-nayar           | albedo, sigma_deg: the slope angle's deviation, degrees |
+/// | mirror               | reflectance                                            |
+/// | dielectric           | ior: smooth, clear glass                               |
+///
+/// | `type` of an object | its fields, besides material, name and emission         |
+/// |---------------------|---------------------------------------------------------|
+/// | sphere              | center, radius                                          |
+/// | triangles           | vertices, indices: three numbers a triangle, from 0     |
+///
+/// Emission is radiance: of a sphere outwards, of a triangle towards
+/// \f$(V_2 - V_1) \times (V_3 - V_1)\f$. Lengths are within 1e9, radiance within 1e12.
+/// \{
+
+/// A scene of whatever a scene file may hold.
+template <std::floating_point T>
+using FileSceneT =
+    Scene<Shapes<QuadT<T>, SphereT<T>, TriangleT<T>>,
+          Materials<LambertianT<T>, OrenNayarT<T>, MirrorT<T>, GlassT<T>>>;
+
+/// What a scene file says.
+template <std::floating_point T>
+struct LoadedSceneT {
+    FileSceneT<T> scene; ///< Shapes, materials and lights.
+    CameraT<T> camera;   ///< Where it is seen from.
+    std::string name;    ///< Of the scene; empty if it has none.
+    int width = 0;       ///< Of its picture, in pixels.
+    int height = 0;      ///< Of its picture, in pixels.
+};
+using LoadedScene = LoadedSceneT<float>; ///< LoadedSceneT in float.
+
+/// The largest file that load_json() takes, in bytes.
+inline constexpr std::size_t max_scene_file = std::size_t(1) << 28;
+
+namespace detail {
+
+constexpr double max_length = 1e9;
+constexpr double max_radiance = 1e12;
+
+inline glm::dvec3 vector_field(const JsonField& field, double low, double high,
+                               std::string_view right) {
+    if (list_size(field) != 3) refuse_value(field, "a list of three numbers");
+    return {number(entry(field, 0), low, high, right),
+            number(entry(field, 1), low, high, right),
+            number(entry(field, 2), low, high, right)};
+}
+
+inline glm::dvec3 point_field(const JsonField& field) {
+    return vector_field(field, -max_length, max_length, "within [-1e9, 1e9]");
+}
+
+inline glm::dvec3 share_field(const JsonField& field) {
+    return vector_field(field, 0, 1, "within [0, 1]");
+}
+
+// One of the names in a list.
+inline void require_one_of(const JsonField& field,
+                           const std::vector<std::string>& names) {
+    for (const std::string& name : names)
+        if (text(field) == name) return;
+    refuse_value(field, in_a_row(names, "or"));
+}
+
+template <std::floating_point T>
+CameraT<T> read_camera(const JsonField& field) {
+    require_object(field, {"position", "look_at", "up", "vfov_deg"});
+    const ViewT<T> view{
+        .position{point_field(member(field, "position"))},
+        .target{point_field(member(field, "look_at"))},
+        .up{point_field(member(field, "up"))},
+        .vfov_degrees = static_cast<T>(number(member(field, "vfov_deg"), 1e-3, 179.99,
+                                              "within [0.001, 179.99] degrees"))};
+    const Vec3T<T> way = view.target - view.position;
+    if (!(glm::dot(way, way) > T(0)))
+        refuse_value(member(field, "look_at"), "another point than camera.position");
+    try {
+        return look_at(view);
+    } catch (const std::invalid_argument&) {
+        refuse_value(member(field, "up"), "a direction that is not along the view");
+    }
+}
+
+template <std::floating_point T>
+MaterialId read_material(const JsonField& field, FileSceneT<T>& scene) {
+    if (!field.value.is_object()) refuse_value(field, "an object");
+    const JsonField type = member(field, "type");
+    require_one_of(type, {"lambertian", "oren-nayar", "mirror", "dielectric"});
+    if (text(type) == "lambertian") {
+        require_object(field, {"type", "albedo"});
+        return scene.add(LambertianT<T>{.albedo{share_field(member(field, "albedo"))}});
+    }
+    if (text(type) == "oren-nayar") {
+        require_object(field, {"type", "albedo", "sigma_deg"});
+        const double degrees =
+            number(member(field, "sigma_deg"), 0, 90, "within [0, 90] degrees");
+        return scene.add(
+            OrenNayarT<T>{.albedo{share_field(member(field, "albedo"))},
+                          .sigma = static_cast<T>(degrees * std::numbers::pi / 180)});
+    }
+    if (text(type) == "mirror") {
+        require_object(field, {"type", "reflectance"});
+        return scene.add(
+            MirrorT<T>{.reflectance{share_field(member(field, "reflectance"))}});
+    }
+    require_object(field, {"type", "ior"});
+    const double index =
+        number(member(field, "ior"), 1e-3, 1e3, "within [0.001, 1000]");
+    return scene.add(GlassT<T>{.index = static_cast<T>(index)});
+}
+
+// The triangles of an object, as quads where two of them are one.
+template <std::floating_point T>
+FlatShapesT<T> read_triangles(const JsonField& field) {
+    const JsonField vertices = member(field, "vertices");
+    std::vector<glm::dvec3> points;
+    for (std::size_t i = 0; i < list_size(vertices); ++i)
+        points.push_back(point_field(entry(vertices, i)));
+
+    const JsonField indices = member(field, "indices");
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (std::size_t i = 0; i < list_size(indices); ++i) {
+        const JsonField triple = entry(indices, i);
+        if (list_size(triple) != 3) refuse_value(triple, "a list of three numbers");
+        std::array<std::uint32_t, 3> corners{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const JsonField index = entry(triple, k);
+            if (points.empty()) refuse(index, "names a vertex, but there are none");
+            corners[k] = static_cast<std::uint32_t>(
+                whole_number(index, 0, static_cast<long long>(points.size()) - 1));
+        }
+        const glm::dvec3& a = points[corners[0]];
+        const glm::dvec3 normal =
+            glm::cross(points[corners[1]] - a, points[corners[2]] - a);
+        if (!(glm::dot(normal, normal) > 0))
+            refuse(triple, "is a triangle without an area");
+        triangles.push_back(corners);
+    }
+    return pair_triangles<T>(points, triangles);
+}
+
+template <std::floating_point T>
+void read_object(const JsonField& field,
+                 const std::map<std::string, MaterialId>& materials,
+                 FileSceneT<T>& scene) {
+    const JsonField type = member(field, "type");
+    require_one_of(type, {"sphere", "triangles"});
+    const bool sphere = text(type) == "sphere";
+    if (sphere)
+        require_object(field,
+                       {"type", "name", "material", "emission", "center", "radius"});
+    else
+        require_object(field,
+                       {"type", "name", "material", "emission", "vertices", "indices"});
+    if (const auto name = find(field, "name")) (void)text(*name);
+
+    const JsonField material = member(field, "material");
+    const auto known = materials.find(text(material));
+    if (known == materials.end()) {
+        std::vector<std::string> names;
+        for (const auto& [name, id] : materials) names.push_back(name);
+        refuse_value(material,
+                     std::string("one of the materials ") + in_a_row(names, "or"));
+    }
+    RgbT<T> emission{T(0)};
+    const auto emitted = find(field, "emission");
+    if (emitted)
+        emission = RgbT<T>{vector_field(*emitted, 0, max_radiance, "within [0, 1e12]")};
+
+    const auto add = [&](const auto& shape) {
+        try {
+            scene.add(shape, known->second, emission);
+        } catch (const std::invalid_argument& error) {
+            // What is too small or too large for T, though not for the file.
+            refuse(field, std::string("cannot be used: ") + error.what());
+        }
+    };
+    if (sphere) {
+        const JsonField radius = member(field, "radius");
+        const double length = number(radius, -max_length, max_length, "at most 1e9");
+        if (!(static_cast<T>(length) > T(0))) refuse_value(radius, "above 0");
+        add(SphereT<T>{.center{point_field(member(field, "center"))},
+                       .radius = static_cast<T>(length)});
+    } else {
+        const FlatShapesT<T> shapes = read_triangles<T>(field);
+        for (const QuadT<T>& quad : shapes.quads) add(quad);
+        for (const TriangleT<T>& triangle : shapes.triangles) add(triangle);
+    }
+}
+
+} // namespace detail
+
+/// Reads a scene from the text of a scene file.
+/// \param source  The text.
+/// \param file    What messages call it: the name of the file.
+/// \return The scene. Two triangles that are one parallelogram have become one quad.
+/// \throws std::runtime_error  with one sentence that names the file, the path of the
+///         field, its value and what would be right: "scene.json: objects[3].radius is
+///         -1; it must be above 0."
+template <std::floating_point T = float>
+[[nodiscard]] LoadedSceneT<T> read_json_scene(std::string_view source,
+                                              const std::string& file) {
+    const nlohmann::json root = parse_json(source, file);
+    const JsonField top{root, file, ""};
+    require_object(top, {"format", "name", "description", "camera", "image",
+                         "materials", "objects"});
+    for (const char* field : {"format", "name", "description"})
+        if (const auto comment = find(top, field)) (void)text(*comment);
+
+    LoadedSceneT<T> loaded;
+    if (const auto name = find(top, "name")) loaded.name = text(*name);
+    loaded.camera = detail::read_camera<T>(member(top, "camera"));
+
+    const JsonField image = member(top, "image");
+    require_object(image, {"width", "height", "pixel_filter"});
+    loaded.width =
+        static_cast<int>(whole_number(member(image, "width"), 1, max_pixels));
+    loaded.height =
+        static_cast<int>(whole_number(member(image, "height"), 1, max_pixels));
+    if (loaded.width > max_pixels / loaded.height)
+        refuse(image, std::string("has more than ").append(std::to_string(max_pixels)) +
+                          " pixels");
+    if (const auto filter = find(image, "pixel_filter");
+        filter && text(*filter).substr(0, 3) != "box")
+        refuse_value(*filter, "\"box\", the only filter that there is");
+
+    std::map<std::string, MaterialId> materials;
+    const JsonField list = member(top, "materials");
+    if (!list.value.is_object()) refuse_value(list, "an object");
+    for (const auto& [name, value] : list.value.items())
+        materials[name] = detail::read_material(
+            {value, file, path_of_member(list.path, name)}, loaded.scene);
+
+    const JsonField objects = member(top, "objects");
+    for (std::size_t i = 0; i < list_size(objects); ++i)
+        detail::read_object(entry(objects, i), materials, loaded.scene);
+    if (loaded.scene.lights.empty())
+        refuse(objects, "has no light; at least one needs an emission above 0");
+    if (loaded.scene.lights.size() > 65535)
+        refuse(objects, std::string("has ")
+                            .append(std::to_string(loaded.scene.lights.size()))
+                            .append(" lights; it must have at most 65535"));
+    return loaded;
+}
+
+/// Loads a scene file.
+/// \param path  The file.
+/// \return The scene.
+/// \throws std::runtime_error  as read_json_scene(); or, if the file cannot be read,
+///         with its name and the reason.
+template <std::floating_point T = float>
+[[nodiscard]] LoadedSceneT<T> load_json(const std::string& path) {
+    const Bytes bytes = load_file(path, max_scene_file);
+    return read_json_scene<T>(
+        {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
+}
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,172 @@
+#pragma once
+
+/// \file ljus/scene/scene.hpp
+/// \brief Shapes, what they are made of, and what shines: plain data.
+
+#include <array>
+#include <cstddef>
+#include <tuple>
+#include <vector>
+
+#include "ljus/materials/bsdf.hpp"
+#include "ljus/scene/light.hpp"
+
+namespace ljus {
+
+/// \defgroup scene Scenes
+/// \brief A scene lists the types it is made of; what is not listed costs nothing.
+/// \{
+
+/// The closed list of a scene's shape types.
+template <Shape... S>
+struct Shapes {};
+
+/// The closed list of a scene's material types.
+template <Bsdf... M>
+struct Materials {};
+
+/// A scene; see the specialisation.
+template <typename ShapeList, typename MaterialList>
+struct Scene;
+
+/// Shapes with their materials, and lights: one contiguous array a type.
+///
+///     Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass>> scene;
+///     const auto grey = scene.add(Lambertian{.albedo = Rgb{0.5f}});
+///     scene.add(Sphere{.center{0, 0, -3}, .radius = 1}, grey);
+///     scene.add(PointLight{.position{0, 3, 0}, .intensity = Rgb{20}});
+///
+/// What is added is checked; lights are collected as they come, and keep their numbers.
+template <typename FirstShape, typename... S, typename... M>
+struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
+    using Scalar = ScalarOf<FirstShape>; ///< The precision, from the shapes' types.
+    static_assert((std::is_same_v<Scalar, ScalarOf<S>> && ...),
+                  "A scene's shapes must all have one precision.");
+    static_assert((std::is_same_v<Scalar, typename M::Scalar> && ...),
+                  "A scene's materials must have the precision of its shapes.");
+
+    std::tuple<std::vector<FirstShape>, std::vector<S>...> shapes; ///< An array a type.
+    /// What each shape is made of, in the order of `shapes`.
+    std::array<std::vector<ObjectT<Scalar>>, 1 + sizeof...(S)> objects;
+    std::tuple<std::vector<M>...> materials; ///< An array a type.
+    std::vector<LightT<Scalar>> lights;      ///< Emissive objects and point lights.
+
+    /// Adds a material.
+    /// \param material  One of the listed types.
+    /// \return Its number, for the shapes that are made of it.
+    /// \throws std::invalid_argument  if a value lies outside the material's range.
+    template <Bsdf B>
+    requires(std::same_as<B, M> || ...) MaterialId add(const B& material) {
+        check(material);
+        auto& array = std::get<std::vector<B>>(materials);
+        array.push_back(material);
+        return {type_of<B, M...>(), static_cast<std::uint32_t>(array.size() - 1)};
+    }
+
+    /// Adds a shape.
+    /// \param shape  One of the listed types.
+    /// \param material  What add() returned for its material.
+    /// \param radiance  The radiance it emits along its normal's side, W/(m^2 sr);
+    ///          added to what the material itself emits.
+    /// \param inside_out  Whether the normal points inwards, as in a room made of a
+    ///          sphere.
+    /// \return Its number.
+    /// \throws std::invalid_argument  if a value is out of range, or the material
+    ///     unknown.
+    template <Shape G>
+    requires(std::same_as<G, FirstShape> || (std::same_as<G, S> || ...)) ObjectId
+        add(const G& shape, MaterialId material, RgbT<Scalar> radiance = {},
+            bool inside_out = false) {
+        check(shape);
+        require_radiance("emission", radiance);
+        require(has(material), "the material's number",
+                static_cast<long long>(material.index), "one that add() returned");
+        radiance += visit_material(material, [](const auto& m) { return emission(m); });
+
+        auto& array = std::get<std::vector<G>>(shapes);
+        const ObjectId id{type_of<G, FirstShape, S...>(),
+                          static_cast<std::uint32_t>(array.size())};
+        if (!is_black(radiance)) {
+            require_positive("the area of a light", area(shape));
+            lights.push_back({.object = id,
+                              .emission = radiance,
+                              .flux = diffuse_flux(radiance, area(shape))});
+        }
+        array.push_back(shape);
+        const auto light = static_cast<std::uint32_t>(lights.size()) - 1u;
+        objects[id.type].push_back({material, radiance, inside_out, light});
+        return id;
+    }
+
+    /// Adds a point light.
+    /// \param light  The light.
+    /// \throws std::invalid_argument  if its position is not finite or its intensity is
+    ///                                negative.
+    void add(const PointLightT<Scalar>& light) {
+        require_finite("point light.position", light.position);
+        require_radiance("point light.intensity", light.intensity);
+        if (is_black(light.intensity)) return;
+        lights.push_back(
+            {.position = light.position,
+             .emission = light.intensity,
+             .flux = Scalar(4) * std::numbers::pi_v<Scalar> * light.intensity});
+    }
+
+    /// What the scene knows of a shape besides its geometry.
+    [[nodiscard]] const ObjectT<Scalar>& object(ObjectId id) const noexcept {
+        return objects[id.type][id.index];
+    }
+
+    /// Calls f(shape) with the shape of a number, as its own type.
+    template <typename F>
+    decltype(auto) visit_shape(ObjectId id, F&& f) const {
+        return visit<0>(shapes, id.type, id.index, f);
+    }
+
+    /// Calls f(material) with the material of a number, as its own type.
+    template <typename F>
+    decltype(auto) visit_material(MaterialId id, F&& f) const {
+        return visit<0>(materials, id.type, id.index, f);
+    }
+
+    /// How many shapes there are.
+    [[nodiscard]] std::size_t size() const noexcept {
+        std::size_t sum = 0;
+        for (const auto& array : objects) sum += array.size();
+        return sum;
+    }
+
+private:
+    template <typename X, typename... List>
+    static constexpr std::uint32_t type_of() noexcept {
+        std::uint32_t place = 0;
+        (void)((std::is_same_v<X, List> ? true : (++place, false)) || ...);
+        return place;
+    }
+
+    bool has(MaterialId id) const noexcept {
+        std::uint32_t place = 0;
+        bool found = false;
+        std::apply(
+            [&](const auto&... array) {
+                ((found = found || (place++ == id.type && id.index < array.size())),
+                 ...);
+            },
+            materials);
+        return found;
+    }
+
+    // The last type needs no comparison: with one type listed, none is made at all.
+    template <std::size_t I, typename Tuple, typename F>
+    static decltype(auto) visit(const Tuple& arrays, std::uint32_t type,
+                                std::uint32_t index, F& f) {
+        if constexpr (I + 1 < std::tuple_size_v<Tuple>) {
+            if (type != I) return visit<I + 1>(arrays, type, index, f);
+        }
+        return f(std::get<I>(arrays)[index]);
+    }
+};
+
+/// \}
+
+} // namespace ljus

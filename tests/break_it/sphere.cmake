@@ -1,0 +1,56 @@
+# b^2 - ac, as textbooks have it: far away the two cancel.
+ljus_break_it(NAME sphere-discriminant HEADER geometry/sphere.hpp TEST sphere
+    FROM "const C discriminant = r * r - glm::dot(p, p);"
+    TO   "const C discriminant = (b * b - a * (glm::dot(oc, oc) - r * r)) * inverse_a;"
+    CASES "sphere: far away*")
+
+# The smaller root straight from the formula cancels just above a surface.
+ljus_break_it(NAME sphere-small-root HEADER geometry/sphere.hpp TEST sphere
+    FROM "q != C(0) ? c / q : C(0);"
+    TO   "(b - std::copysign(std::sqrt(a * discriminant), b)) * inverse_a;"
+    CASES "sphere: just above*")
+
+# A comparison that lets NaN pass.
+ljus_break_it(NAME sphere-nan HEADER geometry/sphere.hpp TEST sphere
+    FROM "!(C(0) <= discriminant && discriminant <= max && r > C(0))"
+    TO   "discriminant < C(0) || discriminant > max || r <= C(0)"
+    CASES "sphere: invalid data*")
+
+# A radius enters as its square only: -1 is as good as 1, if nobody asks.
+ljus_break_it(NAME sphere-radius HEADER geometry/sphere.hpp TEST sphere
+    FROM "&& r > C(0)"
+    TO   ""
+    CASES "sphere: invalid data*")
+
+# An infinite radius has an infinite discriminant, and t_max is infinite by default.
+ljus_break_it(NAME sphere-infinity HEADER geometry/sphere.hpp TEST sphere
+    FROM "&& discriminant <= max "
+    TO   ""
+    CASES "sphere: invalid data*")
+
+# From within, the first root lies behind: t_min must refuse it.
+ljus_break_it(NAME sphere-t-min HEADER geometry/sphere.hpp TEST sphere
+    FROM "ray.t_min <= enter && "
+    TO   ""
+    CASES "sphere: known hits")
+
+ljus_break_it(NAME sphere-t-max HEADER geometry/sphere.hpp TEST sphere
+    FROM " && leave <= ray.t_max"
+    TO   ""
+    CASES "sphere: the range*")
+
+# D is not asked to have unit length; here it is.
+ljus_break_it(NAME sphere-direction-length HEADER geometry/sphere.hpp TEST sphere
+    FROM "std::sqrt(a * discriminant)"
+    TO   "std::sqrt(discriminant)"
+    CASES "sphere: t is measured*")
+
+# The line touches where the ray starts: 0/0.
+ljus_break_it(NAME sphere-touch HEADER geometry/sphere.hpp TEST sphere
+    FROM "q != C(0) ? c / q : C(0);"
+    TO   "c / q;"
+    CASES "sphere: the chord*")
+
+ljus_break_it(NAME sphere-normal HEADER geometry/sphere.hpp TEST sphere
+    FROM "glm::normalize(point - sphere.center)"
+    TO   "(point - sphere.center)")

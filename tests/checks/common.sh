@@ -1,0 +1,30 @@
+# Shared by the checks of this folder, which CTest runs with LJUS_... in the environment;
+# to be sourced.
+set -euo pipefail
+: "${LJUS_ROOT:?run this check by ctest, which tells it where everything is}"
+scratch=$LJUS_SCRATCH
+include=$LJUS_ROOT/include
+mkdir -p "$scratch"
+
+skip() { echo "skipped: $*"; exit 77; }
+
+# The files that a header of ours includes, directly.
+ours_in() { sed -n 's/^ *#[ ]*include *"\([^"]*\)".*/\1/p' "$1"; }
+
+# reached FOLDER NAME: the header and all that it reaches by our includes.
+reached() {
+    local folder=$1 todo=$2 seen=" " name
+    while :; do
+        # shellcheck disable=SC2086
+        set -- $todo
+        [ $# -gt 0 ] || break
+        name=$1
+        shift
+        todo=$*
+        case $seen in *" $name "*) continue ;; esac
+        seen="$seen$name "
+        [ -f "$folder/$name" ] && todo="$todo $(ours_in "$folder/$name" | tr '\n' ' ')"
+    done
+    # shellcheck disable=SC2086
+    printf '%s\n' $seen
+}

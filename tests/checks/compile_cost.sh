@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# What each header costs to include: user time of -fsyntax-only; the median of three when
+# the first run is above the budget.
+# The budget is 0.25 s up to the materials and 0.6 s above; because machines are noisy,
+# only twice the budget is an error.
+. "$(dirname "$0")/common.sh"
+TIMEFORMAT=%U
+status=0
+
+# One run, in seconds.
+seconds() {
+    # shellcheck disable=SC2086
+    { time echo "#include \"$1\"" | "$LJUS_CXX" -std=c++20 $LJUS_OPENMP_FLAGS \
+        $LJUS_PACKAGE_FLAGS -I "$include" -fsyntax-only -x c++ - >/dev/null; } 2>&1 |
+        tail -n 1
+}
+
+# above COST BUDGET [FACTOR]
+above() { awk -v t="$1" -v b="$2" -v f="${3:-1}" 'BEGIN { exit !(t > f * b) }'; }
+
+printf '%-44s %8s %8s\n' header seconds budget
+while read -r header; do
+    case $header in
+        ljus/scene/* | ljus/photons/* | ljus/render/* | ljus/ljus.hpp) budget=0.60 ;;
+        *) budget=0.25 ;;
+    esac
+    cost=$(seconds "$header")
+    if above "$cost" "$budget"; then
+        cost=$( (echo "$cost"; seconds "$header"; seconds "$header") | sort -n | sed -n 2p)
+    fi
+    verdict=
+    if above "$cost" "$budget" 2; then
+        verdict="TOO SLOW"
+    elif above "$cost" "$budget"; then
+        verdict="above budget"
+    fi
+    if grep -qxF "$header" "$LJUS_OPTIONAL"; then
+        verdict="optional${verdict:+, $verdict}"
+    elif [ "$verdict" = "TOO SLOW" ]; then
+        status=1
+    fi
+    printf '%-44s %8s %8s  %s\n' "$header" "$cost" "$budget" "$verdict"
+done <"$LJUS_HEADERS"
+exit $status

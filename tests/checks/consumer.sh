@@ -1,0 +1,141 @@
+#!/usr/bin/env bash
+# One way in which others use the library, from an empty folder to a program that runs.
+# Usage: consumer.sh plain|find_package|add_subdirectory|pkg_config|fetch|missing
+. "$(dirname "$0")/common.sh"
+way=$1
+folder=$scratch/consumer_$way
+rm -rf "$folder"
+mkdir -p "$folder"
+source=$LJUS_ROOT/tests/consumer
+everything=
+[ -f "$include/ljus/ljus.hpp" ] && everything=-DUSES_EVERYTHING
+
+# Only a package that the compiler does not find by itself needs a hint.
+hints() {
+    set -- $LJUS_PACKAGE_FLAGS
+    while [ $# -ge 2 ]; do
+        [ -f "$2/glm/vec3.hpp" ] && echo "-DLJUS_GLM_INCLUDE_DIR=$2"
+        [ -f "$2/stb_image_write.h" ] && echo "-DLJUS_STB_INCLUDE_DIR=$2"
+        shift 2
+    done
+    return 0
+}
+run_cmake() {
+    "$LJUS_CMAKE" -G "$LJUS_GENERATOR" -DCMAKE_MAKE_PROGRAM="$LJUS_MAKE_PROGRAM" \
+        -DCMAKE_CXX_COMPILER="$LJUS_CXX" -DCMAKE_BUILD_TYPE=Release \
+        -DCMAKE_CXX_FLAGS="$everything" "$@"
+}
+build_and_run() {
+    run_cmake -S "$source" -B "$folder/build" "$@" >"$folder/configure.log" 2>&1 ||
+        { cat "$folder/configure.log"; exit 1; }
+    "$LJUS_CMAKE" --build "$folder/build"
+    "$folder/build/consumer" | tee "$folder/output"
+    grep -q "^Ljus $LJUS_VERSION: 0$" "$folder/output"
+}
+install_ljus() {
+    run_cmake -S "$LJUS_ROOT" -B "$folder/ljus" -DCMAKE_INSTALL_PREFIX="$folder/first" \
+        -DLJUS_TESTS=OFF -DLJUS_EXAMPLES=OFF -DLJUS_FETCH=OFF $(hints) >"$folder/ljus.log" 2>&1 ||
+        { cat "$folder/ljus.log"; exit 1; }
+    "$LJUS_CMAKE" --build "$folder/ljus" --target install >>"$folder/ljus.log"
+    # Moved, because a package may be unpacked anywhere.
+    mv "$folder/first" "$folder/prefix"
+    for file in include/ljus/version.hpp share/cmake/ljus/ljus-config.cmake \
+        share/pkgconfig/ljus.pc; do
+        [ -f "$folder/prefix/$file" ] || { echo "$file was not installed."; exit 1; }
+    done
+    if grep -rn "$LJUS_ROOT\|$folder" "$folder/prefix/share"; then
+        echo "The installed package names a folder of this machine."
+        exit 1
+    fi
+}
+
+case $way in
+    plain)
+        # shellcheck disable=SC2086
+        "$LJUS_CXX" -std=c++20 -O2 $everything $LJUS_OPENMP_FLAGS $LJUS_PACKAGE_FLAGS \
+            -I"$include" "$source/main.cpp" -o "$folder/consumer"
+        "$folder/consumer"
+        ;;
+    find_package)
+        install_ljus
+        build_and_run -DCMAKE_PREFIX_PATH="$folder/prefix" $(hints)
+        rm -rf "$folder/build"
+        echo "and without OpenMP:"
+        build_and_run -DCMAKE_PREFIX_PATH="$folder/prefix" $(hints) -DLJUS_OPENMP=OFF
+        rm -rf "$folder/build"
+        if run_cmake -S "$source" -B "$folder/build" -DCMAKE_PREFIX_PATH="$folder/prefix" \
+            -DCMAKE_DISABLE_FIND_PACKAGE_glm=ON -DCMAKE_IGNORE_PATH="/usr/include" \
+            >"$folder/configure.log" 2>&1; then
+            echo "note: GLM was found in spite of all; its sentence is not tested"
+        else
+            tr -s " \n" "  " <"$folder/configure.log" | grep -F "Ljus needs GLM" >/dev/null
+        fi
+        ;;
+    add_subdirectory)
+        build_and_run -DLJUS_FOLDER="$LJUS_ROOT" $(hints)
+        ;;
+    pkg_config)
+        command -v pkg-config >/dev/null || skip "pkg-config is not installed"
+        install_ljus
+        export PKG_CONFIG_PATH=$folder/prefix/share/pkgconfig
+        [ "$(pkg-config --modversion ljus)" = "$LJUS_VERSION" ]
+        # shellcheck disable=SC2046,SC2086
+        "$LJUS_CXX" -std=c++20 $(pkg-config --cflags ljus) $LJUS_PACKAGE_FLAGS \
+            "$source/main.cpp" -o "$folder/consumer"
+        "$folder/consumer"
+        ;;
+    fetch)
+        # GLM and stb come from local repositories that stand for the upstream ones.
+        command -v git >/dev/null || skip "git is not installed"
+        repository() {
+            git init -q "$folder/$1"
+            mkdir -p "$folder/$1/$(dirname "$3")"
+            cp -R "$2" "$folder/$1/$3"
+            git -C "$folder/$1" add -A
+            git -C "$folder/$1" -c user.name=test -c user.email=test@localhost \
+                -c commit.gpgsign=false commit -q -m "A stand-in"
+            git -C "$folder/$1" rev-parse HEAD
+        }
+        depends() {
+            # shellcheck disable=SC2086
+            echo "#include <$1>" | "$LJUS_CXX" $LJUS_PACKAGE_FLAGS -M -x c++ - 2>/dev/null |
+                tr ' \\' '\n\n' | awk -v end="$1" \
+                'substr($0, length($0) - length(end)) == "/" end && !seen++' |
+                grep .
+        }
+        glm=$(depends glm/vec3.hpp)
+        stb=$(depends stb/stb_image_write.h || depends stb_image_write.h) || skip "no stb"
+        glm_commit=$(repository glm "$(dirname "$glm")" glm)
+        stb_commit=$(repository stb "$stb" stb_image_write.h)
+        locally="-DLJUS_FETCH=ALWAYS
+            -DLJUS_GLM_REPOSITORY=file://$folder/glm -DLJUS_STB_REPOSITORY=file://$folder/stb
+            -DLJUS_STB_COMMIT=$stb_commit"
+        # shellcheck disable=SC2086
+        build_and_run -DLJUS_FOLDER="$LJUS_ROOT" $locally -DLJUS_GLM_COMMIT="$glm_commit"
+        [ -f "$folder/build/_deps/ljus-glm-src/glm/vec3.hpp" ] ||
+            { echo "GLM was not fetched into the build folder."; exit 1; }
+        rm -rf "$folder/build"
+        # A commit that is not there is an error, not another version.
+        # shellcheck disable=SC2086
+        if run_cmake -S "$source" -B "$folder/build" -DLJUS_FOLDER="$LJUS_ROOT" $locally \
+            -DLJUS_GLM_COMMIT=0123456789012345678901234567890123456789 \
+            >"$folder/configure.log" 2>&1; then
+            echo "A commit that does not exist was accepted."
+            exit 1
+        fi
+        echo "fetched by commit into the build folder; a wrong commit is refused"
+        ;;
+    missing)
+        # Nothing installed and nothing fetched: one sentence to act on.
+        if run_cmake -S "$LJUS_ROOT" -B "$folder/build" -DLJUS_FETCH=OFF \
+            -DCMAKE_DISABLE_FIND_PACKAGE_glm=ON -DCMAKE_IGNORE_PATH="/usr/include" \
+            >"$folder/configure.log" 2>&1; then
+            skip "GLM is found in spite of all"
+        fi
+        tr -s ' \n' '  ' <"$folder/configure.log" | grep -oF \
+            "Ljus: glm is not installed; install it (sudo apt-get install libglm-dev)" ||
+            { cat "$folder/configure.log"; exit 1; }
+        ;;
+    *) echo "consumer.sh: there is no way '$way'." >&2; exit 2 ;;
+esac
+rm -rf "$folder"

@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# A header and the files it names, copied into an empty folder, compile there.
+. "$(dirname "$0")/common.sh"
+status=0
+count=0
+while read -r header; do
+    folder=$scratch/copy
+    rm -rf "$folder"
+    for name in $(reached "$include" "$header"); do
+        mkdir -p "$folder/$(dirname "$name")"
+        cp "$include/$name" "$folder/$name"
+    done
+    files=$(find "$folder" -name '*.hpp' | wc -l | tr -d ' ')
+    # shellcheck disable=SC2086
+    if ! echo "#include \"$header\"" | "$LJUS_CXX" -std=c++20 -Wall -Werror \
+        $LJUS_PACKAGE_FLAGS -I "$folder" -fsyntax-only -x c++ -; then
+        echo "$header does not compile with only the $files files that it names."
+        status=1
+    fi
+    count=$((count + 1))
+done <"$LJUS_HEADERS"
+rm -rf "$scratch/copy"
+echo "$count headers copied, each with what it names"
+exit $status

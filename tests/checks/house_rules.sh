@@ -1,0 +1,102 @@
+#!/usr/bin/env bash
+# The house rules that a script can check, on every header below include/ljus.
+# Usage: house_rules.sh [FOLDER with ljus/ in it]
+. "$(dirname "$0")/common.sh"
+include=${1:-$include}
+problems=0
+problem() { echo "$*"; problems=$((problems + 1)); }
+
+# Includes point one way only: math < image, parallel < geometry < ... < render.
+floor() {
+    case $1 in
+        ljus/version.hpp) echo 0 ;;
+        ljus/math/*) echo 1 ;;
+        ljus/image/* | ljus/parallel.hpp) echo 2 ;;
+        ljus/geometry/*) echo 3 ;;
+        ljus/optics/*) echo 4 ;;
+        ljus/materials/*) echo 5 ;;
+        ljus/scene/*) echo 6 ;;
+        ljus/photons/*) echo 7 ;;
+        ljus/render/*) echo 8 ;;
+        ljus/ljus.hpp) echo 9 ;;
+        *) echo none ;;
+    esac
+}
+
+# nothing PATTERN SENTENCE: no line of $code, the header without comments, may match.
+nothing() {
+    local lines
+    lines=$(echo "$code" | grep -nE "$1" || true)
+    [ -z "$lines" ] || problem "$name:${lines%%:*}: $2"
+}
+
+optional=' '
+for name in $(cd "$include" && find ljus -name '*.hpp' | sort); do
+    if grep -qE '#include <(nlohmann/json\.hpp|tiny_obj_loader\.h|stb/stb_image\.h)>' \
+        "$include/$name"; then
+        optional="$optional$name "
+    fi
+done
+
+for name in $(cd "$include" && find ljus -type f | sort); do
+    file=$include/$name
+    code=$(sed 's://.*$::' "$file")
+    here=$(floor "$name")
+
+    case $name in *.hpp) ;; *) problem "$name: only .hpp files live here."; continue ;; esac
+    [ "$here" != none ] || problem "$name: this folder is no floor of the house."
+    [ "$(head -n 1 "$file")" = "#pragma once" ] ||
+        problem "$name:1: the first line must be '#pragma once'."
+    grep -qF "/// \\file $name" "$file" || problem "$name: it must say '/// \\file $name'."
+    grep -q '/// \\brief' "$file" || problem "$name: it has no \\brief."
+    long=$(awk 'length($0) > 88 { print NR; exit }' "$file")
+    [ -z "$long" ] || problem "$name:$long: a line is longer than 88 columns."
+    ! grep -q "$(printf '[\t\r]')" "$file" || problem "$name: it has a tab or a CR."
+
+    nothing '#[ ]*include <(iostream|random|ranges|functional|chrono|filesystem)>' \
+        "this header is too dear to include: see design rule 11."
+    nothing '#[ ]*include <glm/(glm|ext|fwd|gtx/.*|gtc/.*)(\.hpp)?>' \
+        "GLM is included by part, its core only."
+    nothing '(^|[^_a-zA-Z0-9])virtual([^_a-zA-Z0-9]|$)' "there is no 'virtual' here."
+    nothing 'shared_ptr' "there is no 'shared_ptr' here."
+    nothing '(struct|class)[^;{]*[^:]:[^:;{]*(public|protected|private)' \
+        "there is no inheritance here."
+    nothing 'using namespace' "a header opens no namespace for its user."
+    nothing 'std::(cout|cerr|rand|time)([^_a-zA-Z0-9]|$)' \
+        "the library neither prints nor asks the clock."
+    nothing '(^|[^_a-zA-Z0-9.:])(printf|fprintf|puts|rand|time) *\(' \
+        "the library neither prints nor asks the clock."
+    nothing '#[ ]*define +([^LST]|L[^J]|S[^T]|T[^I])' "macros are named LJUS_... ."
+    nothing '^static ' "a header has no 'static' function or data: use 'inline'."
+    [ "$name" = ljus/parallel.hpp ] ||
+        nothing '(#[ ]*pragma +omp|omp\.h|omp_)' "only ljus/parallel.hpp knows OpenMP."
+
+    for used in $(ours_in "$file"); do
+        if [ ! -f "$include/$used" ]; then
+            problem "$name: it includes \"$used\", which is not there below include/."
+            continue
+        fi
+        there=$(floor "$used")
+        if [ "$there" -gt "$here" ] ||
+            { [ "$there" -eq "$here" ] && [ "${used%/*}" != "${name%/*}" ]; }; then
+            problem "$name: it includes \"$used\"; includes point one way only."
+        fi
+        case $optional in
+            *" $used "*) problem "$name: it includes \"$used\", an optional header." ;;
+        esac
+    done
+    # A header that stands alone, like schlick.hpp, is to be copied alone.
+    [ -z "$(ours_in "$file")" ] ||
+        reached "$include" "$name" | grep -x 'ljus/version.hpp' >/dev/null ||
+        problem "$name: it does not reach ljus/version.hpp, which refuses C++17."
+done
+
+if [ -f "$include/ljus/ljus.hpp" ]; then
+    all=" $(reached "$include" ljus/ljus.hpp | tr '\n' ' ')$optional"
+    for name in $(cd "$include" && find ljus -name '*.hpp' | sort); do
+        case $all in *" $name "*) continue ;; esac
+        problem "ljus/ljus.hpp: it does not include \"$name\"."
+    done
+fi
+[ $problems -eq 0 ] || { echo "$problems problems"; exit 1; }
+echo "the house rules hold"

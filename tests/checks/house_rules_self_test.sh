@@ -1,0 +1,74 @@
+#!/usr/bin/env bash
+# Tests house_rules.sh: each of these small sins must be found, and a good house passes.
+. "$(dirname "$0")/common.sh"
+folder=$scratch/house
+wrong=0
+
+# header NAME [LINE...]: writes a good header with these lines in it.
+header() {
+    local name=$1
+    shift
+    mkdir -p "$folder/$(dirname "$name")"
+    {
+        printf '#pragma once\n\n/// \\file %s\n/// \\brief A header.\n\n' "$name"
+        [ "$name" = ljus/version.hpp ] || echo '#include "ljus/version.hpp"'
+        [ $# -eq 0 ] || printf '%s\n' "$@"
+    } >"$folder/$name"
+}
+good_house() {
+    rm -rf "$folder"
+    header ljus/version.hpp '#define LJUS_VERSION_MAJOR 1'
+    header ljus/math/a.hpp '// not virtual, no shared_ptr' 'struct A { int b = 1; };'
+    header ljus/parallel.hpp '#pragma omp parallel'
+    header ljus/geometry/b.hpp '#include "ljus/math/a.hpp"' '#include "ljus/parallel.hpp"'
+    header ljus/scene/load.hpp '#include <nlohmann/json.hpp>'
+    header ljus/ljus.hpp '#include "ljus/geometry/b.hpp"'
+}
+rules() { bash "$(dirname "$0")/house_rules.sh" "$folder" 2>&1; }
+
+# finds SENTENCE: the rules fail, and say this.
+finds() {
+    local output
+    if output=$(rules); then
+        echo "WRONG: nothing found, although: $1"
+        wrong=1
+    elif ! echo "$output" | grep -F "$1" >/dev/null; then
+        echo "WRONG: should be found: $1; it says: $output"
+        wrong=1
+    fi
+    good_house
+}
+sin() { header ljus/math/a.hpp "$1"; finds "$2"; }
+
+good_house
+rules || { echo "WRONG: a good house does not pass."; wrong=1; }
+sin '#include <iostream>' "too dear"
+sin '#include <glm/glm.hpp>' "by part"
+sin '    virtual void f();' "no 'virtual'"
+sin 'std::shared_ptr<int> p;' "no 'shared_ptr'"
+sin 'struct B : public A {};' "no inheritance"
+sin 'using namespace std;' "opens no namespace"
+sin '#define MAX 3' "macros are named"
+sin 'static int f();' "no 'static'"
+sin '#pragma omp parallel for' "only ljus/parallel.hpp"
+sin 'inline void f() { printf("x"); }' "neither prints"
+sin '#include "ljus/geometry/b.hpp"' "one way only"
+sin '#include "ljus/math/gone.hpp"' "which is not there"
+sin "$(printf '%089d' 0)" "longer than 88"
+header ljus/image/c.hpp '#include "ljus/parallel.hpp"'
+finds "one way only"
+header ljus/render/c.hpp '#include "ljus/scene/load.hpp"'
+finds "an optional header"
+header ljus/render/c.hpp
+finds "does not include \"ljus/render/c.hpp\""
+header ljus/attic/c.hpp
+finds "no floor"
+printf '#pragma once\n/// \\file ljus/math/a.hpp\n/// \\brief A.\n#include "ljus/math/c.hpp"\n' \
+    >"$folder/ljus/math/a.hpp"
+printf '#pragma once\n/// \\file ljus/math/c.hpp\n/// \\brief C.\n' >"$folder/ljus/math/c.hpp"
+finds "does not reach ljus/version.hpp"
+printf '\n#pragma once\n' >"$folder/ljus/math/a.hpp"
+finds "first line"
+rm -rf "$folder"
+[ $wrong -eq 0 ] && echo "every sin was found"
+exit $wrong

@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# C++17 and -ffast-math are refused by one sentence, whichever header comes first. Only a
+# header that includes nothing of ours may compile without a word.
+. "$(dirname "$0")/common.sh"
+status=0
+
+# refused FLAGS SENTENCE: the first error for each header is the sentence.
+refused() {
+    local flags=$1 sentence=$2 header first
+    while read -r header; do
+        # shellcheck disable=SC2086
+        first=$(echo "#include \"$header\"" | "$LJUS_CXX" $flags $LJUS_PACKAGE_FLAGS \
+            -I "$include" -fsyntax-only -Wfatal-errors -x c++ - 2>&1 |
+            grep 'error:' | head -n 1 || true)
+        case $first in
+            *"$sentence"*) ;;
+            '')
+                [ -z "$(ours_in "$include/$header")" ] || {
+                    echo "$header with $flags compiles; '$sentence' should be said."
+                    status=1
+                }
+                ;;
+            *)
+                echo "$header with $flags: the first error should be '$sentence'; it is: $first"
+                status=1
+                ;;
+        esac
+    done <"$LJUS_HEADERS"
+}
+refused "-std=c++17" "Ljus needs C++20: add -std=c++20"
+refused "-std=c++20 -ffast-math" "compile without -ffast-math"
+[ $status -eq 0 ] && echo "C++17 and -ffast-math are refused by every header"
+exit $status

@@ -1,0 +1,203 @@
+#include <doctest/doctest.h>
+
+// The example programs need CLI11, the library does not.
+#if __has_include(<CLI/CLI.hpp>)
+
+#include <csignal>
+#include <initializer_list>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "../examples/common/command_line.cpp"
+#include "../examples/common/terminal.hpp"
+#include "scratch_folder.hpp"
+
+namespace {
+
+using examples::CommandLine;
+using examples::Options;
+using examples::Quality;
+
+Options parse(std::vector<std::string> words, const examples::Presets& presets = {}) {
+    words.insert(words.begin(), "program");
+    CommandLine line(words);
+    return line.parse(presets);
+}
+
+// What a wrong command line is answered with.
+std::string answer(std::initializer_list<std::string> words) {
+    try {
+        (void)parse(words);
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+template <typename Body>
+int run(const Body& body, std::vector<const char*> words = {"program"}) {
+    return examples::run_main(static_cast<int>(words.size()), words.data(), body);
+}
+
+} // namespace
+
+TEST_CASE("command_line: what is not given comes from the quality") {
+    const examples::Presets presets{
+        .draft = {.width = 10, .height = 20, .rays = 1},
+        .report = {.width = 30, .height = 40, .rays = 2},
+        .reference = {.width = 50, .height = 60, .rays = 3}};
+    const Options report = parse({}, presets);
+    CHECK(report.quality == Quality::report);
+    CHECK(report.width == 30);
+    CHECK(report.height == 40);
+    CHECK(report.rays == 2);
+    CHECK(report.out == ".");
+    CHECK(report.seed == 1);
+    CHECK(report.threads == 0);
+    CHECK_FALSE(report.quiet);
+    const Options draft = parse({"--quality", "draft", "--height", "7"}, presets);
+    CHECK(draft.width == 10);
+    CHECK(draft.height == 7);
+    CHECK(draft.rays == 1);
+    CHECK(draft.pick(1, 2, 3) == 1);
+    const Options reference = parse({"--quality=reference", "--spp=9"}, presets);
+    CHECK(reference.width == 50);
+    CHECK(reference.rays == 9);
+    CHECK(reference.pick(1, 2, 3) == 3);
+}
+
+TEST_CASE("command_line: every option arrives, and the last of two counts") {
+    const ScratchFolder folder;
+    const Options options = parse({"--out", folder.file("new/one"), "--seed",
+                                   "18446744073709551615", "--threads", "3", "--width",
+                                   "5", "--rays", "7", "--quiet", "--width", "6"});
+    CHECK(options.seed == 18446744073709551615u);
+    CHECK(options.threads == 3);
+    CHECK(options.width == 6);
+    CHECK(options.rays == 7);
+    CHECK(options.quiet);
+    CHECK(std::filesystem::is_directory(folder.path / "new" / "one"));
+    CHECK(std::filesystem::is_empty(folder.path / "new" / "one"));
+    CHECK(options.path("a.png") == (folder.path / "new" / "one" / "a.png").string());
+}
+
+TEST_CASE("command_line: a program's own options") {
+    int count = 1;
+    long long photons = 2;
+    double radius = 0.5;
+    std::string scene = "final";
+    std::string text = "x";
+    bool fast = false;
+    CommandLine line({"program", "--count", "5", "--photons", "10000000000", "--radius",
+                      "1e-3", "--scene", "cornell", "--fast"});
+    line.about("A program.");
+    line.add("--count", count, "How many", 1, 10);
+    line.add("--photons", photons, "How many", 0, 1LL << 40);
+    line.add("--radius", radius, "How large", 0.0, 1.0);
+    line.add("--scene", scene, "Which", {"final", "cornell"});
+    line.add("--text", text, "What");
+    line.add("--fast", fast, "How");
+    (void)line.parse();
+    CHECK(count == 5);
+    CHECK(photons == 10000000000);
+    CHECK(radius == 1e-3);
+    CHECK(scene == "cornell");
+    CHECK(text == "x");
+    CHECK(fast);
+    CHECK(line.given("--count"));
+    CHECK_FALSE(line.given("--text"));
+}
+
+TEST_CASE("command_line: what is wrong is named with its value") {
+    CHECK(answer({"--width", "0"}) ==
+          "--width: Value 0 not in range 1 to 65536 (see --help)");
+    CHECK(answer({"--seed", "-1"}) ==
+          "--seed: Value -1 not in range 0 to 18446744073709551615 (see --help)");
+    CHECK(answer({"--nope"}) ==
+          "The following argument was not expected: --nope (see --help)");
+    CHECK(answer({"--quality", "best"}).starts_with("--quality: best not in {"));
+    for (const std::string option : {"--width", "--height", "--rays"})
+        for (const std::string value : {"0", "-3", "1.5", "x", "", "99999999999"}) {
+            CAPTURE(option);
+            CAPTURE(value);
+            CHECK(answer({option, value}) != "accepted");
+        }
+    for (const std::string value : {"-1", "", "x", "1.5", "18446744073709551616"})
+        CHECK(answer({"--seed", value}) != "accepted");
+    for (const std::string value : {"-1", "1025", "x"})
+        CHECK(answer({"--threads", value}) != "accepted");
+    for (const std::string word : {"stray", "--width", "-x", "--out"})
+        CHECK(answer({word}) != "accepted");
+    for (const std::string value : {"nan", "inf", "-inf", "0", "2", "x", ""}) {
+        CAPTURE(value);
+        double radius = 0.5;
+        CommandLine line({"program", "--radius", value});
+        line.add("--radius", radius, "How large", 1e-9, 1.0);
+        CHECK_THROWS_AS((void)line.parse(), std::invalid_argument);
+    }
+}
+
+TEST_CASE("command_line: a folder that cannot be used is found before any work") {
+    const ScratchFolder folder;
+    ScratchFolder::write(folder.file("plain"), "x");
+    CHECK(answer({"--out", folder.file("plain")}) == "cannot write into the folder '" +
+                                                         folder.file("plain") +
+                                                         "' of --out: Not a directory");
+    CHECK(answer({"--out", folder.file("plain/below")}) != "accepted");
+    CHECK(answer({"--out", ""}) != "accepted");
+    CHECK(folder.count() == 1);
+}
+
+TEST_CASE("command_line: run_main turns what is thrown into an exit code") {
+    CHECK(run([](CommandLine&) {}) == 0);
+    CHECK(run([](CommandLine& line) { (void)line.parse(); }, {"program", "--help"}) ==
+          0);
+    CHECK(run([](CommandLine& line) { (void)line.parse(); },
+              {"program", "--version"}) == 0);
+    CHECK(run([](CommandLine& line) { (void)line.parse(); }, {"program", "--nope"}) ==
+          2);
+    CHECK(run([](CommandLine&) { throw std::runtime_error("no luck."); }) == 2);
+    CHECK(run([](CommandLine&) { throw std::bad_alloc(); }) == 2);
+    CHECK(run([](CommandLine&) { throw 42; }) == 2);
+    CHECK(run([](CommandLine&) { throw examples::Exit{7}; }) == 7);
+}
+
+TEST_CASE(
+    "command_line: after Ctrl-C the loop stops, nothing is saved, the code is 130") {
+    const ScratchFolder folder;
+    const std::string out = folder.path.string();
+    int blocks = 0;
+    bool finished = true;
+    const int code = run(
+        [&](CommandLine& line) {
+            const Options options = line.parse();
+            examples::ProgressBar bar("test", true);
+            finished = ljus::parallel_blocks(1000,
+                                             [&](long long b) {
+                                                 ++blocks;
+                                                 if (b == 9) std::raise(SIGINT);
+                                             },
+                                             {.threads = 1, .progress = bar});
+            // A program that forgot to look at `finished` cannot save either.
+            ljus::save_file(options.path("a.png"), {});
+        },
+        {"program", "--out", out.c_str()});
+    CHECK(code == 130);
+    CHECK_FALSE(finished);
+    CHECK(blocks == 10);
+    CHECK(folder.count() == 0);
+    // The next program in this process is not stopped by it.
+    CHECK(run([](CommandLine&) {}) == 0);
+    // Ctrl-C that nobody looked at counts as well.
+    CHECK(run([](CommandLine&) { std::raise(SIGINT); }) == 130);
+    CHECK(run([](CommandLine&) { std::raise(SIGTERM); }) == 143);
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
+}
+
+#else
+
+TEST_CASE("command_line: not tested, because CLI11 is not installed") {}
+
+#endif

@@ -1,0 +1,149 @@
+#include <doctest/doctest.h>
+
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+#include "ljus/image/file.hpp"
+#include "scratch_folder.hpp"
+
+#if __has_include(<sys/resource.h>)
+#include <csignal>
+#include <sys/resource.h>
+#endif
+
+namespace {
+
+ljus::Bytes bytes_of(const std::string& text) {
+    return {text.begin(), text.end()};
+}
+
+std::string message_of_save(const std::string& path, const ljus::Bytes& bytes) {
+    try {
+        ljus::save_file(path, bytes);
+    } catch (const std::system_error& error) {
+        return error.what();
+    }
+    return "saved";
+}
+
+} // namespace
+
+TEST_CASE("file: what is saved is what is loaded, also nothing at all") {
+    const ScratchFolder folder;
+    for (const std::size_t size :
+         {std::size_t{0}, std::size_t{1}, std::size_t{65535}, std::size_t{65536},
+          std::size_t{65537}, std::size_t{1000003}}) {
+        ljus::Bytes bytes(size);
+        for (std::size_t i = 0; i < size; ++i)
+            bytes[i] = static_cast<unsigned char>(i * 2654435761u >> 8);
+        ljus::save_file(folder.file("a"), bytes);
+        CHECK(ljus::load_file(folder.file("a"), size) == bytes);
+        CHECK(folder.count() == 1);
+    }
+}
+
+TEST_CASE("file: a new one replaces the older one") {
+    const ScratchFolder folder;
+    ljus::save_file(folder.file("a"), bytes_of("the older one, and longer"));
+    ljus::save_file(folder.file("a"), bytes_of("new"));
+    CHECK(ScratchFolder::read(folder.file("a")) == "new");
+    CHECK(folder.count() == 1);
+}
+
+TEST_CASE("file: the rest of another writer is neither used nor touched") {
+    const ScratchFolder folder;
+    ScratchFolder::write(folder.file("a.part0"), "someone's");
+    ljus::save_file(folder.file("a"), bytes_of("mine"));
+    CHECK(ScratchFolder::read(folder.file("a")) == "mine");
+    CHECK(ScratchFolder::read(folder.file("a.part0")) == "someone's");
+    CHECK(folder.count() == 2);
+}
+
+TEST_CASE("file: a failure to write names the path and the reason") {
+    const ScratchFolder folder;
+    const std::string missing = folder.file("missing/a.png");
+    CHECK(message_of_save(missing, {}) ==
+          "cannot write '" + missing + "': No such file or directory");
+    ScratchFolder::write(folder.file("plain"), "x");
+    CHECK(message_of_save(folder.file("plain/a.png"), {}) ==
+          "cannot write '" + folder.file("plain/a.png") + "': Not a directory");
+    CHECK(message_of_save("", {}) == "cannot write '': No such file or directory");
+    const std::string long_name = folder.file(std::string(300, 'x'));
+    CHECK(message_of_save(long_name, {}) ==
+          "cannot write '" + long_name + "': File name too long");
+    CHECK(folder.count() == 1);
+}
+
+TEST_CASE("file: a folder or a device in the place of the file is left alone") {
+    const ScratchFolder folder;
+    CHECK(message_of_save(folder.path.string(), {}) ==
+          "cannot write '" + folder.path.string() + "': Is a directory");
+#if __has_include(<sys/resource.h>)
+    CHECK(message_of_save("/dev/null", {}) == "cannot write '/dev/null': File exists");
+    CHECK(std::filesystem::is_character_file("/dev/null"));
+#endif
+    CHECK(folder.count() == 0);
+}
+
+#if __has_include(<sys/resource.h>)
+TEST_CASE("file: behind a symbolic link its target is replaced, the link stays") {
+    const ScratchFolder folder;
+    std::filesystem::create_directory(folder.path / "inner");
+    ScratchFolder::write(folder.file("inner/target"), "older");
+    std::filesystem::create_symlink("inner/target", folder.path / "link");
+    ljus::save_file(folder.file("link"), bytes_of("newer"));
+    CHECK(std::filesystem::is_symlink(folder.path / "link"));
+    CHECK(ScratchFolder::read(folder.file("inner/target")) == "newer");
+    CHECK(folder.count() == 2);
+}
+
+TEST_CASE(
+    "file: at the file-size limit the older file stays and nothing else is left") {
+    const ScratchFolder folder;
+    ScratchFolder::write(folder.file("a"), "older");
+
+    ::rlimit before{};
+    REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
+    ::rlimit small = before;
+    small.rlim_cur = 4096;
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    // Longer than the buffer of a FILE, and shorter: the write and the flush fail.
+    ::setrlimit(RLIMIT_FSIZE, &small);
+    const std::string long_message =
+        message_of_save(folder.file("a"), ljus::Bytes(1 << 20));
+    small.rlim_cur = 1000;
+    ::setrlimit(RLIMIT_FSIZE, &small);
+    const std::string short_message =
+        message_of_save(folder.file("a"), ljus::Bytes(2000));
+    ::setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+
+    CHECK(long_message == "cannot write '" + folder.file("a") + "': File too large");
+    CHECK(short_message == long_message);
+    CHECK(ScratchFolder::read(folder.file("a")) == "older");
+    CHECK(folder.count() == 1);
+}
+#endif
+
+TEST_CASE("file: a failure to read names the path and the reason") {
+    const ScratchFolder folder;
+    CHECK_THROWS_WITH_AS((void)ljus::load_file("/missing/a", 10),
+                         "cannot read '/missing/a': No such file or directory.",
+                         std::runtime_error);
+    CHECK_THROWS_WITH(
+        (void)ljus::load_file(folder.path.string(), 10),
+        ("cannot read '" + folder.path.string() + "': Is a directory.").c_str());
+    const std::string path = folder.file("a");
+    ScratchFolder::write(path, "0123456789");
+    CHECK(ljus::load_file(path, 10).size() == 10);
+    CHECK_THROWS_WITH(
+        (void)ljus::load_file(path, 9),
+        ("cannot read '" + path + "': it is longer than the 9 bytes that are allowed.")
+            .c_str());
+    CHECK_THROWS_WITH((void)ljus::load_file(path, 10, "PF"),
+                      ("cannot read '" + path +
+                       "': it does not begin with 'PF', so that it is another kind of "
+                       "file.")
+                          .c_str());
+}

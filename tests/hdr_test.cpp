@@ -1,0 +1,246 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "ljus/image/hdr.hpp"
+#include "scratch_folder.hpp"
+
+// A second opinion: the reader and the writer of the stb collection.
+#if (__has_include(<stb/stb_image.h>) && __has_include(<stb/stb_image_write.h>)) || \
+    (__has_include(<stb_image.h>) && __has_include(<stb_image_write.h>))
+#define HAS_STB_IMAGE
+#if defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+#endif
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_ONLY_HDR
+#define STB_IMAGE_WRITE_STATIC
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#if __has_include(<stb/stb_image.h>)
+#include <stb/stb_image.h>
+#include <stb/stb_image_write.h>
+#else
+#include <stb_image.h>
+#include <stb_image_write.h>
+#endif
+#if defined(__GNUC__)
+#pragma GCC diagnostic pop
+#endif
+#endif
+
+namespace {
+
+ljus::Image noise(int width, int height) {
+    ljus::Image image = ljus::make_image(width, height);
+    std::uint32_t state = 5;
+    const auto random = [&state] {
+        state = state * 1664525u + 1013904223u;
+        return std::ldexp(static_cast<float>(state >> 8), -24);
+    };
+    for (ljus::Rgb& c : image.pixels) {
+        const float size = std::exp2(60.0f * random() - 30.0f);
+        c = {size * random(), size * random(), size * random()};
+        if (random() < 0.2f) c = {size, size, size};
+    }
+    return image;
+}
+
+// The largest error of a channel, in units of its pixel's largest channel.
+double largest_error(const ljus::Image& a, const ljus::Image& b) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            largest = std::max(
+                largest,
+                std::abs(static_cast<double>(a.pixels[i][c] - b.pixels[i][c])) /
+                    static_cast<double>(ljus::max_component(a.pixels[i])));
+    return largest;
+}
+
+std::string message_of_load(const std::string& path) {
+    try {
+        (void)ljus::load_hdr(path);
+    } catch (const std::runtime_error& error) {
+        const std::string text = error.what();
+        const std::string start = "cannot read '" + path + "': ";
+        CHECK(text.starts_with(start));
+        return text.substr(start.size());
+    }
+    return "loaded";
+}
+
+} // namespace
+
+TEST_CASE("hdr: four bytes hold a colour within 1/256 of its largest channel") {
+    for (int exponent = -120; exponent <= 126; ++exponent)
+        for (int i = 1; i <= 64; ++i) {
+            const double largest = std::ldexp(0.5 + i / 128.0 - 1e-9, exponent);
+            const ljus::RgbT<double> c{largest, 0.3 * largest, 0.0};
+            const ljus::RgbT<double> back = ljus::from_rgbe(ljus::to_rgbe(c));
+            CHECK(std::abs(back.x - c.x) <= largest / 256 * (1 + 1e-12));
+            CHECK(std::abs(back.y - c.y) <= largest / 256 * (1 + 1e-12));
+            CHECK(back.z == 0.0);
+        }
+}
+
+TEST_CASE("hdr: known colours have the bytes of the format") {
+    using Rgbe = std::array<unsigned char, 4>;
+    CHECK(ljus::to_rgbe({1, 0.5, 0.25}) == Rgbe{128, 64, 32, 129});
+    CHECK(ljus::to_rgbe({0, 0, 0}) == Rgbe{0, 0, 0, 0});
+    CHECK(ljus::to_rgbe({0.5, 0, 0}) == Rgbe{128, 0, 0, 128});
+    CHECK(ljus::to_rgbe({0.9999, 0, 0}) == Rgbe{128, 0, 0, 129}); // 256 does not fit
+    CHECK(ljus::to_rgbe({1e-300, 0, 0}) == Rgbe{0, 0, 0, 0});
+    CHECK(ljus::to_rgbe({1.69e38, 0, 0})[3] == 255);
+    CHECK(ljus::from_rgbe({128, 64, 32, 129}) == ljus::RgbT<double>{1, 0.5, 0.25});
+}
+
+TEST_CASE("hdr: rounding has no preferred direction") {
+    double sum = 0.0;
+    for (int i = 0; i < 100000; ++i) {
+        const double x = 0.5 + (i + 0.5) / 200000.0;
+        sum += ljus::from_rgbe(ljus::to_rgbe({x, x, x})).x - x;
+    }
+    CHECK(std::abs(sum / 100000) < 1e-5); // rounding down would give -0.002
+}
+
+TEST_CASE("hdr: what is saved is what is loaded") {
+    const ScratchFolder folder;
+    for (const auto& [width, height] :
+         {std::pair{1, 1}, {1, 9}, {7, 3}, {8, 3}, {300, 2}}) {
+        const ljus::Image image = noise(width, height);
+        ljus::save_hdr(image, folder.file("a.hdr"));
+        const ljus::Image loaded = ljus::load_hdr(folder.file("a.hdr"));
+        REQUIRE(loaded.width == width);
+        REQUIRE(loaded.height == height);
+        CHECK(largest_error(image, loaded) <= 1.0 / 256 * (1 + 1e-6));
+        // What has been rounded once stays the same.
+        ljus::save_hdr(loaded, folder.file("b.hdr"));
+        CHECK(ScratchFolder::read(folder.file("a.hdr")) ==
+              ScratchFolder::read(folder.file("b.hdr")));
+        CHECK(folder.count() == 2);
+    }
+}
+
+#ifdef HAS_STB_IMAGE
+TEST_CASE("hdr: another reader sees the same image") {
+    const ScratchFolder folder;
+    for (const int width : {3, 8, 200}) {
+        const ljus::Image image = noise(width, 5);
+        ljus::save_hdr(image, folder.file("a.hdr"));
+        const ljus::Image loaded = ljus::load_hdr(folder.file("a.hdr"));
+        int w = 0, h = 0, channels = 0;
+        float* const other =
+            stbi_loadf(folder.file("a.hdr").c_str(), &w, &h, &channels, 3);
+        REQUIRE(other != nullptr);
+        CHECK(w == width);
+        CHECK(h == 5);
+        int wrong = 0;
+        for (std::size_t i = 0; i < loaded.pixels.size(); ++i)
+            for (int c = 0; c < 3; ++c)
+                wrong +=
+                    other[3 * i + static_cast<std::size_t>(c)] != loaded.pixels[i][c];
+        CHECK(wrong == 0);
+        stbi_image_free(other);
+    }
+}
+
+TEST_CASE("hdr: the run-length coded file of another writer is read") {
+    const ScratchFolder folder;
+    for (const int width : {7, 8, 500}) {
+        ljus::Image image = noise(width, 4);
+        for (int x = 0; x < width; ++x) ljus::pixel(image, x, 1) = {3, 2, 1};
+        REQUIRE(stbi_write_hdr(folder.file("a.hdr").c_str(), width, 4, 3,
+                               &image.pixels[0].x) != 0);
+        const ljus::Image loaded = ljus::load_hdr(folder.file("a.hdr"));
+        CHECK(largest_error(image, loaded) <= 1.0 / 128 * (1 + 1e-6)); // it rounds down
+        CHECK(ljus::pixel(loaded, width - 1, 1) == ljus::Rgb{3, 2, 1});
+    }
+}
+
+TEST_CASE("hdr: no truncated or damaged coded file does harm") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("a.hdr");
+    ljus::Image image = noise(40, 3);
+    for (int x = 0; x < 40; ++x) ljus::pixel(image, x, 1) = {3, 2, 1};
+    REQUIRE(stbi_write_hdr(path.c_str(), 40, 3, 3, &image.pixels[0].x) != 0);
+    const std::string whole = ScratchFolder::read(path);
+    for (std::size_t size = 0; size < whole.size(); ++size) {
+        ScratchFolder::write(path, whole.substr(0, size));
+        CHECK(message_of_load(path) != "loaded");
+    }
+    std::uint32_t state = 1;
+    for (int i = 0; i < 2000; ++i) {
+        std::string damaged = whole;
+        state = state * 1664525u + 1013904223u;
+        const std::size_t at = (state >> 8) % whole.size();
+        damaged[at] = static_cast<char>(state >> 24);
+        ScratchFolder::write(path, damaged);
+        (void)message_of_load(path); // any answer but a crash
+    }
+}
+#endif
+
+TEST_CASE(
+    "hdr: a channel that four bytes cannot hold is refused, the older file stays") {
+    const ScratchFolder folder;
+    ScratchFolder::write(folder.file("a.hdr"), "older");
+    using Limits = std::numeric_limits<float>;
+    for (const float bad :
+         {Limits::quiet_NaN(), Limits::infinity(), -1.0f, Limits::max()}) {
+        ljus::Image image = ljus::make_image(2, 2);
+        ljus::pixel(image, 1, 0).y = bad;
+        CHECK_THROWS_AS(ljus::save_hdr(image, folder.file("a.hdr")),
+                        std::invalid_argument);
+    }
+    CHECK_THROWS_AS(ljus::save_hdr(ljus::Image{}, folder.file("a.hdr")),
+                    std::invalid_argument);
+    CHECK(ScratchFolder::read(folder.file("a.hdr")) == "older");
+    CHECK(folder.count() == 1);
+}
+
+TEST_CASE("hdr: the exposure of the header is taken out again") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("a.hdr");
+    ScratchFolder::write(path,
+                         "#?RADIANCE\n# a comment\nEXPOSURE= 2.0\nEXPOSURE=4e0\r\n"
+                         "FORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x40\x20\x81");
+    CHECK(ljus::load_hdr(path).pixels[0] == ljus::Rgb{0.125f, 0.0625f, 0.03125f});
+}
+
+TEST_CASE("hdr: a truncated, longer or foreign file is refused in a sentence") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("a.hdr");
+    ljus::save_hdr(noise(3, 2), path);
+    const std::string whole = ScratchFolder::read(path);
+    for (std::size_t size = 0; size < whole.size(); ++size) {
+        ScratchFolder::write(path, whole.substr(0, size));
+        CHECK(message_of_load(path) != "loaded");
+    }
+    ScratchFolder::write(path, whole + "abc");
+    CHECK(message_of_load(path) == "it has 3 bytes more than its pixels require.");
+    CHECK(message_of_load(folder.file("b.hdr")) == "No such file or directory.");
+
+    const std::string start = "#?RADIANCE\n";
+    for (const std::string& header :
+         {std::string("PF\n3 2\n-1.0\n"), std::string("\n\n"),
+          start + "FORMAT=32-bit_rle_xyze\n\n-Y 2 +X 3\n",
+          start + "EXPOSURE=0\n\n-Y 2 +X 3\n", start + "EXPOSURE=nan\n\n-Y 2 +X 3\n",
+          start + "EXPOSURE=\n\n-Y 2 +X 3\n", start + "\n+Y 2 +X 3\n",
+          start + "\n+X 3 -Y 2\n", start + "\n-Y 0 +X 3\n", start + "\n-Y -2 +X 3\n",
+          start + "\n-Y 268435456 +X 268435456\n", start + "\n-Y 268435456 +X 1\n",
+          start + "\n-Y 1 +X 268435456\n", start + "\n-Y 2 +X 3\n\1\1\1\1"}) {
+        CAPTURE(header);
+        ScratchFolder::write(path, header + std::string(24, '\x01'));
+        CHECK(message_of_load(path) != "loaded");
+    }
+}

@@ -1,0 +1,244 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "ljus/parallel.hpp"
+
+namespace {
+
+// Some work whose result depends on every step.
+double work(long long seed, int steps) {
+    double x = static_cast<double>(seed) + 0.5;
+    for (int i = 0; i < steps; ++i) x = std::sin(x) + 1e-3 * x;
+    return x;
+}
+
+double seconds_of(int threads, int blocks, int steps) {
+    std::vector<double> results(static_cast<std::size_t>(blocks));
+    const auto start = std::chrono::steady_clock::now();
+    ljus::parallel_blocks(
+        blocks,
+        [&](long long b) { results[static_cast<std::size_t>(b)] = work(b, steps); },
+        {.threads = threads});
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+    return time.count();
+}
+
+} // namespace
+
+TEST_CASE("parallel: every block runs once, for any number of threads and blocks") {
+    for (const int threads : {0, 1, 2, 3, 4, 7, 16, 64})
+        for (const long long count : {0LL, 1LL, 2LL, 3LL, 63LL, 1000LL}) {
+            std::vector<std::atomic<int>> runs(static_cast<std::size_t>(count));
+            const bool finished = ljus::parallel_blocks(
+                count, [&](long long b) { ++runs[static_cast<std::size_t>(b)]; },
+                {.threads = threads});
+            CHECK(finished);
+            int wrong = 0;
+            for (const auto& n : runs) wrong += n != 1;
+            CHECK(wrong == 0);
+        }
+    int calls = 0;
+    CHECK(ljus::parallel_blocks(-5, [&](long long) { ++calls; }));
+    CHECK(calls == 0);
+}
+
+TEST_CASE("parallel: a sum has the same bits for 1 to 64 threads") {
+    const auto sum = [](int threads) {
+        return ljus::parallel_sum(
+            1000, [](long long b) { return 1.0 / (static_cast<double>(b) + 0.1); },
+            threads);
+    };
+    double in_order = 0.0;
+    for (int b = 0; b < 1000; ++b) in_order += 1.0 / (b + 0.1);
+    for (const int threads : {0, 1, 2, 3, 4, 5, 8, 64}) CHECK(sum(threads) == in_order);
+    CHECK(ljus::parallel_sum(0, [](long long) { return 1.0; }) == 0.0);
+    CHECK(ljus::parallel_sum(1, [](long long) { return 7; }) == 7);
+    CHECK(ljus::parallel_sum(
+              3, [](long long b) { return std::string(1, char('a' + b)); }) == "abc");
+}
+
+#ifdef _OPENMP
+TEST_CASE("parallel: more than one thread works at a time") {
+    // The first block waits for the second, which another thread must run.
+    std::atomic<bool> second{false};
+    std::atomic<bool> met{false};
+    ljus::parallel_blocks(2,
+                          [&](long long b) {
+                              if (b == 1) {
+                                  second = true;
+                                  return;
+                              }
+                              const auto end = std::chrono::steady_clock::now() +
+                                               std::chrono::seconds(20);
+                              while (!second && std::chrono::steady_clock::now() < end)
+                                  std::this_thread::yield();
+                              met = second.load();
+                          },
+                          {.threads = 2});
+    CHECK(met);
+}
+#endif
+
+TEST_CASE("parallel: progress is told by one thread at a time, ascending, to the end") {
+    for (const int threads : {1, 2, 4, 16}) {
+        std::atomic<int> inside{0};
+        int overlaps = 0, wrong_totals = 0, descents = 0, ends = 0;
+        long long last = 0;
+        auto progress = [&](long long done, long long total) {
+            overlaps += ++inside != 1;
+            wrong_totals += total != 500;
+            descents += done <= last;
+            ends += done == total;
+            last = done;
+            --inside;
+            return true;
+        };
+        CHECK(ljus::parallel_blocks(500, [](long long b) { (void)work(b, 100); },
+                                    {.threads = threads, .progress = progress}));
+        CHECK(overlaps == 0);
+        CHECK(wrong_totals == 0);
+        CHECK(descents == 0);
+        CHECK(ends == 1);
+        CHECK(last == 500);
+    }
+}
+
+TEST_CASE("parallel: false from progress stops the loop") {
+    for (const int threads : {1, 2, 4}) {
+        std::atomic<int> runs{0};
+        int told = 0;
+        auto progress = [&](long long done, long long) {
+            ++told;
+            return done < 10;
+        };
+        CHECK_FALSE(ljus::parallel_blocks(100000,
+                                          [&](long long b) {
+                                              ++runs;
+                                              (void)work(b, 1000);
+                                          },
+                                          {.threads = threads, .progress = progress}));
+        CHECK(runs >= 10);
+        CHECK(runs < 50000);
+        CHECK(told <= runs);
+    }
+}
+
+TEST_CASE("parallel: with one thread, progress comes after every block") {
+    std::vector<long long> told;
+    auto progress = [&](long long done, long long total) {
+        told.push_back(10 * done + total);
+        return true;
+    };
+    ljus::parallel_blocks(3, [](long long) {}, {.threads = 1, .progress = progress});
+    CHECK(told == std::vector<long long>{13, 23, 33});
+    // Nothing to do is nothing to tell.
+    ljus::parallel_blocks(0, [](long long) {}, {.threads = 1, .progress = progress});
+    CHECK(told.size() == 3);
+}
+
+TEST_CASE("parallel: of all exceptions that of the first block comes out, once") {
+    for (int repeat = 0; repeat < 20; ++repeat)
+        for (const int threads : {1, 2, 4, 16}) {
+            std::atomic<int> runs{0};
+            std::string message;
+            try {
+                ljus::parallel_blocks(100000,
+                                      [&](long long b) {
+                                          ++runs;
+                                          if (b >= 20)
+                                              throw std::runtime_error(
+                                                  "block " + std::to_string(b));
+                                      },
+                                      {.threads = threads});
+            } catch (const std::runtime_error& error) {
+                message = error.what();
+            }
+            CHECK(message == "block 20");
+            CHECK(runs <= 20 + 16);
+        }
+}
+
+TEST_CASE(
+    "parallel: what progress throws comes out, and things that are no exception") {
+    for (const int threads : {1, 4}) {
+        auto progress = [](long long done, long long) -> bool {
+            if (done > 3) throw 42;
+            return true;
+        };
+        CHECK_THROWS_AS(
+            ljus::parallel_blocks(1000, [](long long) {},
+                                  {.threads = threads, .progress = progress}),
+            int);
+        CHECK_THROWS_AS(
+            (void)ljus::parallel_sum(
+                10, [](long long) -> double { throw std::bad_alloc(); }, threads),
+            std::bad_alloc);
+    }
+    // The loop can be used again.
+    CHECK(ljus::parallel_sum(
+              4, [](long long b) { return b; }, 4) == 6);
+}
+
+TEST_CASE("parallel: a loop inside a loop") {
+    std::vector<double> results(8);
+    CHECK(ljus::parallel_blocks(
+        8,
+        [&](long long b) {
+            results[static_cast<std::size_t>(b)] = ljus::parallel_sum(
+                10, [b](long long i) { return static_cast<double>(10 * b + i); }, 4);
+        },
+        {.threads = 4}));
+    for (int b = 0; b < 8; ++b)
+        CHECK(results[static_cast<std::size_t>(b)] == 100.0 * b + 45.0);
+}
+
+TEST_CASE("parallel: a number of threads without sense is refused with its value") {
+    CHECK_THROWS_WITH_AS(ljus::parallel_blocks(1, [](long long) {}, {.threads = -1}),
+                         "The number of threads is -1; it must be within [0, 1024].",
+                         std::invalid_argument);
+    CHECK_THROWS_AS(ljus::parallel_blocks(1, [](long long) {}, {.threads = 1025}),
+                    std::invalid_argument);
+    CHECK(ljus::max_threads() >= 1);
+}
+
+TEST_CASE("parallel: blocks cover all things, none twice") {
+    for (const long long total : {0LL, 1LL, 9LL, 10LL, 11LL, 100LL})
+        for (const long long size : {1LL, 3LL, 10LL, 1000LL}) {
+            long long next = 0;
+            for (long long b = 0; b < ljus::block_count(total, size); ++b) {
+                const ljus::BlockRange range = ljus::block_range(b, size, total);
+                CHECK(range.first == next);
+                CHECK(range.last > range.first);
+                CHECK(range.last - range.first <= size);
+                next = range.last;
+            }
+            CHECK(next == total);
+        }
+    const long long most = std::numeric_limits<long long>::max();
+    CHECK(ljus::block_count(most, 2) == most / 2 + 1);
+    CHECK(ljus::block_range(0, most, most).last == most);
+}
+
+// What a loop costs depends on what else the machine does: shown, not required.
+TEST_CASE("parallel: two threads on a job of 0.1 s (information)") {
+    (void)seconds_of(2, 2, 10); // the threads are made once
+    double one = 1e9, two = 1e9, empty = 1e9;
+    for (int repeat = 0; repeat < 5; ++repeat) {
+        one = std::min(one, seconds_of(1, 100, 50000));
+        two = std::min(two, seconds_of(2, 100, 50000));
+        empty = std::min(empty, seconds_of(2, 2, 0));
+    }
+    MESSAGE("one thread " << one << " s, two " << two << " s: " << one / two
+                          << " times as fast; a loop that does nothing takes "
+                          << 1e6 * empty << " us");
+}

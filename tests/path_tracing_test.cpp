@@ -1,0 +1,380 @@
+// Closed forms of the rendering equation, and the tracer against itself with parts of
+// it switched off. "Within 3 standard errors" is asked of some 150 means with fixed
+// seeds: were the seeds new, such a test would fail with probability 0.0027 each, about
+// one run in three; it has been run with these seeds, and so fails only if something
+// changes.
+#include <doctest/doctest.h>
+
+#include <initializer_list>
+#include <numbers>
+
+#include "ljus/materials/glass.hpp"
+#include "ljus/materials/lambertian.hpp"
+#include "ljus/materials/mirror.hpp"
+#include "ljus/render/path_tracing.hpp"
+#include "support/mean.hpp"
+
+using namespace ljus;
+using ljus_test::apart;
+using ljus_test::Mean;
+using ljus_test::mean_radiance;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr int no_roulette = 1000000;
+
+template <typename T>
+using Furnace =
+    Scene<Shapes<SphereT<T>>, Materials<LambertianT<T>, GlassT<T>, MirrorT<T>>>;
+
+/// The inside of a sphere of radius 2 that emits radiance 1 and reflects an albedo.
+template <typename T>
+Furnace<T> furnace(T albedo) {
+    Furnace<T> scene;
+    const auto wall = scene.add(LambertianT<T>{.albedo = RgbT<T>{albedo}});
+    scene.add(SphereT<T>{.center{T(0.5), T(-1), T(0.25)}, .radius = T(2)}, wall,
+              RgbT<T>{T(1)}, true);
+    return scene;
+}
+
+/// From anywhere within a unit cube, in any direction.
+template <typename T>
+RayT<T> any_ray(RandomStream& stream) {
+    const Vec3T<T> origin = next_3d<T>(stream) - Vec3T<T>{T(0.5)};
+    return {.origin = origin, .direction = sample_uniform_sphere(next_2d<T>(stream))};
+}
+
+/// The unpolarised Fresnel reflectance, written from the textbook; 1 beyond the
+/// critical angle.
+double fresnel_share(double cos_i, double n_i, double n_t) {
+    const double sin_t = n_i / n_t * std::sqrt(1 - cos_i * cos_i);
+    if (sin_t >= 1) return 1;
+    const double cos_t = std::sqrt(1 - sin_t * sin_t);
+    const double s = (n_i * cos_i - n_t * cos_t) / (n_i * cos_i + n_t * cos_t);
+    const double p = (n_t * cos_i - n_i * cos_t) / (n_t * cos_i + n_i * cos_t);
+    return (s * s + p * p) / 2;
+}
+
+/// The form factor from a point to a rectangle a x b at distance h whose corner lies
+/// straight above it.
+double corner_form_factor(double a, double b, double h) {
+    const double x = a / h, y = b / h;
+    const double rx = std::sqrt(1 + x * x), ry = std::sqrt(1 + y * y);
+    return (x / rx * std::atan(y / rx) + y / ry * std::atan(x / ry)) / (2 * pi);
+}
+
+} // namespace
+
+TEST_CASE_TEMPLATE("path tracing: in a furnace L = Le / (1 - albedo)", T, float,
+                   double) {
+    for (int tenths = 1; tenths <= 9; ++tenths) {
+        const double albedo = tenths / 10.0;
+        const auto scene = furnace<T>(T(albedo));
+        const auto tracer = make_path_tracer(scene);
+        const Mean seen = mean_radiance(tracer, 40000, 1, any_ray<T>);
+        CAPTURE(albedo);
+        CAPTURE(seen.mean);
+        CAPTURE(seen.error());
+        CHECK(std::abs(apart(seen, 1 / (1 - albedo))) < 3);
+        CHECK(seen.error() < 0.005 / (1 - albedo));
+    }
+}
+
+TEST_CASE_TEMPLATE("path tracing: in a furnace every path of a given length brings the "
+                   "partial geometric sum, with and without shadow rays",
+                   T, float, double) {
+    // From within a sphere a point of its area and a direction by the cosine have the
+    // same density, so that neither they nor their mixture have any variance.
+    for (const double albedo : {0.1, 0.5, 0.9})
+        for (const int depth : {1, 2, 3, 7, 30})
+            for (const bool shadow_rays : {true, false}) {
+                const auto scene = furnace<T>(T(albedo));
+                const auto tracer =
+                    make_path_tracer(scene, {.max_depth = depth,
+                                             .roulette_depth = no_roulette,
+                                             .sample_lights = shadow_rays});
+                // The lamp is seen, and then after 1, 2, ... depth reflections.
+                const double sum = (1 - std::pow(albedo, depth + 1)) / (1 - albedo);
+                CAPTURE(albedo);
+                CAPTURE(depth);
+                CAPTURE(shadow_rays);
+                const double rounding = sizeof(T) == 4 ? 2e-4 : 1e-11;
+                double worst = 0;
+                Counts counts;
+                for (std::uint64_t path = 0; path < 200; ++path) {
+                    auto stream = random_stream(7, Pass::camera, 0, path);
+                    const auto ray = any_ray<T>(stream);
+                    const double seen = double(radiance(tracer, ray, stream, counts).x);
+                    worst = std::max(worst, std::abs(seen / sum - 1));
+                }
+                CHECK(worst < rounding);
+            }
+}
+
+TEST_CASE_TEMPLATE("path tracing: a ball of glass in a furnace is invisible", T, float,
+                   double) {
+    for (const double index : {1.5, 1.1, 2.4}) {
+        auto scene = furnace<T>(T(0));
+        const auto glass = scene.add(GlassT<T>{.index = T(index)});
+        scene.add(SphereT<T>{.center{T(0.5), T(-1), T(0.25)}, .radius = T(0.6)}, glass);
+        CAPTURE(index);
+        const auto towards_ball = [](RandomStream& stream) {
+            const Vec3T<T> way = Vec3T<T>{T(0.5), T(-1), T(0.25)} +
+                                 (next_3d<T>(stream) - Vec3T<T>{T(0.5)}) -
+                                 Vec3T<T>{T(-0.6), T(0.2), T(0.1)};
+            return RayT<T>{.origin{T(-0.6), T(0.2), T(0.1)},
+                           .direction = glm::normalize(way)};
+        };
+        // Path by path, if no path is ended by chance: what n^2 takes going in it gives
+        // back going out.
+        const auto patient = make_path_tracer(scene, {.roulette_depth = no_roulette});
+        const Mean exact = mean_radiance(patient, 20000, 3, towards_ball);
+        CHECK(exact.mean == doctest::Approx(1).epsilon(1e-5));
+        CHECK(exact.error() < 1e-5);
+        const auto tracer = make_path_tracer(scene, {.roulette_depth = 1});
+        CHECK(std::abs(apart(mean_radiance(tracer, 20000, 5, towards_ball), 1.0)) < 3);
+    }
+}
+
+TEST_CASE_TEMPLATE("path tracing: a matt ball embedded in glass in a furnace", T, float,
+                   double) {
+    // Two balls around one centre: an inside ball of radius a and albedo rho in glass
+    // of radius 1. Radiance in glass is n^2 times that outside. Light that leaves the
+    // inner ball at an angle theta meets the surface at asin(a sin(theta)), and what is
+    // reflected there meets the inner ball again, so that its radiosity over pi is
+    //     B = rho ((1 - F) n^2 + F B),  F the mean over the cosine-weighted hemisphere.
+    const double n = 1.5, a = 0.55;
+    double mean_share = 0;
+    const int steps = 100000;
+    for (int i = 0; i < steps; ++i) { // uniform in sin^2(theta): cosine-weighted
+        const double sine2 = (i + 0.5) / steps;
+        mean_share += fresnel_share(std::sqrt(1 - a * a * sine2), n, 1) / steps;
+    }
+    for (const double albedo : {1.0, 0.5})
+        for (const double impact : {0.0, 0.5, 0.8, 0.9}) {
+            auto scene = furnace<T>(T(0));
+            const Vec3T<T> center{T(0.5), T(-1), T(0.25)};
+            const auto glass = scene.add(GlassT<T>{.index = T(n)});
+            const auto matt = scene.add(LambertianT<T>{.albedo = RgbT<T>{T(albedo)}});
+            scene.add(SphereT<T>{.center = center, .radius = T(1)}, glass);
+            scene.add(SphereT<T>{.center = center, .radius = T(a)}, matt);
+            const auto ray = [&](RandomStream&) {
+                return RayT<T>{.origin = center + Vec3T<T>{T(impact), T(0), T(1.5)},
+                               .direction{T(0), T(0), T(-1)}};
+            };
+            const double ball =
+                albedo * (1 - mean_share) * n * n / (1 - albedo * mean_share);
+            const double share = fresnel_share(std::sqrt(1 - impact * impact), 1, n);
+            const bool meets = impact / n < a;
+            const double right = meets ? share + (1 - share) * ball / (n * n) : 1;
+            const auto tracer =
+                make_path_tracer(scene, {.roulette_depth = no_roulette});
+            const Mean seen = mean_radiance(tracer, 30000, 11, ray);
+            CAPTURE(albedo);
+            CAPTURE(impact);
+            CAPTURE(seen.mean);
+            CAPTURE(right);
+            CHECK(std::abs(apart(seen, right, 2e-5)) < 3);
+            CHECK(seen.error() < 0.01);
+        }
+}
+
+TEST_CASE_TEMPLATE("path tracing: a spherical lamp lights a surface with pi L (R/d)^2",
+                   T, float, double) {
+    for (const double ratio : {1e-4, 0.01, 0.3, 0.7, 0.99, 0.99997}) {
+        Scene<Shapes<SphereT<T>, QuadT<T>>, Materials<LambertianT<T>>> scene;
+        const auto black = scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0)}});
+        const auto white = scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0.5)}});
+        scene.add(SphereT<T>{.center{T(0), T(0), T(1)}, .radius = T(ratio)}, black,
+                  RgbT<T>{T(3)});
+        scene.add(QuadT<T>{.corner{T(-1), T(-1), T(0)},
+                           .edge_u{T(2), T(0), T(0)},
+                           .edge_v{T(0), T(2), T(0)}},
+                  white);
+        // Right under the lamp, from the side.
+        const auto ray = [](RandomStream&) {
+            return RayT<T>{.origin{T(-0.02), T(0), T(0.0001)},
+                           .direction =
+                               glm::normalize(Vec3T<T>{T(0.02), T(0), T(-0.0001)})};
+        };
+        const double right = 0.5 / pi * (pi * 3 * ratio * ratio);
+        const auto tracer = make_path_tracer(scene);
+        const Mean seen = mean_radiance(tracer, 60000, 13, ray);
+        CAPTURE(ratio);
+        CAPTURE(seen.mean);
+        CAPTURE(right);
+        CHECK(std::abs(apart(seen, right, 2e-4)) < 3);
+        CHECK(seen.error() < 0.01 * right);
+    }
+}
+
+TEST_CASE_TEMPLATE("path tracing: a square lamp twice as far lights 0.2598 as much", T,
+                   float, double) {
+    double irradiance[2];
+    double error[2];
+    for (const int i : {0, 1}) {
+        const double h = i == 0 ? 5 : 10;
+        Scene<Shapes<QuadT<T>>, Materials<LambertianT<T>>> scene;
+        const auto black = scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0)}});
+        const auto white = scene.add(LambertianT<T>{.albedo = RgbT<T>{T(1)}});
+        scene.add(QuadT<T>{.corner{T(-1), T(h), T(-1)},
+                           .edge_u{T(2), T(0), T(0)},
+                           .edge_v{T(0), T(0), T(2)}},
+                  black, RgbT<T>{T(1)});
+        scene.add(QuadT<T>{.corner{T(-9), T(0), T(-9)},
+                           .edge_u{T(18), T(0), T(0)},
+                           .edge_v{T(0), T(0), T(18)}},
+                  white);
+        const auto ray = [](RandomStream&) {
+            return RayT<T>{.origin{T(-3), T(3), T(0)},
+                           .direction = glm::normalize(Vec3T<T>{T(3), T(-3), T(0)})};
+        };
+        // E1 x E2 points down, to where the lamp shines.
+        const auto tracer = make_path_tracer(scene);
+        const Mean seen = mean_radiance(tracer, 200000, 17, ray);
+        const double right = 4 * corner_form_factor(1, 1, h);
+        CAPTURE(h);
+        CHECK(std::abs(apart(seen, right, 1e-5)) < 3);
+        irradiance[i] = seen.mean;
+        error[i] = seen.error() / seen.mean;
+    }
+    const double ratio = irradiance[1] / irradiance[0];
+    CHECK(std::abs(ratio - 0.2598) <
+          0.0001 + 3 * ratio * std::hypot(error[0], error[1]));
+}
+
+TEST_CASE_TEMPLATE("path tracing: a slab of glass lets (1-R)/(1+R) through", T, float,
+                   double) {
+    for (const double alpha : {0.0, 0.4})
+        for (const double degrees : {0.0, 30.0, 60.0, 80.0}) {
+            const double n = 1.5, thickness = 0.7;
+            Scene<Shapes<QuadT<T>>, Materials<LambertianT<T>, GlassT<T>>> scene;
+            const auto black = scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0)}});
+            const auto glass =
+                scene.add(GlassT<T>{.index = T(n), .absorption = RgbT<T>{T(alpha)}});
+            const T half = T(2000);
+            const Vec3T<T> x{T(2) * half, T(0), T(0)}, z{T(0), T(0), T(2) * half};
+            scene.add(QuadT<T>{.corner{-half, T(0), -half}, .edge_u = z, .edge_v = x},
+                      glass); // normal up
+            scene.add(QuadT<T>{.corner{-half, T(-thickness), -half},
+                               .edge_u = x,
+                               .edge_v = z},
+                      glass); // normal down
+            scene.add(QuadT<T>{.corner{-half, T(-1), -half}, .edge_u = z, .edge_v = x},
+                      black, RgbT<T>{T(1)});
+            const double angle = degrees * pi / 180;
+            const auto ray = [&](RandomStream&) {
+                return RayT<T>{
+                    .origin{T(0), T(1), T(0)},
+                    .direction{T(std::sin(angle)), T(-std::cos(angle)), T(0)}};
+            };
+            const double r = fresnel_share(std::cos(angle), 1, n);
+            const double way =
+                thickness / std::sqrt(1 - std::pow(std::sin(angle) / n, 2));
+            const double kept = std::exp(-alpha * way);
+            const double right = (1 - r) * (1 - r) * kept / (1 - r * r * kept * kept);
+            const auto tracer = make_path_tracer(scene);
+            const Mean seen = mean_radiance(tracer, 60000, 19, ray);
+            CAPTURE(degrees);
+            CAPTURE(alpha);
+            CAPTURE(seen.mean);
+            CAPTURE(right);
+            CHECK(std::abs(apart(seen, right, 1e-4)) < 3);
+            CHECK(seen.error() < 0.005);
+            if (degrees == 0 && alpha == 0)
+                CHECK(right == doctest::Approx(2 * n / (n * n + 1)));
+        }
+}
+
+namespace {
+
+template <typename T>
+using Room = Scene<Shapes<SphereT<T>, QuadT<T>>,
+                   Materials<LambertianT<T>, GlassT<T>, MirrorT<T>>>;
+
+/// A closed box with a mirror ball, a glass ball, and up to two lamps that stay where
+/// they are when they are dark.
+template <typename T>
+Room<T> room(bool quad_shines, bool ball_shines) {
+    Room<T> scene;
+    const auto wall = scene.add(LambertianT<T>{.albedo{T(0.7), T(0.5), T(0.3)}});
+    const auto black = scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0)}});
+    const auto glass = scene.add(GlassT<T>{});
+    const auto mirror = scene.add(MirrorT<T>{.reflectance = RgbT<T>{T(0.9)}});
+    const Vec3T<T> x{T(2), T(0), T(0)}, y{T(0), T(2), T(0)}, z{T(0), T(0), T(2)};
+    for (const auto& [corner, u, v] :
+         {std::tuple{Vec3T<T>{-1, -1, -1}, x, y}, std::tuple{Vec3T<T>{-1, -1, 1}, x, y},
+          std::tuple{Vec3T<T>{-1, -1, -1}, y, z}, std::tuple{Vec3T<T>{1, -1, -1}, y, z},
+          std::tuple{Vec3T<T>{-1, -1, -1}, z, x},
+          std::tuple{Vec3T<T>{-1, 1, -1}, z, x}})
+        scene.add(QuadT<T>{.corner = corner, .edge_u = u, .edge_v = v}, wall);
+    scene.add(SphereT<T>{.center{T(-0.45), T(-0.6), T(-0.2)}, .radius = T(0.4)},
+              mirror);
+    scene.add(SphereT<T>{.center{T(0.45), T(-0.55), T(0.2)}, .radius = T(0.4)}, glass);
+    scene.add(QuadT<T>{.corner{T(-0.7), T(0.99), T(-0.5)},
+                       .edge_u{T(0.9), T(0), T(0)},
+                       .edge_v{T(0), T(0), T(1)}},
+              black, RgbT<T>{T(quad_shines ? 3 : 0)});
+    scene.add(SphereT<T>{.center{T(0.55), T(0.45), T(-0.45)}, .radius = T(0.3)}, black,
+              RgbT<T>{T(ball_shines ? 4 : 0)});
+    return scene;
+}
+
+/// Into the room from a corner of it.
+template <typename T>
+RayT<T> into_room(RandomStream& stream) {
+    const Vec2T<T> u = next_2d<T>(stream);
+    return {.origin{T(0), T(0.1), T(0.95)},
+            .direction = glm::normalize(
+                Vec3T<T>{T(1.6) * (u.x - T(0.5)), T(1.6) * (u.y - T(0.6)), T(-1)})};
+}
+
+} // namespace
+
+TEST_CASE_TEMPLATE("path tracing: two lamps give the sum of what each gives", T, float,
+                   double) {
+    const auto first = room<T>(true, false);
+    const auto second = room<T>(false, true);
+    const auto both = room<T>(true, true);
+    for (const int channel : {0, 2}) {
+        const long long paths = 60000;
+        const Mean a =
+            mean_radiance(make_path_tracer(first), paths, 23, into_room<T>, channel);
+        const Mean b =
+            mean_radiance(make_path_tracer(second), paths, 24, into_room<T>, channel);
+        const Mean c =
+            mean_radiance(make_path_tracer(both), paths, 25, into_room<T>, channel);
+        CAPTURE(a.mean);
+        CAPTURE(b.mean);
+        CAPTURE(c.mean);
+        const double error = std::hypot(a.error(), b.error(), c.error());
+        CHECK(std::abs(a.mean + b.mean - c.mean) < 3 * error);
+        CHECK(error < 0.03 * c.mean);
+    }
+}
+
+TEST_CASE_TEMPLATE("path tracing: roulette and shadow rays leave the mean as it is", T,
+                   float, double) {
+    const auto scene = room<T>(true, true);
+    const long long paths = 60000;
+    for (const int depth : {1, 2, 1000}) {
+        CAPTURE(depth);
+        const auto mean = [&](PathTracing settings, std::uint64_t seed) {
+            settings.max_depth = depth;
+            return mean_radiance(make_path_tracer(scene, settings), paths, seed,
+                                 into_room<T>);
+        };
+        const Mean usual = mean({}, 31);
+        const Mean no_end = mean({.roulette_depth = 100}, 32);
+        const Mean early = mean({.roulette_depth = 1}, 33);
+        const Mean blind = mean({.sample_lights = false}, 34);
+        CAPTURE(usual.mean);
+        CAPTURE(usual.error());
+        CHECK(std::abs(apart(usual, no_end)) < 3);
+        CHECK(std::abs(apart(usual, early)) < 3);
+        CHECK(std::abs(apart(usual, blind)) < 3);
+        CHECK(usual.error() < 0.02 * usual.mean);
+        CHECK(blind.error() < 0.05 * usual.mean);
+    }
+}

@@ -1,0 +1,284 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include "ljus/render/path_tracing.hpp"
+#include "ljus/render/photon_mapping.hpp"
+#include "ljus/render/render.hpp"
+#include "support/light_tracer.hpp"
+#include "support/mean.hpp"
+#include "support/rooms.hpp"
+
+using namespace ljus;
+using namespace ljus_test;
+
+namespace {
+
+constexpr int size = 80;  // pixels on a side
+constexpr int block = 10; // of them, on the side of a block
+constexpr int blocks = (size / block) * (size / block);
+constexpr int seeds = 16; // of the photon mapper
+
+/// The means of the blocks and of the whole picture, over several seeds.
+struct Blocks {
+    std::vector<Mean> of_block = std::vector<Mean>(blocks);
+    Mean of_channel[3];
+
+    /// Takes one picture; only the pixels of the mask count.
+    template <typename T>
+    void add(const ImageT<T>& image, const std::vector<bool>& mask) {
+        std::vector<double> sum(blocks), count(blocks);
+        glm::dvec3 all(0);
+        double pixels = 0;
+        for (int y = 0; y < size; ++y)
+            for (int x = 0; x < size; ++x) {
+                if (!mask[static_cast<std::size_t>(y * size + x)]) continue;
+                const auto b =
+                    static_cast<std::size_t>(y / block * (size / block) + x / block);
+                const glm::dvec3 value(pixel(image, x, y));
+                sum[b] += (value.x + value.y + value.z) / 3;
+                count[b] += 1;
+                all += value;
+                pixels += 1;
+            }
+        for (std::size_t b = 0; b < sum.size(); ++b)
+            if (count[b] >= 30) of_block[b].add(sum[b] / count[b]);
+        for (int c = 0; c < 3; ++c) of_channel[c].add(all[c] / pixels);
+    }
+};
+
+/// How far the blocks of two pictures are apart, in standard errors.
+struct Distances {
+    int count = 0;
+    int beyond3 = 0;
+    int beyond5 = 0;
+    double worst = 0;
+
+    void add(const Blocks& a, const Blocks& b) {
+        for (std::size_t i = 0; i < a.of_block.size(); ++i) {
+            if (a.of_block[i].count < 2) continue;
+            const double distance = std::abs(apart(a.of_block[i], b.of_block[i]));
+            ++count;
+            beyond3 += distance < 3 ? 0 : 1;
+            beyond5 += distance < 5 ? 0 : 1;
+            worst = std::max(worst, distance);
+        }
+    }
+};
+
+const char* name(Ball ball) {
+    switch (ball) {
+    case Ball::lambertian:
+        return "Lambertian";
+    case Ball::oren_nayar:
+        return "Oren-Nayar";
+    case Ball::mirror:
+        return "mirror";
+    case Ball::glass:
+        return "glass";
+    case Ball::mixture:
+        return "mixture";
+    }
+    return "";
+}
+const char* name(Lamp lamp) {
+    return lamp == Lamp::quad ? "quad" : lamp == Lamp::sphere ? "sphere" : "point";
+}
+
+} // namespace
+
+TEST_CASE("photon mapping: equals path tracing, material by material and light by "
+          "light") {
+    const Camera camera = room_camera<float>();
+    Distances all;
+    for (const Lamp lamp : {Lamp::quad, Lamp::sphere, Lamp::point})
+        for (const Ball ball : {Ball::lambertian, Ball::oren_nayar, Ball::mirror,
+                                Ball::glass, Ball::mixture})
+            for (const int lamps : {1, 2}) {
+                const Room room = make_room<float>(ball, lamp, lamps);
+                std::vector<bool> mask(size * size, true);
+                Blocks mapped, traced;
+                const bool light_tracer = lamp == Lamp::point;
+                const bool matt = ball == Ball::lambertian || ball == Ball::oren_nayar;
+                const int reference_seeds = matt ? 24 : 40;
+                if (light_tracer) mask = matt_pixels(room, camera, size, size);
+                for (int seed = 1; seed <= reference_seeds; ++seed) {
+                    const auto s = static_cast<std::uint64_t>(1000 + seed);
+                    if (light_tracer)
+                        traced.add(trace_light(room, camera, size, size, 20000, s),
+                                   mask);
+                    else
+                        traced.add(render(make_path_tracer(room), camera,
+                                          {.width = size,
+                                           .height = size,
+                                           .rays = 4,
+                                           .seed = s,
+                                           .threads = 1})
+                                       .image,
+                                   mask);
+                }
+                for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+                    PhotonMapping settings;
+                    settings.caustics = {.photons = 30000, .seed = seed, .threads = 1};
+                    settings.gather_caustics = {.radius = 0.03f};
+                    const auto maps = make_photon_maps(room, settings);
+                    const PhotonMapper<Room> mapper{room, maps, settings};
+                    mapped.add(render(mapper, camera,
+                                      {.width = size,
+                                       .height = size,
+                                       .rays = 4,
+                                       .seed = seed,
+                                       .threads = 1})
+                                   .image,
+                               mask);
+                }
+                Distances here;
+                here.add(mapped, traced);
+                all.add(mapped, traced);
+                CAPTURE(name(ball));
+                CAPTURE(name(lamp));
+                CAPTURE(lamps);
+                if (std::getenv("SHOW"))
+                    std::printf("%-10s %-6s %d  blocks %d beyond3 %d worst %.2f",
+                                name(ball), name(lamp), lamps, here.count, here.beyond3,
+                                here.worst);
+                CHECK(here.beyond5 == 0);
+                for (int c = 0; c < 3; ++c) {
+                    const Mean& a = mapped.of_channel[c];
+                    const Mean& b = traced.of_channel[c];
+                    if (std::getenv("SHOW"))
+                        std::printf("  %+.2f+-%.2f%%", 100 * (a.mean / b.mean - 1),
+                                    100 * std::hypot(a.error(), b.error()) / b.mean);
+                    CHECK(std::abs(a.mean - b.mean) < 0.01 * b.mean);
+                    CHECK(std::hypot(a.error(), b.error()) < 0.0034 * b.mean);
+                }
+                if (std::getenv("SHOW")) std::printf("\n"), std::fflush(stdout);
+            }
+    if (std::getenv("SHOW"))
+        std::printf("all %d beyond3 %d beyond5 %d\n", all.count, all.beyond3,
+                    all.beyond5);
+    CHECK(all.count >= 1500);
+    CHECK(all.beyond3 <= all.count / 100);
+}
+
+namespace {
+
+/// A point light under a small mirror that throws a disc of light on the floor: from
+/// the floor it is a second point light, 1.5 above it, of 0.8 of the intensity.
+Room mirror_over_floor() {
+    Room room;
+    const auto white = room.add(Lambertian{.albedo = Rgb{0.5f}});
+    const auto mirror = room.add(Mirror{.reflectance = Rgb{0.8f}});
+    room.add(Quad{.corner{-5, 0, -5}, .edge_u{0, 0, 10}, .edge_v{10, 0, 0}}, white);
+    room.add(Quad{.corner{-0.17f, 1.25f, -0.17f},
+                  .edge_u{0.34f, 0, 0},
+                  .edge_v{0, 0, 0.34f}},
+             mirror);
+    room.add(PointLight{.position{0, 1, 0}, .intensity = Rgb{2}});
+    return room;
+}
+
+/// What an estimate with Epanechnikov's kernel makes of the light of that mirror right
+/// below it: the mean of E over the disc, by quadrature.
+double smoothed_radiance(double radius) {
+    const double height = 1.5;
+    double sum = 0;
+    const int steps = 10000;
+    for (int i = 0; i < steps; ++i) { // uniform in d^2
+        const double x = (i + 0.5) / steps;
+        const double d2 = x * radius * radius + height * height;
+        sum += 2 * (1 - x) * height / (d2 * std::sqrt(d2)) / steps;
+    }
+    return 0.5 / std::numbers::pi * 0.8 * 2 * sum;
+}
+
+} // namespace
+
+TEST_CASE("photon mapping: away from edges the bias falls with the square of the "
+          "radius") {
+    const Room room = mirror_over_floor();
+    const Ray down{.origin{0, 0.5f, 0}, .direction{0, -1, 0}};
+    const auto hit = closest_hit(room, down);
+    REQUIRE(hit);
+    const SurfaceT<float> surface = surface_at(room, down, *hit);
+    const Lambertian white{.albedo = Rgb{0.5f}};
+    const float radii[] = {0.8f, 0.4f, 0.2f, 0.1f};
+    Mean seen[4];
+    for (std::uint64_t seed = 1; seed <= 32; ++seed) {
+        const auto traced = trace_photons(
+            room, PhotonLaw::caustics, {.photons = 50000, .seed = seed, .threads = 1});
+        const PhotonMap map = make_photon_map(traced.photons);
+        std::uint64_t gathered = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            seen[i].add(
+                double(estimate_radiance(
+                           map, surface, white, Vec3{0, 0, 1}, {.radius = radii[i]},
+                           [](PhotonKind) { return true; }, gathered)
+                           .x));
+    }
+    const double exact = smoothed_radiance(0);
+    double bias[4];
+    for (std::size_t i = 0; i < 4; ++i) {
+        const double right = smoothed_radiance(double(radii[i]));
+        bias[i] = seen[i].mean / exact - 1;
+        CAPTURE(radii[i]);
+        CAPTURE(seen[i].mean / exact);
+        CAPTURE(seen[i].error() / exact);
+        CAPTURE(right / exact);
+        if (std::getenv("SHOW"))
+            std::printf("r %.2f bias %+.4f+-%.4f, predicted %+.4f\n", double(radii[i]),
+                        bias[i], seen[i].error() / exact, right / exact - 1);
+        CHECK(std::abs(apart(seen[i], right)) < 3);
+    }
+    // r^2: a quarter at half the radius, less what the fourth order adds at 0.8.
+    CHECK(bias[0] / bias[1] > 3.2);
+    CHECK(bias[0] / bias[1] < 4.4);
+}
+
+TEST_CASE(
+    "photon mapping: the general map in place of indirect rays, within its bias") {
+    // Its bias is that of discs that hang over the edges of walls, in proportion to the
+    // radius: it is dark there.
+    const Camera camera = room_camera<float>();
+    for (const Ball ball : {Ball::lambertian, Ball::glass}) {
+        const Room room = make_room<float>(ball, Lamp::quad, 1);
+        const std::vector<bool> all(size * size, true);
+        Blocks traced;
+        for (std::uint64_t seed = 1; seed <= 8; ++seed)
+            traced.add(render(make_path_tracer(room), camera,
+                              {.width = size,
+                               .height = size,
+                               .rays = 8,
+                               .seed = 100 + seed,
+                               .threads = 1})
+                           .image,
+                       all);
+        double bias[2];
+        for (const int i : {0, 1}) {
+            PhotonMapping settings;
+            settings.indirect = IndirectLight::map;
+            settings.caustics = {.photons = 100000, .threads = 1};
+            settings.general = {.photons = 200000, .threads = 1};
+            settings.gather_caustics.radius = 0.03f;
+            settings.gather_general.radius = i == 0 ? 0.16f : 0.04f;
+            const auto maps = make_photon_maps(room, settings);
+            Blocks mapped;
+            const PhotonMapper<Room> mapper{room, maps, settings};
+            mapped.add(render(mapper, camera,
+                              {.width = size, .height = size, .rays = 8, .threads = 1})
+                           .image,
+                       all);
+            bias[i] = mapped.of_channel[1].mean / traced.of_channel[1].mean - 1;
+            if (std::getenv("SHOW"))
+                std::printf("map, %s: %+.4f+-%.4f\n", name(ball), bias[i],
+                            traced.of_channel[1].error() / traced.of_channel[1].mean);
+        }
+        CAPTURE(name(ball));
+        CAPTURE(bias[0]);
+        CAPTURE(bias[1]);
+        CHECK(std::abs(bias[1]) < 0.01);
+        CHECK(bias[0] < 0);
+    }
+}

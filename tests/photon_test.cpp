@@ -1,0 +1,101 @@
+/// \file photon_test.cpp
+/// \brief What a photon takes in memory, and that no flux is lost on its way.
+
+#include "ljus/photons/photon.hpp"
+
+#include <doctest/doctest.h>
+
+#include <type_traits>
+
+#include "ljus/photons/tracing.hpp"
+#include "support/photon_samples.hpp"
+
+using ljus::FluxAudit;
+using ljus::Rgb;
+using photon_test::Numbers;
+using RgbD = ljus::RgbT<double>;
+
+TEST_CASE("photon: 40 bytes in float, and a plain value") {
+    CHECK(sizeof(ljus::Photon) == 40);
+    CHECK(sizeof(ljus::PhotonT<double>) == 80);
+    CHECK(sizeof(ljus::PhotonKind) == 1);
+    CHECK(std::is_trivially_copyable_v<ljus::Photon>);
+    CHECK(ljus::Photon{}.kind == ljus::PhotonKind::direct);
+    CHECK(ljus::Photon{}.flux == Rgb{0});
+}
+
+TEST_CASE("photon: accounts are added part by part") {
+    FluxAudit sum{RgbD{1, 2, 3}, RgbD{4}, RgbD{5}, RgbD{6}, RgbD{-7}};
+    sum += FluxAudit{RgbD{10}, RgbD{20, 21, 22}, RgbD{30}, RgbD{40}, RgbD{50}};
+    CHECK(sum.emitted == RgbD{11, 12, 13});
+    CHECK(sum.absorbed == RgbD{24, 25, 26});
+    CHECK(sum.escaped == RgbD{35});
+    CHECK(sum.cut == RgbD{46});
+    CHECK(sum.roulette == RgbD{43});
+    CHECK(FluxAudit{}.emitted == RgbD{0});
+}
+
+TEST_CASE("photon: roulette changes no mean, in any channel") {
+    Numbers numbers{3};
+    for (int i = 0; i < 300; ++i) {
+        const Rgb flux =
+            Rgb{float(numbers.unit()), float(numbers.unit()), float(numbers.unit())} +
+            1e-3f;
+        Rgb weight{float(numbers.unit()), float(numbers.unit()), float(numbers.unit())};
+        if (i % 3 == 0) weight *= 1.5f; // a material may send back more in a direction
+        RgbD mean{0};
+        constexpr int steps = 4000; // u runs through [0, 1) evenly: no noise
+        FluxAudit audit;
+        for (int j = 0; j < steps; ++j)
+            if (const auto survivor = ljus::play_roulette(
+                    flux, weight, (float(j) + 0.5f) / float(steps), audit))
+                mean += RgbD(*survivor) / double(steps);
+        for (int c = 0; c < 3; ++c) {
+            const double exact = double(flux[c]) * double(weight[c]);
+            // The survivors are a whole number of steps, each as large as any channel.
+            REQUIRE(std::abs(mean[c] - exact) <= 4.0 / steps);
+        }
+    }
+}
+
+TEST_CASE("photon: what survives roulette is never brighter than what came") {
+    Numbers numbers{4};
+    for (int i = 0; i < 10000; ++i) {
+        const Rgb flux{float(numbers.unit()), float(numbers.unit()), 1};
+        const Rgb weight{float(numbers.unit()), float(numbers.unit()),
+                         float(numbers.unit())};
+        FluxAudit audit;
+        const auto survivor =
+            ljus::play_roulette(flux, weight, float(numbers.unit()), audit);
+        if (survivor)
+            REQUIRE(ljus::max_component(*survivor) <=
+                    ljus::max_component(flux) * 1.000001f);
+    }
+}
+
+TEST_CASE("photon: at each surface absorbed + roulette + survivor is what came") {
+    Numbers numbers{5};
+    for (int i = 0; i < 10000; ++i) {
+        const Rgb flux{float(numbers.unit()), float(numbers.unit()),
+                       float(numbers.unit())};
+        const Rgb weight{float(numbers.between(0, 1.2)), float(numbers.unit()),
+                         float(numbers.unit())};
+        FluxAudit audit;
+        const auto survivor =
+            ljus::play_roulette(flux, weight, float(numbers.unit()), audit);
+        const RgbD after = survivor ? RgbD(*survivor) : RgbD{0};
+        const RgbD sum = audit.absorbed + audit.roulette + after;
+        for (int c = 0; c < 3; ++c) REQUIRE(std::abs(sum[c] - double(flux[c])) < 1e-15);
+    }
+}
+
+TEST_CASE("photon: roulette at its ends") {
+    FluxAudit audit;
+    const Rgb flux{1, 0.5f, 0.25f};
+    // Nothing is absorbed: nothing dies, not even at the largest u below 1.
+    CHECK(*ljus::play_roulette(flux, Rgb{1}, 0.99999994f, audit) == flux);
+    // All is absorbed: nothing lives, not even at 0.
+    CHECK_FALSE(ljus::play_roulette(flux, Rgb{0}, 0.0f, audit));
+    CHECK(audit.roulette == RgbD{0});
+    CHECK(audit.absorbed == RgbD(flux));
+}

@@ -1,0 +1,124 @@
+/// \file quad_test.cpp
+/// \brief The parallelogram: one test for two triangles. Its decisions against exact
+/// arithmetic are in triangle_exact_test.cpp.
+
+#include "ljus/geometry/quad.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "support/numbers.hpp"
+
+using namespace ljus;
+using ljus_test::Numbers;
+
+namespace {
+
+/// In the plane z = -4, x and y are u and v.
+const Quad square{{0, 0, -4}, {1, 0, 0}, {0, 1, 0}};
+
+Ray down_at(float x, float y) {
+    return {.origin = {x, y, 0}, .direction = {0, 0, -1}};
+}
+
+} // namespace
+
+TEST_CASE("quad: known hits, on both sides of the diagonal") {
+    for (const float u : {0.0f, 0.25f, 0.75f, 1.0f})
+        for (const float v : {0.0f, 0.125f, 0.5f, 1.0f}) {
+            const auto hit = intersect(down_at(u, v), square);
+            REQUIRE(hit);
+            CHECK(hit->t == 4.0f);
+            CHECK(hit->u == u);
+            CHECK(hit->v == v);
+            CHECK(intersect<double>(down_at(u, v), square)->t == 4.0f);
+        }
+}
+
+TEST_CASE("quad: each of the four edges is a border") {
+    const float below = std::nextafter(0.0f, -1.0f), above = std::nextafter(1.0f, 2.0f);
+    for (const float along : {0.0f, 0.5f, 1.0f})
+        for (const float beyond : {below, above, -1.0f, 2.0f}) {
+            CHECK_FALSE(intersect(down_at(along, beyond), square));
+            CHECK_FALSE(intersect(down_at(beyond, along), square));
+        }
+}
+
+TEST_CASE("quad: it is hit where one of its two triangles is") {
+    Numbers n;
+    int hits = 0, differ = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const Quad q{Vec3(n.point(3)), Vec3(n.point(3)), Vec3(n.point(3))};
+        const Vec3 opposite = q.corner + q.edge_u + q.edge_v;
+        const Triangle low{q.corner, q.corner + q.edge_u, q.corner + q.edge_v};
+        const Triangle high{opposite, q.corner + q.edge_v, q.corner + q.edge_u};
+        const Vec3 origin(n.point(6));
+        const Ray ray{.origin = origin, .direction = Vec3(n.point(3)) - origin};
+        const auto hit = intersect<double>(ray, q);
+        const auto a = intersect<double>(ray, low), b = intersect<double>(ray, high);
+        if (hit.has_value() != (a.has_value() || b.has_value())) {
+            ++differ; // where the rounding of the fourth corner decides
+            continue;
+        }
+        if (!hit) continue;
+        ++hits;
+        REQUIRE(hit->t == doctest::Approx((a ? a : b)->t).epsilon(1e-4));
+        const Vec3 on_quad = point_at(q, hit->u, hit->v).position;
+        REQUIRE(glm::distance(on_quad, at(ray, hit->t)) < 1e-3f);
+    }
+    CHECK(hits > 1000);
+    CHECK(differ <= 1);
+}
+
+TEST_CASE("quad: invalid data and parallel edges are a miss") {
+    const Ray ray = down_at(0.5f, 0.5f);
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    for (const float bad :
+         {std::numeric_limits<float>::quiet_NaN(), infinity, -infinity})
+        for (int axis = 0; axis < 3; ++axis)
+            for (Vec3 Quad::*part : {&Quad::corner, &Quad::edge_u, &Quad::edge_v}) {
+                Quad q = square;
+                (q.*part)[axis] = bad;
+                CHECK_FALSE(intersect(ray, q));
+                CHECK_FALSE(intersect<double>(ray, q));
+            }
+    for (const Vec3 edge : {Vec3{0}, Vec3{1, 0, 0}, Vec3{-2, 0, 0}}) {
+        const Quad q{{0, 0.5f, -4}, {1, 0, 0}, edge};
+        CHECK_FALSE(intersect(ray, q));
+        CHECK_FALSE(intersect<double>(ray, q));
+        CHECK(area(q) == 0.0f);
+    }
+}
+
+TEST_CASE("quad: normal and area, of any size") {
+    for (const float size : {1e-15f, 1e-5f, 1.0f, 1e5f, 1e15f}) {
+        const Quad q{{5, 6, 7}, {0, 2 * size, 0}, {0, 0, size}};
+        CHECK(normal(q) == Vec3{1, 0, 0});
+        CHECK(area(q) == doctest::Approx(2.0 * double(size) * size).epsilon(1e-6));
+    }
+    const Quad leaning{{0, 0, 0}, {2, 0, 0}, {1, 1, 0}};
+    CHECK(normal(leaning) == Vec3{0, 0, 1});
+    CHECK(area(leaning) == 2.0f);
+}
+
+TEST_CASE("quad: sampled points cover its area evenly") {
+    Numbers n;
+    std::array<int, 64> cells{};
+    const Quad q{{1, 2, 3}, {4, 0, 0}, {2, 3, 0}}; // leaning
+    for (int i = 0; i < 100000; ++i) {
+        const SurfacePoint p = sample_area(q, n.square<float>());
+        CHECK(p.normal == Vec3{0, 0, 1});
+        const float v = (p.position.y - 2) / 3;
+        const float u = (p.position.x - 1 - 2 * v) / 4;
+        const int i8 = std::clamp(int(u * 8), 0, 7), j8 = std::clamp(int(v * 8), 0, 7);
+        REQUIRE(std::abs(u - 0.5f) < 0.50001f);
+        REQUIRE(std::abs(v - 0.5f) < 0.50001f);
+        ++cells[static_cast<std::size_t>(i8 * 8 + j8)];
+    }
+    // A false alarm once in a million.
+    CHECK(ljus_test::chi_square(cells) < ljus_test::chi_square_limit(63));
+}

@@ -1,0 +1,126 @@
+#pragma once
+
+/// \file support/rooms.hpp
+/// \brief A closed room with a ball of any material and lights of any kind.
+
+#include <tuple>
+
+#include "ljus/materials/glass.hpp"
+#include "ljus/materials/lambertian.hpp"
+#include "ljus/materials/mirror.hpp"
+#include "ljus/materials/mixture.hpp"
+#include "ljus/materials/oren_nayar.hpp"
+#include "ljus/scene/camera.hpp"
+#include "ljus/scene/scene.hpp"
+
+namespace ljus_test {
+
+/// All shapes and materials that a room may be made of.
+template <typename T>
+using RoomT =
+    ljus::Scene<ljus::Shapes<ljus::SphereT<T>, ljus::QuadT<T>>,
+                ljus::Materials<ljus::LambertianT<T>, ljus::OrenNayarT<T>,
+                                ljus::MirrorT<T>, ljus::GlassT<T>, ljus::MixtureT<T>>>;
+using Room = RoomT<float>;
+
+/// The six walls of [-1, 1]^3, both sides matt; the left one is red, the right one
+/// green.
+template <typename T>
+void add_walls(RoomT<T>& room, T albedo = T(0.5)) {
+    using V = ljus::Vec3T<T>;
+    const auto grey = room.add(ljus::LambertianT<T>{.albedo = ljus::RgbT<T>{albedo}});
+    const auto red = room.add(
+        ljus::LambertianT<T>{.albedo = albedo * ljus::RgbT<T>{T(1.2), T(0.6), T(0.6)}});
+    const auto green = room.add(
+        ljus::LambertianT<T>{.albedo = albedo * ljus::RgbT<T>{T(0.6), T(1.2), T(0.6)}});
+    const V x{T(2), T(0), T(0)}, y{T(0), T(2), T(0)}, z{T(0), T(0), T(2)};
+    for (const auto& [corner, u, v, material] :
+         {std::tuple{V{-1, -1, -1}, z, x, grey}, std::tuple{V{-1, 1, -1}, x, z, grey},
+          std::tuple{V{-1, -1, -1}, x, y, grey}, std::tuple{V{-1, -1, 1}, y, x, grey},
+          std::tuple{V{-1, -1, -1}, y, z, red}, std::tuple{V{1, -1, -1}, z, y, green}})
+        room.add(ljus::QuadT<T>{.corner = corner, .edge_u = u, .edge_v = v}, material);
+}
+
+/// What the ball in the room is made of.
+enum class Ball { lambertian, oren_nayar, mirror, glass, mixture };
+/// What kind of light the room has.
+enum class Lamp { quad, sphere, point };
+
+/// A ball near the middle of the room, above the floor.
+template <typename T>
+void add_ball(RoomT<T>& room, Ball ball) {
+    using C = ljus::RgbT<T>;
+    ljus::MaterialId material;
+    switch (ball) {
+    case Ball::lambertian:
+        material = room.add(ljus::LambertianT<T>{.albedo = C{T(0.8), T(0.6), T(0.3)}});
+        break;
+    case Ball::oren_nayar:
+        material = room.add(
+            ljus::OrenNayarT<T>{.albedo = C{T(0.8), T(0.6), T(0.3)}, .sigma = T(0.6)});
+        break;
+    case Ball::mirror:
+        material = room.add(ljus::MirrorT<T>{.reflectance = C{T(0.9), T(0.8), T(0.7)}});
+        break;
+    case Ball::glass:
+        material = room.add(
+            ljus::GlassT<T>{.index = T(1.5), .absorption = C{T(0.1), T(0.3), T(0.6)}});
+        break;
+    case Ball::mixture:
+        material = room.add(ljus::MixtureT<T>{.color = C{T(0.7), T(0.5), T(0.3)},
+                                              .reflectivity = T(0.2),
+                                              .transparency = T(0.4),
+                                              .index = T(1.5),
+                                              .specularity = T(1),
+                                              .sigma = T(0.4),
+                                              .absorption = C{T(0.1)}});
+        break;
+    }
+    room.add(ljus::SphereT<T>{.center{T(0.1), T(-0.4), T(-0.1)}, .radius = T(0.45)},
+             material);
+}
+
+/// One light, or two of different size, colour and place; none is in view of
+/// room_camera().
+template <typename T>
+void add_lamps(RoomT<T>& room, Lamp lamp, int count) {
+    using V = ljus::Vec3T<T>;
+    using C = ljus::RgbT<T>;
+    const auto black = room.add(ljus::LambertianT<T>{.albedo = C{T(0)}});
+    const auto add = [&](const V& center, T size, const C& radiance) {
+        if (lamp == Lamp::quad)
+            room.add(ljus::QuadT<T>{.corner = center - V{size, T(0), size},
+                                    .edge_u{T(2) * size, T(0), T(0)},
+                                    .edge_v{T(0), T(0), T(2) * size}}, // shines down
+                     black, radiance);
+        else if (lamp == Lamp::sphere)
+            room.add(ljus::SphereT<T>{.center = center - V{T(0), T(0.34), T(0)},
+                                      .radius = T(0.64) * size},
+                     black, radiance);
+        else
+            room.add(ljus::PointLightT<T>{.position = center - V{T(0), T(0.2), T(0)},
+                                          .intensity = size * size * radiance});
+    };
+    add(V{T(-0.1), T(0.98), T(-0.05)}, T(0.5), C{T(4), T(4), T(3)});
+    if (count == 2) add(V{T(0.6), T(0.9), T(0.6)}, T(0.3), C{T(1), T(3), T(8)});
+}
+
+/// A room of the matrix.
+template <typename T>
+RoomT<T> make_room(Ball ball, Lamp lamp, int lamps) {
+    RoomT<T> room;
+    add_walls(room);
+    add_ball(room, ball);
+    add_lamps(room, lamp, lamps);
+    return room;
+}
+
+/// A camera at the front wall that looks down.
+template <typename T>
+ljus::CameraT<T> room_camera() {
+    return ljus::look_at(ljus::ViewT<T>{.position{T(0), T(0.25), T(0.97)},
+                                        .target{T(0), T(-0.45), T(-0.3)},
+                                        .vfov_degrees = T(70)});
+}
+
+} // namespace ljus_test

@@ -1,0 +1,291 @@
+/// \file triangle_test.cpp
+/// \brief What must hold for a triangle, whatever formula finds the hit.
+
+#include "ljus/geometry/triangle.hpp"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "support/numbers.hpp"
+
+using namespace ljus;
+using ljus_test::Numbers;
+
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+
+/// In the plane z = -4; x and y are u and v.
+const Triangle half_square{{0, 0, -4}, {1, 0, -4}, {0, 1, -4}};
+
+Ray down_at(float x, float y) {
+    return {.origin = {x, y, 0}, .direction = {0, 0, -1}};
+}
+
+} // namespace
+
+TEST_CASE("triangle: known hits") {
+    const auto hit = intersect(down_at(0.25f, 0.5f), half_square);
+    REQUIRE(hit);
+    CHECK(hit->t == 4.0f);
+    CHECK(hit->u == 0.25f);
+    CHECK(hit->v == 0.5f);
+    CHECK(intersect<double>(down_at(0.25f, 0.5f), half_square)->t == 4.0f);
+    // From behind as well, and in lengths of the direction.
+    const Ray up{.origin = {0.25f, 0.25f, -6}, .direction = {0, 0, 4}};
+    CHECK(intersect(up, half_square)->t == 0.5f);
+}
+
+TEST_CASE("triangle: each of the three edges is a border, and belongs to it") {
+    for (const float along : {0.0f, 0.125f, 0.5f, 0.75f, 1.0f}) {
+        CHECK(intersect(down_at(along, 0), half_square));
+        CHECK(intersect(down_at(0, along), half_square));
+        CHECK(intersect(down_at(along, 1 - along), half_square));
+        CHECK_FALSE(intersect(down_at(along, -0.001f), half_square));
+        CHECK_FALSE(intersect(down_at(-0.001f, along), half_square));
+        CHECK_FALSE(intersect(down_at(along, 1.001f - along), half_square));
+        // One step beyond the border is beyond it.
+        CHECK_FALSE(
+            intersect(down_at(along, std::nextafter(0.0f, -1.0f)), half_square));
+        CHECK_FALSE(
+            intersect(down_at(std::nextafter(0.0f, -1.0f), along), half_square));
+    }
+    CHECK_FALSE(intersect(down_at(0.9f, 0.9f), half_square)); // the rest of the square
+}
+
+TEST_CASE("triangle: a hit point is where its coordinates say, and on the ray") {
+    Numbers n;
+    int hits = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const Triangle triangle{Vec3(n.point(3)), Vec3(n.point(3)), Vec3(n.point(3))};
+        const Vec3 origin(n.point(6));
+        const Ray ray{.origin = origin, .direction = Vec3(n.point(3)) - origin};
+        const auto hit = intersect(ray, triangle);
+        if (!hit) continue;
+        ++hits;
+        REQUIRE(hit->u >= 0);
+        REQUIRE(hit->v >= 0);
+        REQUIRE(hit->u + hit->v <= 1 + 1e-6f);
+        const Vec3 on_triangle = point_at(triangle, hit->u, hit->v).position;
+        REQUIRE(glm::distance(on_triangle, at(ray, hit->t)) < 1e-3f);
+    }
+    CHECK(hits > 1000);
+}
+
+TEST_CASE("triangle: as many rays hit as the solid angle says") {
+    // Van Oosterom and Strackee's closed form for the solid angle of a triangle.
+    using V = Vec3T<double>;
+    Numbers n{3};
+    for (int k = 0; k < 4; ++k) {
+        const V a = n.point(2) + V{0, 0, -2}, b = n.point(2), c = n.point(2);
+        const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+        const double omega =
+            2 * std::atan2(std::abs(glm::dot(a, glm::cross(b, c))),
+                           la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la +
+                               glm::dot(c, a) * lb);
+        ljus_test::Mean share;
+        for (int i = 0; i < 200000; ++i) {
+            const double z = n.between(-1, 1), phi = n.between(0, 6.283185307179586);
+            const double r = std::sqrt(1 - z * z);
+            const Ray ray{.direction = {float(r * std::cos(phi)),
+                                        float(r * std::sin(phi)), float(z)}};
+            share.add(intersect(ray, Triangle{Vec3(a), Vec3(b), Vec3(c)}) ? 12.566370614
+                                                                          : 0);
+        }
+        CAPTURE(omega);
+        CHECK(share.agrees_with(omega));
+    }
+}
+
+TEST_CASE("triangle: a mesh of any size has no holes") {
+    // Eight faces of an octahedron: every ray from within leaves through one.
+    for (const float size : {1e-12f, 1e-6f, 1e-4f, 1e-2f, 1.0f, 1e3f, 1e9f, 1e15f}) {
+        std::vector<Triangle> mesh;
+        for (const float x : {-size, size})
+            for (const float y : {-size, size})
+                for (const float z : {-size, size})
+                    mesh.push_back({{x, 0, 0}, {0, y, 0}, {0, 0, z}});
+        Numbers n{5};
+        int missed = 0;
+        for (int i = 0; i < 2000; ++i) {
+            const Vec3 origin(0.3 * double(size) * n.direction());
+            const Ray ray{.origin = origin, .direction = Vec3(n.direction())};
+            int hits = 0;
+            for (const Triangle& face : mesh)
+                if (const auto hit = intersect(ray, face)) {
+                    ++hits;
+                    REQUIRE(hit->t > 0.2f * size);
+                    REQUIRE(hit->t < 1.4f * size);
+                }
+            missed += hits == 0;
+        }
+        CAPTURE(size);
+        CHECK(missed == 0);
+    }
+}
+
+TEST_CASE("triangle: the range of the ray decides") {
+    const auto hit = [](float t_min, float t_max) {
+        Ray ray = down_at(0.25f, 0.25f);
+        ray.t_min = t_min, ray.t_max = t_max;
+        return intersect(ray, half_square).has_value();
+    };
+    CHECK(hit(0, infinity));
+    CHECK(hit(4, 4)); // both ends belong to it
+    CHECK(hit(0, 4));
+    CHECK(hit(4, infinity));
+    CHECK_FALSE(hit(0, std::nextafter(4.0f, 0.0f)));
+    CHECK_FALSE(hit(std::nextafter(4.0f, 5.0f), infinity));
+    CHECK_FALSE(hit(5, 3));
+    CHECK_FALSE(hit(not_a_number, infinity));
+    CHECK_FALSE(hit(0, not_a_number));
+    Ray away = down_at(0.25f, 0.25f);
+    away.direction.z = 1;
+    CHECK_FALSE(intersect(away, half_square));
+    away.t_min = -infinity; // the whole line
+    CHECK(intersect(away, half_square)->t == -4.0f);
+}
+
+TEST_CASE("triangle: invalid data are a miss") {
+    const Ray good = down_at(0.25f, 0.25f);
+    const auto misses = [](const Ray& ray, const Triangle& triangle) {
+        return !intersect(ray, triangle) && !intersect<double>(ray, triangle);
+    };
+    REQUIRE_FALSE(misses(good, half_square));
+    for (const float bad : {not_a_number, infinity, -infinity})
+        for (int axis = 0; axis < 3; ++axis) {
+            CAPTURE(bad);
+            CAPTURE(axis);
+            Ray ray = good;
+            ray.origin[axis] = bad;
+            CHECK(misses(ray, half_square));
+            ray = good;
+            ray.direction[axis] = bad;
+            CHECK(misses(ray, half_square));
+            for (Vec3 Triangle::*vertex :
+                 {&Triangle::v1, &Triangle::v2, &Triangle::v3}) {
+                Triangle triangle = half_square;
+                (triangle.*vertex)[axis] = bad;
+                CHECK(misses(good, triangle));
+            }
+        }
+    for (const float zero : {0.0f, -0.0f})
+        for (const float z : {0.0f, -4.0f}) {
+            const Ray ray{.origin = {0.25f, 0.25f, z}, .direction = Vec3{zero}};
+            CHECK(misses(ray, half_square));
+        }
+}
+
+TEST_CASE("triangle: one without an area is never hit") {
+    const Vec3 a{0, 0, -4}, b{1, 0, -4}, c{2, 0, -4};
+    for (const Triangle& thin :
+         {Triangle{a, a, a}, Triangle{a, a, b}, Triangle{a, b, a}, Triangle{b, a, a},
+          Triangle{a, b, c}})
+        for (const float x : {0.0f, 0.25f, 0.5f, 1.0f}) {
+            CHECK_FALSE(intersect(down_at(x, 0), thin));
+            CHECK_FALSE(intersect<double>(down_at(x, 0), thin));
+            // Nor by a ray within its line.
+            const Ray along{.origin = {x, 0, -4}, .direction = {1, 0, 0}};
+            CHECK_FALSE(intersect(along, thin));
+        }
+}
+
+TEST_CASE("triangle: a ray within its plane is a miss") {
+    for (const float y : {-1.0f, 0.0f, 0.25f, 1.0f}) {
+        const Ray ray{.origin = {-2, y, -4}, .direction = {1, 0, 0}};
+        CHECK_FALSE(intersect(ray, half_square));
+        CHECK_FALSE(intersect<double>(ray, half_square));
+    }
+}
+
+TEST_CASE("triangle: sizes beyond the arithmetic are never a false hit") {
+    // Overflow of the determinant would make all three quotients 0, a "hit" at 0.
+    const Triangle vast{{0, 0, -1e10f}, {1e10f, 0, -1e10f}, {0, 1e10f, -1e10f}};
+    const Ray beside{.origin = {-1e3f, 0, 0}, .direction = {0, 0, -1e28f}};
+    CHECK_FALSE(intersect(beside, vast));
+    for (const float size : {1e16f, 1e20f, 1e30f, 1e38f})
+        for (const float length : {1e-38f, 1e-20f, 1.0f, 1e20f, 1e38f}) {
+            const Triangle t{{0, 0, -size}, {size, 0, -size}, {0, size, -size}};
+            for (const Vec3 way : {Vec3{-1, 0, -1}, Vec3{0, -1, -1}, Vec3{1, 1, -1}}) {
+                const Ray ray{.origin = 0.1f * size * way, .direction = length * way};
+                CHECK_FALSE(intersect(ray, t));
+                CHECK_FALSE(intersect<double>(ray, t));
+            }
+        }
+    // Nor is a hit infinitely far away.
+    for (const float size : {1e-40f, 1e-30f, 1e-20f, 1e16f, 1e20f, 1e30f, 1e38f})
+        for (const float length : {1e-38f, 1e-20f, 1.0f, 1e20f, 1e38f}) {
+            const Triangle t{{0, 0, -size}, {size, 0, -size}, {0, size, -size}};
+            const Ray ray{.origin = {0.2f * size, 0.2f * size, 0},
+                          .direction = {0, 0, -length}};
+            if (const auto hit = intersect(ray, t)) CHECK(std::isfinite(hit->t));
+            if (const auto hit = intersect<double>(ray, t))
+                CHECK(std::isfinite(hit->t));
+        }
+}
+
+TEST_CASE_TEMPLATE("triangle: the normal is that of exact arithmetic", T, float,
+                   double) {
+    // Thin ones too, for the normal decides on which side a ray leaves.
+    Numbers n{9};
+    for (int i = 0; i < 5000; ++i) {
+        const double size = n.power(-6, 6), thin = n.power(-3, 0);
+        const auto a = n.direction(), b = n.direction();
+        const auto p = size * n.point(3);
+        const TriangleT<T> t{Vec3T<T>(p), Vec3T<T>(p + size * a),
+                             Vec3T<T>(p + size * (a + thin * b))};
+        using L = glm::vec<3, long double>;
+        const L e1 = L(t.v2) - L(t.v1), e2 = L(t.v3) - L(t.v1);
+        const L truth =
+            glm::normalize(L{e1.y * e2.z - e1.z * e2.y, e1.z * e2.x - e1.x * e2.z,
+                             e1.x * e2.y - e1.y * e2.x});
+        const auto off = glm::length(L(normal(t)) - truth);
+        const double allowed = sizeof(T) == 4 ? 1e-7 : 1e-12;
+        REQUIRE(double(off) < allowed);
+    }
+}
+
+TEST_CASE("triangle: normal and area of any size") {
+    for (const float size : {1e-15f, 1e-10f, 1e-5f, 1.0f, 1e5f, 1e10f, 1e15f}) {
+        const Triangle t{{0, 0, 0}, {size, 0, 0}, {0, size, 0}};
+        CHECK(normal(t) == Vec3{0, 0, 1});
+        CHECK(area(t) == doctest::Approx(double(size) * size / 2).epsilon(1e-6));
+        const Triangle turned{t.v1, t.v3, t.v2};
+        CHECK(normal(turned) == Vec3{0, 0, -1});
+    }
+}
+
+TEST_CASE("triangle: sampled points cover its area evenly") {
+    // Counted in the barycentric plane: each of 16 similar parts, one in a million.
+    Numbers n{11};
+    const Triangle t{{1, 2, 3}, {4, 2, -1}, {0, 5, 2}};
+    std::array<int, 16> parts{};
+    ljus_test::Mean x;
+    for (int i = 0; i < 160000; ++i) {
+        const SurfacePoint p = sample_area(t, n.square<float>());
+        x.add(p.position.x);
+        const Vec3 up = normal(t);
+        const Vec3 way = p.position - t.v1;
+        const Vec3 e1 = t.v2 - t.v1, e2 = t.v3 - t.v1;
+        const float twice = glm::dot(glm::cross(e1, e2), up);
+        const float u = glm::dot(glm::cross(way, e2), up) / twice;
+        const float v = glm::dot(glm::cross(e1, way), up) / twice;
+        REQUIRE(u > -1e-5f);
+        REQUIRE(v > -1e-5f);
+        REQUIRE(u + v < 1 + 1e-5f);
+        const int i4 = std::min(3, std::max(0, int(u * 4)));
+        const int j4 = std::min(3 - i4, std::max(0, int(v * 4)));
+        const bool upper = (u * 4 - float(i4)) + (v * 4 - float(j4)) > 1;
+        // Row i4 holds 7 - 2 i4 parts.
+        const int before = i4 * 8 - i4 * i4;
+        const int place = before + std::min(2 * j4 + upper, 6 - 2 * i4);
+        ++parts[static_cast<std::size_t>(place)];
+    }
+    CHECK(ljus_test::chi_square(parts) < ljus_test::chi_square_limit(15));
+    CHECK(x.agrees_with(5.0 / 3.0)); // the centroid
+}
