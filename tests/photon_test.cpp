@@ -13,7 +13,7 @@
 using ljus::FluxAudit;
 using ljus::Rgb;
 using photon_test::Numbers;
-using RgbD = ljus::RgbT<double>;
+using RgbD = ljus::RgbT<double>; ///< Accounts are kept in double.
 
 TEST_CASE("photon: 40 bytes in float, and a plain value") {
     CHECK(sizeof(ljus::Photon) == 40);
