@@ -181,6 +181,7 @@ BENCHMARK(query<Nanoflann, false>)->Arg(10000)->Arg(1000000);
 BENCHMARK(query<Nanoflann, true>)->Arg(10000)->Arg(1000000);
 #endif
 
+/// Runs the benchmarks.
 int main(int argc, char** argv) {
 #ifdef LJUS_BENCH_NANOFLANN
     must_agree<PlainTree, Nanoflann>();
