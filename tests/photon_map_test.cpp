@@ -141,7 +141,7 @@ TEST_CASE(
     // kernels are those of kernel_test.cpp.
     const double e = std::exp(-2.0);
     const std::array squares{1.0, 1.5, (1 + e) / (1 - e), 4.0 / 3, 9.0 / 5};
-    constexpr int maps = 2500; // the variance of a variance: 2/maps, or 2.8 % squared
+    constexpr int maps = 2500; // a variance is found within sqrt(2/maps): 2.8 %
     struct Case {
         int count;
         float radius;
