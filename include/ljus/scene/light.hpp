@@ -27,9 +27,9 @@ using PointLight = PointLightT<float>; ///< PointLightT in float.
 template <std::floating_point T>
 struct LightT {
     std::optional<ObjectId> object{}; ///< The emissive object; none for a point light.
-    Vec3T<T> position{T(0)};        ///< Of a point light.
-    RgbT<T> emission{T(0)};         ///< Radiance of an object, or intensity of a point.
-    RgbT<T> flux{T(0)};             ///< W that leave the light in all.
+    Vec3T<T> position{T(0)};          ///< Of a point light.
+    RgbT<T> emission{T(0)}; ///< Radiance of an object, or intensity of a point.
+    RgbT<T> flux{T(0)};     ///< W that leave the light in all.
 };
 using Light = LightT<float>; ///< LightT in float.
 
