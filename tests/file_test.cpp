@@ -2,7 +2,6 @@
 
 #include <stdexcept>
 #include <string>
-#include <system_error>
 
 #include "ljus/image/file.hpp"
 #include "scratch_folder.hpp"
@@ -21,7 +20,7 @@ ljus::Bytes bytes_of(const std::string& text) {
 std::string message_of_save(const std::string& path, const ljus::Bytes& bytes) {
     try {
         ljus::save_file(path, bytes);
-    } catch (const std::system_error& error) {
+    } catch (const std::runtime_error& error) {
         return error.what();
     }
     return "saved";
@@ -64,23 +63,23 @@ TEST_CASE("file: a failure to write names the path and the reason") {
     const ScratchFolder folder;
     const std::string missing = folder.file("missing/a.png");
     CHECK(message_of_save(missing, {}) ==
-          "cannot write '" + missing + "': No such file or directory");
+          "cannot write '" + missing + "': No such file or directory.");
     ScratchFolder::write(folder.file("plain"), "x");
     CHECK(message_of_save(folder.file("plain/a.png"), {}) ==
-          "cannot write '" + folder.file("plain/a.png") + "': Not a directory");
-    CHECK(message_of_save("", {}) == "cannot write '': No such file or directory");
+          "cannot write '" + folder.file("plain/a.png") + "': Not a directory.");
+    CHECK(message_of_save("", {}) == "cannot write '': No such file or directory.");
     const std::string long_name = folder.file(std::string(300, 'x'));
     CHECK(message_of_save(long_name, {}) ==
-          "cannot write '" + long_name + "': File name too long");
+          "cannot write '" + long_name + "': File name too long.");
     CHECK(folder.count() == 1);
 }
 
 TEST_CASE("file: a folder or a device in the place of the file is left alone") {
     const ScratchFolder folder;
     CHECK(message_of_save(folder.path.string(), {}) ==
-          "cannot write '" + folder.path.string() + "': Is a directory");
+          "cannot write '" + folder.path.string() + "': Is a directory.");
 #if __has_include(<sys/resource.h>)
-    CHECK(message_of_save("/dev/null", {}) == "cannot write '/dev/null': File exists");
+    CHECK(message_of_save("/dev/null", {}) == "cannot write '/dev/null': File exists.");
     CHECK(std::filesystem::is_character_file("/dev/null"));
 #endif
     CHECK(folder.count() == 0);
@@ -119,7 +118,7 @@ TEST_CASE(
     ::setrlimit(RLIMIT_FSIZE, &before);
     std::signal(SIGXFSZ, handler);
 
-    CHECK(long_message == "cannot write '" + folder.file("a") + "': File too large");
+    CHECK(long_message == "cannot write '" + folder.file("a") + "': File too large.");
     CHECK(short_message == long_message);
     CHECK(ScratchFolder::read(folder.file("a")) == "older");
     CHECK(folder.count() == 1);

@@ -93,6 +93,7 @@ TEST_CASE("photon mapping: equals path tracing, material by material and light b
           "light") {
     const Camera camera = room_camera<float>();
     Distances all;
+    std::uint64_t cell = 0; // each has seeds of its own
     for (const Lamp lamp : {Lamp::quad, Lamp::sphere, Lamp::point})
         for (const Ball ball : {Ball::lambertian, Ball::oren_nayar, Ball::mirror,
                                 Ball::glass, Ball::mixture})
@@ -100,14 +101,15 @@ TEST_CASE("photon mapping: equals path tracing, material by material and light b
                 const Room room = make_room<float>(ball, lamp, lamps);
                 std::vector<bool> mask(size * size, true);
                 Blocks mapped, traced;
+                const std::uint64_t first = 1000 * ++cell;
                 const bool light_tracer = lamp == Lamp::point;
                 const bool matt = ball == Ball::lambertian || ball == Ball::oren_nayar;
-                const int reference_seeds = matt ? 24 : 40;
+                const int reference_seeds = light_tracer ? 40 : matt ? 20 : 36;
                 if (light_tracer) mask = matt_pixels(room, camera, size, size);
                 for (int seed = 1; seed <= reference_seeds; ++seed) {
-                    const auto s = static_cast<std::uint64_t>(1000 + seed);
+                    const auto s = first + 500 + static_cast<std::uint64_t>(seed);
                     if (light_tracer)
-                        traced.add(trace_light(room, camera, size, size, 20000, s),
+                        traced.add(trace_light(room, camera, size, size, 27000, s),
                                    mask);
                     else
                         traced.add(render(make_path_tracer(room), camera,
@@ -119,7 +121,7 @@ TEST_CASE("photon mapping: equals path tracing, material by material and light b
                                        .image,
                                    mask);
                 }
-                for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+                for (std::uint64_t seed = first; seed < first + seeds; ++seed) {
                     PhotonMapping settings;
                     settings.caustics = {.photons = 30000, .seed = seed, .threads = 1};
                     settings.gather_caustics = {.radius = 0.03f};
@@ -152,7 +154,7 @@ TEST_CASE("photon mapping: equals path tracing, material by material and light b
                         std::printf("  %+.2f+-%.2f%%", 100 * (a.mean / b.mean - 1),
                                     100 * std::hypot(a.error(), b.error()) / b.mean);
                     CHECK(std::abs(a.mean - b.mean) < 0.01 * b.mean);
-                    CHECK(std::hypot(a.error(), b.error()) < 0.0034 * b.mean);
+                    CHECK(std::hypot(a.error(), b.error()) < 0.004 * b.mean);
                 }
                 if (std::getenv("SHOW")) std::printf("\n"), std::fflush(stdout);
             }
@@ -207,16 +209,16 @@ TEST_CASE("photon mapping: away from edges the bias falls with the square of the
     const float radii[] = {0.8f, 0.4f, 0.2f, 0.1f};
     Mean seen[4];
     for (std::uint64_t seed = 1; seed <= 32; ++seed) {
-        const auto traced = trace_photons(room, PhotonLaw::caustics,
-                                          {.photons = 50000, .seed = seed, .threads = 1});
+        const auto traced = trace_photons(
+            room, PhotonLaw::caustics, {.photons = 50000, .seed = seed, .threads = 1});
         const PhotonMap map = make_photon_map(traced.photons);
         std::uint64_t gathered = 0;
         for (std::size_t i = 0; i < 4; ++i)
-            seen[i].add(double(estimate_radiance(
-                                   map, surface, white, Vec3{0, 0, 1},
-                                   {.radius = radii[i]}, [](PhotonKind) { return true; },
-                                   gathered)
-                                   .x));
+            seen[i].add(
+                double(estimate_radiance(
+                           map, surface, white, Vec3{0, 0, 1}, {.radius = radii[i]},
+                           [](PhotonKind) { return true; }, gathered)
+                           .x));
     }
     const double exact = smoothed_radiance(0);
     double bias[4];
@@ -237,7 +239,8 @@ TEST_CASE("photon mapping: away from edges the bias falls with the square of the
     CHECK(bias[0] / bias[1] < 4.4);
 }
 
-TEST_CASE("photon mapping: the general map in place of indirect rays, within its bias") {
+TEST_CASE(
+    "photon mapping: the general map in place of indirect rays, within its bias") {
     // Its bias is that of discs that hang over the edges of walls, in proportion to the
     // radius: it is dark there.
     const Camera camera = room_camera<float>();

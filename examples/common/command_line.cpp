@@ -27,8 +27,7 @@ std::string version_text() {
            std::to_string(LJUS_VERSION_PATCH);
 }
 
-// Makes the folder if it is missing, and writes and removes a file in it: whether that
-// works depends on more than the permissions.
+// Makes the folder if it is missing, and writes and removes a file in it.
 void require_folder(const std::string& folder) {
     const auto fail = [&](const std::string& why) {
         throw std::runtime_error("cannot write into the folder '" + folder +
@@ -39,15 +38,10 @@ void require_folder(const std::string& folder) {
     std::filesystem::create_directories(folder, error);
     if (error) fail(error.message());
     if (!std::filesystem::is_directory(folder, error)) fail("it is no folder");
-    try {
-        const unsigned char byte[1] = {0};
-        ljus::detail::FileBeside probe(
-            (std::filesystem::path(folder) / ".ljus").string());
-        probe.write(byte);
-        probe.close();
-    } catch (const std::system_error& problem) {
-        fail(problem.code().message());
-    }
+    // Whether that works depends on more than the permissions: it is tried.
+    ljus::detail::FileBeside probe((std::filesystem::path(folder) / "probe").string());
+    probe.write({0});
+    probe.close();
 }
 
 // One line without its full stop.
@@ -78,9 +72,8 @@ std::string check_seed(const std::string& text) {
 void require_writable(const std::string& path) {
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     require_folder(folder.empty() ? "." : folder.string());
-    const unsigned char byte[1] = {0};
     ljus::detail::FileBeside probe(ljus::detail::file_to_replace(path));
-    probe.write(byte);
+    probe.write({0});
     probe.close();
 }
 

@@ -21,7 +21,8 @@ namespace examples {
 /// One line of a plot or table: a number a column; NaN leaves the cell empty.
 using Row = std::vector<double>;
 
-/// A plot: the first column is x, each further one a curve named by its heading.
+/// A plot: the first column is x, each further one a curve named by its heading (without
+/// a comma). The first curve is drawn thick, so that one on top of it does not hide it.
 struct Plot {
     std::string name;                 ///< Of the files, e.g. "sphere-wrong".
     std::vector<std::string> columns; ///< Headings; that of x labels its axis.
@@ -119,8 +120,8 @@ inline void save_plot(const std::string& folder, const Plot& plot) {
         const std::string number = std::to_string(column + 1);
         curves += (curves.empty() ? "\nplot '" : ", '") + plot.name +
                   ".csv' using 1:" + number + " with linespoints lt " +
-                  std::to_string(column) + " pt 7 ps 0.35 title columnheader(" +
-                  number + ")";
+                  std::to_string(column) + (column == 1 ? " lw 2.5" : "") +
+                  " pt 7 ps 0.35 title columnheader(" + number + ")";
     }
     gp += curves + "\n";
     save_text(folder + "/" + plot.name + ".gp", gp);
@@ -131,7 +132,8 @@ inline void save_plot(const std::string& folder, const Plot& plot) {
 /// \param table   The table.
 inline void save_table(const std::string& folder, const Table& table) {
     std::string csv = csv_line(table.columns);
-    std::string html = "<table class=\"markdownTable ljus-table\">\n<tr>";
+    std::string html =
+        "<table class=\"markdownTable ljus-table\">\n<tr class=\"markdownTableHead\">";
     const auto escaped = [](const std::string& cell) {
         std::string result;
         for (const char c : cell)
@@ -141,7 +143,7 @@ inline void save_table(const std::string& folder, const Table& table) {
         return result;
     };
     for (const std::string& heading : table.columns)
-        html += "<th>" + escaped(heading) + "</th>";
+        html += "<th class=\"markdownTableHeadRight\">" + escaped(heading) + "</th>";
     html += "</tr>\n";
     for (const auto& row : table.rows) {
         csv += csv_line(row);

@@ -126,7 +126,7 @@ struct BlockRange {
 /// \throws std::invalid_argument  for a number of threads that is not allowed; and what
 ///         a body or `progress` threw: no further block is then begun, and of several
 ///         exceptions that of the first block in order is thrown, always the same one.
-/// \cost A few microseconds to wake the threads (some 100 the first time), some 0.1 a
+/// \cost A few microseconds to wake the threads (some 100 the first time), below 0.1 a
 ///       block.
 // [parallel_blocks]
 template <std::invocable<long long> Body>

@@ -2,7 +2,7 @@
 # What each header costs to include: user time of -fsyntax-only; the median of three when
 # the first run is above the budget.
 # The budget is 0.25 s up to the materials and 0.6 s above; because machines are noisy,
-# only twice the budget is an error.
+# only twice the budget is an error, and only if the fastest of eight runs needs that.
 . "$(dirname "$0")/common.sh"
 TIMEFORMAT=%U
 status=0
@@ -29,7 +29,12 @@ while read -r header; do
         cost=$( (echo "$cost"; seconds "$header"; seconds "$header") | sort -n | sed -n 2p)
     fi
     verdict=
-    if above "$cost" "$budget" 2; then
+    fastest=$cost
+    for _ in 1 2 3 4 5; do
+        above "$fastest" "$budget" 2 || break
+        fastest=$( (echo "$fastest"; seconds "$header") | sort -n | sed -n 1p)
+    done
+    if above "$fastest" "$budget" 2; then
         verdict="TOO SLOW"
     elif above "$cost" "$budget"; then
         verdict="above budget"

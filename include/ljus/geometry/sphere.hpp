@@ -69,15 +69,16 @@ chord(const RayT<T>& ray, const SphereT<T>& sphere) noexcept {
     // From the centre to the point of the line that is nearest to it.
     const Vec3T<C> p = oc + (b * inverse_a) * d;
     const C discriminant = r * r - glm::dot(p, p);
-    // Written so that NaN is a miss; so are infinity and a radius of 0 or less.
+    // Written so that NaN says no; so do infinity and a radius of 0 or less.
     constexpr C max = std::numeric_limits<C>::max();
-    if (!(C(0) <= discriminant && discriminant <= max && r > C(0))) return std::nullopt;
+    const bool hit = C(0) <= discriminant && discriminant <= max && r > C(0);
+    if (!hit) return std::nullopt;
 
     // The root of larger size first; by Vieta the other one is c/q.
     const C q = b + std::copysign(std::sqrt(a * discriminant), b);
     const C c = glm::dot(oc, oc) - r * r;
     const C large = q * inverse_a;
-    const C small = q != C(0) ? c / q : C(0); // 0: it starts where it touches
+    const C small = q != C(0) ? c / q : C(0); // 0/0: it only touches
     if (q > C(0)) return ChordT<C>{.enter = small, .leave = large};
     return ChordT<C>{.enter = large, .leave = small};
 }

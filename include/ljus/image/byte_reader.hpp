@@ -5,7 +5,7 @@
 
 #include <cmath>
 #include <cstddef>
-#include <optional>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -14,8 +14,8 @@
 namespace ljus::detail {
 
 // A number in a file's header, as "-1.0" or "2.5e-3". The library's own strtod depends
-// on the country that the program runs in.
-inline std::optional<double> to_number(std::string_view text) {
+// on the country that the program runs in. NaN if it is no number.
+inline double to_number(std::string_view text) {
     std::size_t i = 0;
     const auto digit = [&] {
         return i < text.size() && text[i] >= '0' && text[i] <= '9';
@@ -43,7 +43,7 @@ inline std::optional<double> to_number(std::string_view text) {
             power = 10.0 * power + (text[i] - '0');
         exponent += sign_of_exponent * power;
     }
-    if (!digits || i != text.size()) return std::nullopt;
+    if (!digits || i != text.size()) return std::numeric_limits<double>::quiet_NaN();
     // Dividing by a power of ten is exact for small ones, multiplying by its inverse
     // not.
     return sign_of_all * (exponent < 0.0 ? mantissa / std::pow(10.0, -exponent)

@@ -7,11 +7,10 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstdio>
-#include <span>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include "ljus/version.hpp"
@@ -38,8 +37,8 @@ using Bytes = std::vector<unsigned char>;
 namespace detail {
 
 [[noreturn]] inline void fail_to_write(const std::string& path, int error) {
-    throw std::system_error(error == 0 ? EIO : error, std::generic_category(),
-                            "cannot write '" + path + "'");
+    throw std::runtime_error("cannot write '" + path +
+                             "': " + std::strerror(error == 0 ? EIO : error) + ".");
 }
 
 [[noreturn]] inline void fail_to_read(const std::string& path, std::string_view why) {
@@ -83,7 +82,7 @@ public:
         if (!renamed_) std::remove(name_.c_str());
     }
 
-    void write(std::span<const unsigned char> bytes) {
+    void write(const Bytes& bytes) {
         if (bytes.empty()) return;
         errno = 0;
         if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size())
@@ -130,9 +129,9 @@ private:
 /// is left. (A program that wants to hear of the file-size limit must ignore SIGXFSZ.)
 /// \param path   The file; its folder must exist.
 /// \param bytes  What the file shall hold.
-/// \throws std::system_error  "cannot write 'out/a.png': No space left on device".
+/// \throws std::runtime_error  "cannot write 'out/a.png': No space left on device.".
 // [save_file]
-inline void save_file(const std::string& path, std::span<const unsigned char> bytes) {
+inline void save_file(const std::string& path, const Bytes& bytes) {
     detail::FileBeside file(detail::file_to_replace(path));
     file.write(bytes);
     file.close();
@@ -156,8 +155,7 @@ inline void save_file(const std::string& path, std::span<const unsigned char> by
     };
     errno = 0;
     const Closed closed{std::fopen(path.c_str(), "rb")};
-    if (closed.file == nullptr)
-        detail::fail_to_read(path, std::generic_category().message(errno));
+    if (closed.file == nullptr) detail::fail_to_read(path, std::strerror(errno));
 
     // In pieces, since what a file says about its length cannot be relied on.
     Bytes bytes;
@@ -171,8 +169,7 @@ inline void save_file(const std::string& path, std::span<const unsigned char> by
             std::fread(bytes.data() + old_size, 1, wanted, closed.file);
         const int error = errno;
         bytes.resize(old_size + got);
-        if (std::ferror(closed.file))
-            detail::fail_to_read(path, std::generic_category().message(error));
+        if (std::ferror(closed.file)) detail::fail_to_read(path, std::strerror(error));
         const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
                                     bytes.size());
         if (!text.starts_with(begin))

@@ -61,7 +61,7 @@ from_rgbe(const std::array<unsigned char, 4>& rgbe) noexcept {
 /// \param image  Linear colours, every channel finite, at least 0 and below 1.69e38.
 /// \param path   The file; an older one is replaced at the very end (save_file()).
 /// \throws std::invalid_argument  as check(), or for a channel that four bytes cannot
-///         hold (PFM can); std::system_error as save_file().
+///         hold (PFM can); std::runtime_error as save_file().
 template <std::floating_point T>
 void save_hdr(const ImageT<T>& image, const std::string& path) {
     check(image);
@@ -150,10 +150,10 @@ template <std::floating_point T = float>
         if (!line.starts_with("EXPOSURE=")) continue;
         std::string text = line.substr(9);
         text.erase(0, std::min(text.find_first_not_of(' '), text.size()));
-        const auto number = detail::to_number(text);
-        if (!number || !(*number > 0.0) || !std::isfinite(*number))
+        const double number = detail::to_number(text);
+        if (!(number > 0.0) || !std::isfinite(number))
             reader.fail("its header says " + line + ", which is no number above 0");
-        exposure *= *number;
+        exposure *= number;
     }
     const std::string y_word = reader.word();
     const std::string y_size = reader.word();

@@ -24,7 +24,7 @@ namespace ljus {
 /// too; double is rounded to float once. Little-endian on every machine.
 /// \param image  Linear colours.
 /// \param path   The file; an older one is replaced at the very end (save_file()).
-/// \throws std::invalid_argument  as check(); std::system_error as save_file().
+/// \throws std::invalid_argument  as check(); std::runtime_error as save_file().
 // [save_pfm]
 template <std::floating_point T>
 void save_pfm(const ImageT<T>& image, const std::string& path) {
@@ -61,8 +61,8 @@ template <std::floating_point T = float>
     if (kind != "PF" && kind != "Pf") reader.fail("it does not begin with PF or Pf");
     const int width = reader.size(reader.word());
     const int height = reader.size(reader.word());
-    const auto scale = detail::to_number(reader.word());
-    if (!scale || !std::isfinite(*scale) || *scale == 0.0)
+    const double scale = detail::to_number(reader.word());
+    if (!std::isfinite(scale) || scale == 0.0)
         reader.fail("the third line of its header is not a finite number other than 0");
     if (width > max_pixels / height) reader.fail("its image is too large");
 
@@ -76,14 +76,14 @@ template <std::floating_point T = float>
                     " bytes after the header, but there are " +
                     std::to_string(reader.left()));
 
-    const bool little_endian = *scale < 0.0;
+    const bool little_endian = scale < 0.0;
     const auto next_channel = [&] {
         std::uint32_t bits = 0;
         for (int i = 0; i < 4; ++i)
             bits |= std::uint32_t(reader.next()) << 8 * (little_endian ? i : 3 - i);
         const float value = std::bit_cast<float>(bits);
-        if (std::abs(*scale) == 1.0) return static_cast<T>(value);
-        return static_cast<T>(std::abs(*scale) * static_cast<double>(value));
+        if (std::abs(scale) == 1.0) return static_cast<T>(value);
+        return static_cast<T>(std::abs(scale) * static_cast<double>(value));
     };
     auto image = make_image<T>(width, height);
     for (int y = height - 1; y >= 0; --y)

@@ -117,7 +117,7 @@ template <std::floating_point T>
 /// \param image    As for encode_png().
 /// \param path     The file; an older one is replaced at the very end (save_file()).
 /// \param options  Exposure.
-/// \throws std::invalid_argument  as encode_png(); std::system_error as save_file().
+/// \throws std::invalid_argument  as encode_png(); std::runtime_error as save_file().
 template <std::floating_point T>
 void save_png(const ImageT<T>& image, const std::string& path,
               const PngOptions& options = {}) {

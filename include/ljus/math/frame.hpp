@@ -21,7 +21,7 @@ struct FrameT {
 };
 using Frame = FrameT<float>; ///< FrameT in float.
 
-/// A frame around a normal: the branchless construction of Duff et al. (2017), whose
+/// A frame around a normal: the branchless construction of \cite duff2017, whose
 /// sign keeps it exact near -z, where Frisvad's earlier form divides by almost zero.
 /// \param n  Unit vector.
 /// \return A right-handed frame, orthonormal within 2 units of roundoff.

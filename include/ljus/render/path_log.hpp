@@ -43,7 +43,7 @@ struct PathLog {
     std::string letters = "E";      ///< Of the path so far.
 
     /// A path begins.
-    void begin() { letters = "E"; }
+    void begin() { letters.assign(1, 'E'); } // g++ 12 warns of = "E" (its bug 105651)
 
     /// The path was scattered at a vertex.
     /// \param letter      D or S, by the lobe that was chosen.

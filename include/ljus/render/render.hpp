@@ -90,16 +90,16 @@ template <typename Renderer, std::floating_point T>
         const int first = static_cast<int>(number % tiles) * 16;
         Counts& cost = counts[static_cast<std::size_t>(number)];
         for (int x = first; x < std::min(first + 16, picture.width); ++x) {
-            Vec3T<T> sum{T(0)};
+            RgbT<double> sum{0}; // a float would lose the last of 100 000 samples
             for (int i = 0; i < picture.rays; ++i) {
                 const RgbT<T> sample =
                     sample_pixel(renderer, camera, picture, strata, x, y, i, cost);
                 if (is_finite(sample))
-                    sum += sample;
+                    sum += RgbT<double>(sample);
                 else
                     ++cost.rejected;
             }
-            pixel(result.image, x, y) = sum / T(picture.rays);
+            pixel(result.image, x, y) = RgbT<T>(sum / double(picture.rays));
         }
     };
     result.complete =

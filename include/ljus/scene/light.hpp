@@ -45,8 +45,9 @@ template <std::floating_point T>
 /// What arrives at a point from one sampled point of a light, if nothing is between.
 template <std::floating_point T>
 struct LightSampleT {
-    SurfacePointT<T> point; ///< Where the shadow ray ends; a point light has no error.
-    Vec3T<T> wi{T(0)};      ///< Unit direction to the light.
+    SurfacePointT<T>
+        point{};          ///< Where the shadow ray ends; a point light has no error.
+    Vec3T<T> wi{T(0)};    ///< Unit direction to the light.
     RgbT<T> weight{T(0)}; ///< Radiance / pdf; of a point light intensity / distance^2.
     T pdf = T(0);         ///< Per steradian; 0 for a point light.
 };

@@ -1,0 +1,96 @@
+#include <doctest/doctest.h>
+
+#include "ljus/render/path_tracing.hpp"
+#include "ljus/render/photon_mapping.hpp"
+#include "ljus/render/render.hpp"
+#include "support/rooms.hpp"
+
+using namespace ljus;
+using namespace ljus_test;
+
+TEST_CASE("counts: sums, member by member") {
+    Counts a{.camera_rays = 1,
+             .bounce_rays = 2,
+             .shadow_rays = 3,
+             .map_queries = 4,
+             .map_photons = 5,
+             .rejected = 6};
+    const Counts b{.camera_rays = 10,
+                   .bounce_rays = 20,
+                   .shadow_rays = 30,
+                   .map_queries = 40,
+                   .map_photons = 50,
+                   .rejected = 60};
+    a += b;
+    CHECK(a.camera_rays == 11);
+    CHECK(a.bounce_rays == 22);
+    CHECK(a.shadow_rays == 33);
+    CHECK(a.map_queries == 44);
+    CHECK(a.map_photons == 55);
+    CHECK(a.rejected == 66);
+    CHECK(a.rays() == 66); // no queries, no photons
+}
+
+TEST_CASE("counts: one shadow ray a light and surface, one ray a bounce") {
+    // An open floor under two point lights: each path is camera ray, two shadow rays,
+    // and one indirect ray that meets nothing.
+    Room room;
+    const auto white = room.add(Lambertian{.albedo = Rgb{0.5f}});
+    room.add(Quad{.corner{-90, 0, -90}, .edge_u{0, 0, 180}, .edge_v{180, 0, 0}}, white);
+    room.add(PointLight{.position{0, 2, 0}, .intensity = Rgb{1}});
+    room.add(PointLight{.position{1, 2, 0}, .intensity = Rgb{1}});
+    const Camera camera = look_at({.position{0, 3, 0}, .target{0, 0, 0}, .up{0, 0, 1}});
+    const Picture picture{.width = 10, .height = 10, .rays = 4, .threads = 1};
+    PhotonMapping settings;
+    const auto maps = make_photon_maps(room, settings);
+    const auto mapped =
+        render(PhotonMapper<Room>{room, maps, settings}, camera, picture);
+    CHECK(mapped.counts.camera_rays == 400);
+    CHECK(mapped.counts.shadow_rays == 800);
+    CHECK(mapped.counts.bounce_rays == 400);
+    CHECK(mapped.counts.map_queries == 0);
+    CHECK(mapped.counts.map_photons == 0);
+    // The path tracer chooses one of the lights.
+    const auto traced = render(make_path_tracer(room), camera, picture);
+    CHECK(traced.counts.shadow_rays == 400);
+    CHECK(traced.counts.bounce_rays == 400);
+    // Depth 1: direct light only, and no other ray.
+    settings.max_depth = 1;
+    const auto direct =
+        render(PhotonMapper<Room>{room, maps, settings}, camera, picture);
+    CHECK(direct.counts.shadow_rays == 800);
+    CHECK(direct.counts.bounce_rays == 0);
+}
+
+TEST_CASE("counts: passes that are off make no photon and ask no query") {
+    const Camera camera = room_camera<float>();
+    const Picture picture{.width = 10, .height = 10, .rays = 2, .threads = 1};
+    PhotonMapping settings;
+    settings.caustics.photons = 2000;
+    settings.general.photons = 2000;
+    const auto counts_of = [&](const Room& room) {
+        const auto maps = make_photon_maps(room, settings);
+        const Plan plan = survey(room, settings);
+        CHECK(plan.caustics_map.on == !maps.caustics.empty());
+        CHECK(plan.general_map.on == !maps.general.empty());
+        return render(PhotonMapper<Room>{room, maps, settings}, camera, picture).counts;
+    };
+    // No mirror, no glass: no caustics.
+    const Room matt = make_room<float>(Ball::lambertian, Lamp::quad, 1);
+    CHECK(counts_of(matt).map_queries == 0);
+    CHECK(counts_of(matt).map_photons == 0);
+    const Room glass = make_room<float>(Ball::glass, Lamp::quad, 1);
+    const Counts with = counts_of(glass);
+    CHECK(with.map_queries > 100);
+    CHECK(with.map_photons > 100);
+    settings.caustics.photons = 0;
+    CHECK(counts_of(glass).map_queries == 0);
+    settings.indirect = IndirectLight::map;
+    CHECK(counts_of(matt).map_queries > 100);
+    settings.indirect = IndirectLight::none;
+    const Counts direct = counts_of(matt);
+    CHECK(direct.map_queries == 0);
+    CHECK(direct.bounce_rays == 0);
+    CHECK(direct.shadow_rays <= direct.camera_rays); // none where the lamp is behind
+    CHECK(direct.shadow_rays > direct.camera_rays / 2);
+}

@@ -1,0 +1,170 @@
+#include <doctest/doctest.h>
+
+#include <numbers>
+
+#include "ljus/render/direct_light.hpp"
+#include "support/mean.hpp"
+#include "support/rooms.hpp"
+
+using namespace ljus;
+using namespace ljus_test;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// A floor at y = 0 and what is added to it.
+template <typename T>
+RoomT<T> floor_room() {
+    RoomT<T> room;
+    const auto white = room.add(LambertianT<T>{.albedo = RgbT<T>{T(0.5)}});
+    room.add(QuadT<T>{.corner{T(-50), T(0), T(-50)},
+                      .edge_u{T(0), T(0), T(100)},
+                      .edge_v{T(100), T(0), T(0)}},
+             white);
+    return room;
+}
+
+/// The mean of the direct light of all lights, without any weight, where a ray meets
+/// the scene, the material made brighter or darker by the albedo.
+template <typename T>
+Mean direct(const RoomT<T>& room, const RayT<T>& ray, const LambertianT<T>& material,
+            int samples, Counts& counts, RgbT<T> medium = RgbT<T>{T(0)}) {
+    const auto hit = closest_hit(room, ray);
+    REQUIRE(hit);
+    const ShadingT<T> at = shading(room, ray, *hit, medium);
+    auto stream = random_stream(1, Pass::user, 0, 0);
+    Mean mean;
+    for (int i = 0; i < samples; ++i) {
+        RgbT<T> sum{T(0)};
+        for (const LightT<T>& light : room.lights)
+            sum += direct_light(
+                room, light, at, material, next_2d<T>(stream),
+                [](const auto&, const auto&) { return T(1); }, counts);
+        mean.add(double(sum.x));
+    }
+    return mean;
+}
+
+} // namespace
+
+TEST_CASE_TEMPLATE("direct light: a point light gives I cos / d^2, exactly", T, float,
+                   double) {
+    for (const double height : {0.01, 1.0, 40.0})
+        for (const double aside : {0.0, 0.5, 3.0}) {
+            auto room = floor_room<T>();
+            room.add(PointLightT<T>{.position{T(aside * height), T(height), T(0)},
+                                    .intensity = RgbT<T>{T(7)}});
+            const RayT<T> ray{.origin{T(0), T(0.005), T(0)},
+                              .direction{T(0), T(-1), T(0)}};
+            Counts counts;
+            const Mean seen = direct(room, ray, LambertianT<T>{}, 3, counts);
+            const double d2 = height * height * (1 + aside * aside);
+            const double right = 0.5 / pi * 7 * (height / std::sqrt(d2)) / d2;
+            CAPTURE(height);
+            CAPTURE(aside);
+            CHECK(seen.mean == doctest::Approx(right).epsilon(1e-5));
+            CHECK(seen.error() < 1e-6 * right);
+            CHECK(counts.shadow_rays == 3);
+        }
+}
+
+TEST_CASE_TEMPLATE("direct light: lamps give their closed forms", T, float, double) {
+    // 3 standard errors, 4 lamps, two precisions.
+    const RayT<T> ray{.origin{T(0), T(0.01), T(0)}, .direction{T(0), T(-1), T(0)}};
+    Counts counts;
+    for (const double radius : {0.001, 0.8}) { // E = pi L (R/d)^2
+        auto room = floor_room<T>();
+        const auto black = room.add(LambertianT<T>{.albedo = RgbT<T>{T(0)}});
+        room.add(SphereT<T>{.center{T(0), T(1), T(0)}, .radius = T(radius)}, black,
+                 RgbT<T>{T(3)});
+        const Mean seen = direct(room, ray, LambertianT<T>{}, 20000, counts);
+        CHECK(std::abs(apart(seen, 0.5 * 3 * radius * radius, 1e-4)) < 3);
+    }
+    for (const double height : {0.5, 4.0}) { // four rectangles with a corner above
+        auto room = floor_room<T>();
+        const auto black = room.add(LambertianT<T>{.albedo = RgbT<T>{T(0)}});
+        room.add(QuadT<T>{.corner{T(-1), T(height), T(-0.5)},
+                          .edge_u{T(2), T(0), T(0)},
+                          .edge_v{T(0), T(0), T(1)}},
+                 black, RgbT<T>{T(3)});
+        const double x = 1 / height, y = 0.5 / height;
+        const double rx = std::sqrt(1 + x * x), ry = std::sqrt(1 + y * y);
+        const double factor =
+            4 / (2 * pi) * (x / rx * std::atan(y / rx) + y / ry * std::atan(x / ry));
+        const Mean seen = direct(room, ray, LambertianT<T>{}, 40000, counts);
+        CHECK(std::abs(apart(seen, 0.5 * 3 * factor, 1e-4)) < 3);
+    }
+}
+
+TEST_CASE("direct light: two lamps are added, not averaged") {
+    Room room = floor_room<float>();
+    const Ray ray{.origin{0, 0.01f, 0}, .direction{0, -1, 0}};
+    Counts counts;
+    room.add(PointLight{.position{0, 2, 0}, .intensity = Rgb{1}});
+    const double one = direct(room, ray, Lambertian{}, 1, counts).mean;
+    room.add(PointLight{.position{0, 2, 0}, .intensity = Rgb{3}});
+    CHECK(direct(room, ray, Lambertian{}, 1, counts).mean ==
+          doctest::Approx(4 * one).epsilon(1e-6));
+}
+
+TEST_CASE("direct light: what stands between hides the light, glass and mirrors too") {
+    const Ray ray{.origin{0, 0.01f, 0}, .direction{0, -1, 0}};
+    for (const Ball ball : {Ball::lambertian, Ball::glass, Ball::mirror}) {
+        Room room = floor_room<float>();
+        add_ball(room,
+                 ball); // around (0.1, -0.4, -0.1): put the floor's point below it
+        room.add(PointLight{.position{0, 5, 0}, .intensity = Rgb{1}});
+        std::get<0>(room.shapes)[0].center = {0, 2, 0};
+        Counts counts;
+        CHECK(direct(room, ray, Lambertian{}, 10, counts).mean == 0);
+        CHECK(counts.shadow_rays == 10);
+        // Beyond the light, and beside its way, a ball hides nothing.
+        for (const Vec3 center : {Vec3{0, 6, 0}, Vec3{1, 2, 0}}) {
+            std::get<0>(room.shapes)[0].center = center;
+            CHECK(direct(room, ray, Lambertian{}, 10, counts).mean ==
+                  doctest::Approx(0.5 / pi / 25).epsilon(1e-5));
+        }
+    }
+}
+
+TEST_CASE("direct light: no ray where nothing can come") {
+    Counts counts;
+    const Ray ray{.origin{0, 0.01f, 0}, .direction{0, -1, 0}};
+    { // a lamp that turns its back
+        Room room = floor_room<float>();
+        const auto black = room.add(Lambertian{.albedo = Rgb{0}});
+        room.add(Quad{.corner{-1, 2, -1}, .edge_u{0, 0, 2}, .edge_v{2, 0, 0}}, black,
+                 Rgb{3});
+        CHECK(direct(room, ray, Lambertian{}, 10, counts).mean == 0);
+        CHECK(counts.shadow_rays == 0);
+    }
+    { // a light below the floor: opaque
+        Room room = floor_room<float>();
+        room.add(PointLight{.position{0, -2, 0}, .intensity = Rgb{1}});
+        CHECK(direct(room, ray, Lambertian{}, 10, counts).mean == 0);
+        CHECK(counts.shadow_rays == 0);
+    }
+    { // a black surface
+        Room room = floor_room<float>();
+        room.add(PointLight{.position{0, 2, 0}, .intensity = Rgb{1}});
+        CHECK(direct(room, ray, Lambertian{.albedo = Rgb{0}}, 10, counts).mean == 0);
+        CHECK(counts.shadow_rays == 0);
+    }
+    { // the light is on the surface itself
+        Room room = floor_room<float>();
+        room.add(PointLight{.position{0, 0, 0}, .intensity = Rgb{1}});
+        const Mean seen = direct(room, ray, Lambertian{}, 10, counts);
+        CHECK(seen.mean == 0);
+    }
+}
+
+TEST_CASE("direct light: within a medium it is absorbed along the way") {
+    Room room = floor_room<float>();
+    room.add(PointLight{.position{0, 2, 0}, .intensity = Rgb{1}});
+    const Ray ray{.origin{0, 0.01f, 0}, .direction{0, -1, 0}};
+    Counts counts;
+    const double clear = direct(room, ray, Lambertian{}, 1, counts).mean;
+    const double dim = direct(room, ray, Lambertian{}, 1, counts, Rgb{0.7f}).mean;
+    CHECK(dim == doctest::Approx(clear * std::exp(-1.4)).epsilon(1e-5));
+}

@@ -1,0 +1,292 @@
+// Every light path has one owner: the tables of the two renderers, proven by the letters
+// of the paths that they log. Where energies are compared, 3 standard errors with fixed
+// seeds: 20 such checks, which fresh seeds would fail once in 20 runs.
+#include <doctest/doctest.h>
+
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+
+#include "ljus/render/path_tracing.hpp"
+#include "ljus/render/photon_mapping.hpp"
+#include "ljus/render/render.hpp"
+#include "support/mean.hpp"
+#include "support/rooms.hpp"
+
+using namespace ljus;
+using namespace ljus_test;
+
+namespace {
+
+/// Matt walls, a ball of glass, a mirror on the back wall, a mixed ball, a quad lamp.
+Room mixed_room() {
+    Room room;
+    add_walls(room);
+    const auto glass = room.add(Glass{.index = 1.5f});
+    const auto mirror = room.add(Mirror{.reflectance = Rgb{0.9f}});
+    const auto mixed = room.add(Mixture{
+        .color = Rgb{0.7f, 0.5f, 0.3f}, .reflectivity = 0.3f, .transparency = 0.2f});
+    room.add(Sphere{.center{-0.4f, -0.5f, 0.1f}, .radius = 0.4f}, glass);
+    room.add(Sphere{.center{0.45f, -0.55f, -0.1f}, .radius = 0.4f}, mixed);
+    room.add(
+        Quad{.corner{-0.7f, -0.9f, -0.95f}, .edge_u{1.4f, 0, 0}, .edge_v{0, 1.5f, 0}},
+        mirror);
+    add_lamps(room, Lamp::quad, 1);
+    return room;
+}
+
+/// A ray into the room, where all of its things are.
+Ray into_room(RandomStream& stream) {
+    const Vec2 u = next_2d<float>(stream);
+    return primary_ray(room_camera<float>(), u, 1, 1);
+}
+
+/// The class of a path: S+ stands for one or more S, and is one letter in it: E D S L,
+/// E S D L, E D D S L, ...
+std::string class_of(const std::string& path) {
+    std::string shorter;
+    for (const char c : path)
+        if (!(c == 'S' && shorter.back() == 'S')) shorter += c;
+    return shorter;
+}
+
+/// One logged path, its terms and who carried them.
+template <typename Renderer>
+PathLog log_of(const Renderer& renderer, std::uint64_t seed, std::uint64_t path,
+               Counts& counts) {
+    auto stream = random_stream(seed, Pass::camera, 0, path);
+    const Ray ray = into_room(stream);
+    PathLog log;
+    const Rgb sum = radiance(renderer, ray, stream, counts, log);
+    // The log holds all that was added.
+    glm::dvec3 all(0);
+    for (const PathLogLine& line : log.lines)
+        if (line.what != "vertex") all += line.value;
+    CHECK(double(sum.x) == doctest::Approx(all.x).epsilon(1e-4));
+    CHECK(double(sum.z) == doctest::Approx(all.z).epsilon(1e-4));
+    return log;
+}
+
+/// Whether a term's path may be carried by this owner, by the table of the photon
+/// mapper. `indirect` is rays or map.
+bool owned(const std::string& owner, const std::string& path, bool map) {
+    static const std::regex emission("ES*L"), shadow("E[SD]*DL"),
+        caustics("E[SD]*DS\\+L");
+    if (owner == "emission") return std::regex_match(path, emission);
+    if (owner == "shadow ray")
+        return std::regex_match(path, map ? std::regex("ES*DL") : shadow);
+    if (owner == "caustics map") return std::regex_match(path, caustics);
+    if (owner == "general map")
+        return map && std::regex_match(path, std::regex("ES*DS*DL\\|D\\.\\.DL"));
+    return false;
+}
+
+} // namespace
+
+TEST_CASE("path log: the letters of a path that is known") {
+    // A mirror over a matt floor: E S D L by the shadow ray, nothing else.
+    Room room;
+    const auto white = room.add(Lambertian{.albedo = Rgb{0.5f}});
+    const auto mirror = room.add(Mirror{});
+    room.add(Quad{.corner{-9, 0, -9}, .edge_u{0, 0, 18}, .edge_v{18, 0, 0}}, white);
+    room.add(Quad{.corner{-1, 2, -1}, .edge_u{2, 0, 0}, .edge_v{0, 0, 2}}, mirror);
+    room.add(PointLight{.position{3, 1, 0}, .intensity = Rgb{1}});
+    const PathTracer<Room> tracer = make_path_tracer(room, {.max_depth = 2});
+    auto stream = random_stream(1, Pass::camera, 0, 0);
+    Counts counts;
+    PathLog log;
+    const Rgb seen = radiance(tracer, Ray{.origin{0, 1, 0}, .direction{0, 1, 0}},
+                              stream, counts, log);
+    REQUIRE(log.lines.size() >= 2);
+    CHECK(log.lines[0].path == "ES");
+    CHECK(log.lines[0].what == "vertex");
+    CHECK(log.lines[0].position == glm::dvec3{0, 2, 0});
+    CHECK(log.lines[0].value == glm::dvec3{1});
+    CHECK(log.lines[0].pdf == 0);
+    CHECK(log.lines[1].path == "ESDL");
+    CHECK(log.lines[1].what == "shadow ray");
+    CHECK(log.lines[1].value.x == double(seen.x));
+    // E = I cos / d^2 of the floor at (0, 0, 0).
+    const double d2 = 10;
+    CHECK(double(seen.x) ==
+          doctest::Approx(0.5 / std::numbers::pi / (d2 * std::sqrt(d2))).epsilon(1e-5));
+    // A log that is begun again starts at E.
+    log.begin();
+    CHECK(log.letters == "E");
+    log.term("emission", "L", Rgb{0}); // black is no term
+    CHECK(log.lines.back().what != "emission");
+}
+
+TEST_CASE("path log: each term of the photon mapper has the one owner of the table") {
+    const Room room = mixed_room();
+    for (const IndirectLight indirect :
+         {IndirectLight::rays, IndirectLight::map, IndirectLight::none}) {
+        PhotonMapping settings;
+        settings.indirect = indirect;
+        settings.caustics = {.photons = 20000, .threads = 1};
+        settings.general = {.photons = 20000, .threads = 1};
+        const auto maps = make_photon_maps(room, settings);
+        const PhotonMapper<Room> mapper{room, maps, settings};
+        Counts counts;
+        std::map<std::string, std::set<std::string>> owners;
+        std::map<std::string, int> terms;
+        for (std::uint64_t path = 0; path < 4000; ++path) {
+            const PathLog log = log_of(mapper, 1, path, counts);
+            std::set<std::string> diffuse;
+            for (const PathLogLine& line : log.lines) {
+                if (line.what == "vertex") continue;
+                CAPTURE(line.what);
+                CAPTURE(line.path);
+                CHECK(owned(line.what, line.path, indirect == IndirectLight::map));
+                owners[line.path].insert(line.what);
+                ++terms[line.what];
+                if (indirect == IndirectLight::none)
+                    CHECK(std::regex_match(line.path,
+                                           std::regex("ES*L|ES*DL|ES*DS\\+L")));
+            }
+        }
+        for (const auto& [path, who] : owners) {
+            CAPTURE(path);
+            CHECK(who.size() == 1);
+        }
+        CHECK(terms["emission"] > 10); // by the mirror; no lamp is in view
+        CHECK(terms["shadow ray"] > 2000);
+        CHECK(terms["caustics map"] > 1000);
+        CHECK((terms["general map"] > 1000) == (indirect == IndirectLight::map));
+    }
+}
+
+TEST_CASE(
+    "path log: the path tracer finds lamps by emission and by shadow rays, and by "
+    "nothing else") {
+    const Room room = mixed_room();
+    const auto tracer = make_path_tracer(room);
+    Counts counts;
+    for (std::uint64_t path = 0; path < 4000; ++path) {
+        const PathLog log = log_of(tracer, 2, path, counts);
+        for (const PathLogLine& line : log.lines) {
+            CAPTURE(line.path);
+            if (line.what == "emission")
+                CHECK(std::regex_match(line.path, std::regex("E[SD]*L")));
+            else if (line.what == "shadow ray")
+                CHECK(std::regex_match(line.path, std::regex("E[SD]*DL")));
+            else
+                CHECK(line.what == "vertex");
+        }
+    }
+}
+
+TEST_CASE("path log: the two renderers bring the same light, class of paths by class") {
+    // No class is missing, none is counted twice: E L, E S+ L, E D L, E D S+ L, E D D L,
+    // E S+ D L, E D D S+ L, ... in one room with both maps' photons.
+    const Room room = mixed_room();
+    PhotonMapping settings;
+    settings.gather_caustics.radius = 0.04f;
+    const std::uint64_t paths = 30000;
+    const int seeds = 24;
+    std::set<std::string> classes;
+    const auto run = [&](const auto& renderer, std::uint64_t seed) {
+        std::map<std::string, double> sums;
+        Counts counts;
+        for (std::uint64_t path = 0; path < paths; ++path) {
+            auto stream = random_stream(seed, Pass::camera, 0, path);
+            const Ray ray = into_room(stream);
+            PathLog log;
+            (void)radiance(renderer, ray, stream, counts, log);
+            for (const PathLogLine& line : log.lines) {
+                if (line.what == "vertex") continue;
+                std::string name = class_of(line.path);
+                if (const auto plus = name.find('+'); plus != std::string::npos)
+                    name.erase(plus, 1);
+                if (name.size() > 6) name = "longer";
+                sums[name] += line.value.y / double(paths);
+                classes.insert(name);
+            }
+        }
+        return sums;
+    };
+    std::vector<std::map<std::string, double>> a, b;
+    for (int seed = 1; seed <= seeds; ++seed) {
+        const auto s = static_cast<std::uint64_t>(seed);
+        a.push_back(run(make_path_tracer(room), 100 + s));
+        settings.caustics = {.photons = 50000, .seed = s, .threads = 1};
+        const auto maps = make_photon_maps(room, settings);
+        b.push_back(run(PhotonMapper<Room>{room, maps, settings}, s));
+    }
+    int compared = 0;
+    std::set<std::string> found;
+    for (const std::string& name : classes) {
+        Mean of_tracer, of_mapper;
+        for (int i = 0; i < seeds; ++i) {
+            of_tracer.add(a[static_cast<std::size_t>(i)][name]);
+            of_mapper.add(b[static_cast<std::size_t>(i)][name]);
+        }
+        const double error = std::hypot(of_tracer.error(), of_mapper.error());
+        if (error > 0.07 * of_tracer.mean) continue; // known too badly
+        ++compared;
+        found.insert(name);
+        CAPTURE(name);
+        CAPTURE(of_tracer.mean);
+        CAPTURE(of_tracer.error());
+        CAPTURE(of_mapper.mean);
+        CAPTURE(of_mapper.error());
+        CHECK(std::abs(apart(of_mapper, of_tracer)) < 3);
+    }
+    CHECK(compared >= 10);
+    for (const char* name :
+         {"ESL", "EDL", "EDSL", "ESDL", "EDDL", "EDSDL", "ESDSL", "EDDSL"})
+        CHECK(found.count(name) == 1);
+}
+
+TEST_CASE("path log: a mirror and a ball of glass cast no shadow ray") {
+    // Mirrors all around, and glass: nothing to light.
+    Room room;
+    const auto mirror = room.add(Mirror{.reflectance = Rgb{0.5f}});
+    const auto glass = room.add(Glass{});
+    room.add(Sphere{.radius = 5}, mirror, Rgb{0}, true);
+    room.add(Sphere{.center{0, 0, -2}, .radius = 1}, glass);
+    room.add(PointLight{.position{0, 2, 0}, .intensity = Rgb{10}});
+    PhotonMapping settings;
+    settings.caustics.photons = 1000;
+    const auto maps = make_photon_maps(room, settings);
+    const Picture picture{.width = 16, .height = 16, .rays = 4, .threads = 1};
+    const Camera camera = look_at({.position{0, 0, 1}, .target{0, 0, -2}});
+    for (const Counts& counts :
+         {render(make_path_tracer(room), camera, picture).counts,
+          render(PhotonMapper<Room>{room, maps, settings}, camera, picture).counts}) {
+        CHECK(counts.camera_rays == 16 * 16 * 4);
+        CHECK(counts.bounce_rays > counts.camera_rays);
+        CHECK(counts.shadow_rays == 0);
+        CHECK(counts.map_queries == 0);
+    }
+}
+
+TEST_CASE("path log: a gather ray that reaches a lamp adds nothing") {
+    // A matt floor under a lamp that covers half of its sky: half of the indirect rays
+    // meet the lamp, straight or by a mirror. Direct light is the shadow rays' alone.
+    Room room;
+    const auto white = room.add(Lambertian{.albedo = Rgb{1}});
+    const auto black = room.add(Lambertian{.albedo = Rgb{0}});
+    const auto mirror = room.add(Mirror{});
+    room.add(Quad{.corner{-9, 0, -9}, .edge_u{0, 0, 18}, .edge_v{18, 0, 0}}, white);
+    room.add(Quad{.corner{-3, 1, -3}, .edge_u{6, 0, 0}, .edge_v{0, 0, 6}}, black,
+             Rgb{2});
+    room.add(Quad{.corner{4, 0, -9}, .edge_u{0, 3, 0}, .edge_v{0, 0, 18}}, mirror);
+    for (const IndirectLight indirect : {IndirectLight::rays, IndirectLight::map}) {
+        PhotonMapping settings;
+        settings.indirect = indirect;
+        settings.caustics.photons = 5000;
+        settings.general.photons = 5000;
+        const auto maps = make_photon_maps(room, settings);
+        const PhotonMapper<Room> mapper{room, maps, settings};
+        Counts counts;
+        for (std::uint64_t path = 0; path < 2000; ++path) {
+            auto stream = random_stream(1, Pass::camera, 0, path);
+            PathLog log;
+            (void)radiance(mapper, Ray{.origin{0, 0.5f, 0}, .direction{0, -1, 0}},
+                           stream, counts, log);
+            for (const PathLogLine& line : log.lines) CHECK(line.what != "emission");
+        }
+    }
+}

@@ -1,0 +1,128 @@
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "ljus/render/path_tracing.hpp"
+#include "ljus/render/render.hpp"
+#include "support/rooms.hpp"
+
+using namespace ljus;
+using namespace ljus_test;
+
+namespace {
+
+/// A renderer that answers where its rays went.
+struct Probe {
+    bool bad = false; ///< Every fourth path is not a number.
+};
+template <std::floating_point T, typename Log = NoLog>
+RgbT<T> radiance(const Probe& probe, const RayT<T>& ray, RandomStream& stream, Counts&,
+                 Log&& = {}) {
+    if (probe.bad && next_1d<T>(stream) < T(0.25))
+        return RgbT<T>{std::numeric_limits<T>::quiet_NaN()};
+    return {ray.direction.x / -ray.direction.z, ray.direction.y / -ray.direction.z,
+            T(1)};
+}
+
+} // namespace
+
+TEST_CASE("render: as many rays are traced as were asked for, from 1 to 1000") {
+    const Camera camera;
+    for (int rays = 1; rays <= 1000; ++rays) {
+        const auto seen = render(Probe{}, camera,
+                                 {.width = 2, .height = 1, .rays = rays, .threads = 1});
+        CHECK(seen.counts.camera_rays == 2 * static_cast<std::uint64_t>(rays));
+        CHECK(seen.counts.rejected == 0);
+    }
+    const Room room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    for (const int rays : {1, 2, 7, 8, 10, 64, 101}) {
+        const auto seen = render(make_path_tracer(room), camera,
+                                 {.width = 5, .height = 3, .rays = rays, .threads = 1});
+        CHECK(seen.counts.camera_rays == 15 * static_cast<std::uint64_t>(rays));
+    }
+}
+
+TEST_CASE("render: each pixel is the mean over its own square, from the upper left") {
+    const int width = 20, height = 10; // wider than one strip of 16 pixels
+    const Camera camera = look_at({.vfov_degrees = 90}); // half a height is 1
+    for (const int rays : {1, 9, 13, 400}) {
+        CAPTURE(rays);
+        const auto seen = render(
+            Probe{}, camera,
+            {.width = width, .height = height, .rays = rays, .seed = 3, .threads = 1});
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                const Rgb mean = pixel(seen.image, x, y);
+                const double side = 2.0 / height;
+                const double dx = double(mean.x) - (x + 0.5 - width / 2.0) * side;
+                const double dy = double(mean.y) - (height / 2.0 - y - 0.5) * side;
+                // Within the pixel; and the more rays the nearer to its middle: stratified
+                // means of n rays lie within 1/(2 sqrt(n)) of it at the very worst.
+                const double bound =
+                    rays == 1 ? 0.5 : 0.5 / std::floor(std::sqrt(rays / 4.0) + 0.5);
+                CHECK(std::abs(dx) <= bound * side + 1e-6);
+                CHECK(std::abs(dy) <= bound * side + 1e-6);
+                CHECK(mean.z == doctest::Approx(1));
+            }
+    }
+}
+
+TEST_CASE("render: a sample that is not finite is left out and counted, never shown") {
+    const auto seen = render(Probe{.bad = true}, Camera{},
+                             {.width = 20, .height = 20, .rays = 16, .threads = 1});
+    // 6400 paths, a quarter bad: 1600 with a standard deviation of 35.
+    CHECK(seen.counts.rejected > 1600 - 5 * 35);
+    CHECK(seen.counts.rejected < 1600 + 5 * 35);
+    for (const Rgb& color : seen.image.pixels) CHECK(is_finite(color));
+}
+
+TEST_CASE("render: refuses a picture without pixels or rays") {
+    for (const auto& [width, height, rays] :
+         {std::tuple{0, 4, 1}, std::tuple{4, 0, 1}, std::tuple{-3, 4, 1},
+          std::tuple{4, 4, 0}, std::tuple{4, 4, -1}})
+        CHECK_THROWS_AS((void)render(Probe{}, Camera{},
+                                     {.width = width, .height = height, .rays = rays}),
+                        std::invalid_argument);
+    CHECK_THROWS_AS((void)render(Probe{}, Camera{}, {.threads = -1}),
+                    std::invalid_argument);
+}
+
+TEST_CASE("render: progress is told, and can stop it") {
+    long long last = 0, total = 0;
+    const auto watch = [&](long long done, long long all) {
+        last = done;
+        total = all;
+        return true;
+    };
+    const auto seen =
+        render(Probe{}, Camera{},
+               {.width = 33, .height = 7, .rays = 1, .threads = 2, .progress = watch});
+    CHECK(seen.complete);
+    CHECK(last == total);
+    CHECK(total == 3 * 7); // strips of 16 pixels
+    const auto stop = [&](long long, long long) { return false; };
+    const auto stopped =
+        render(Probe{}, Camera{},
+               {.width = 64, .height = 64, .rays = 1, .threads = 1, .progress = stop});
+    CHECK_FALSE(stopped.complete);
+    CHECK(stopped.counts.camera_rays < 64 * 64);
+}
+
+TEST_CASE("render: one pixel's ray is the same alone as in the picture") {
+    const Room room = make_room<float>(Ball::mixture, Lamp::quad, 1);
+    const auto tracer = make_path_tracer(room);
+    const Camera camera = room_camera<float>();
+    const Picture picture{.width = 24, .height = 9, .rays = 5, .seed = 8, .threads = 1};
+    const auto seen = render(tracer, camera, picture);
+    const Strata strata = strata_for(picture.rays);
+    for (const auto& [x, y] : {std::pair{0, 0}, std::pair{17, 4}, std::pair{23, 8}}) {
+        Rgb sum{0};
+        Counts counts;
+        PathLog log;
+        for (int i = 0; i < picture.rays; ++i)
+            sum += sample_pixel(tracer, camera, picture, strata, x, y, i, counts, log);
+        CHECK(sum / float(picture.rays) == pixel(seen.image, x, y));
+        CHECK(counts.camera_rays == 5);
+        CHECK_FALSE(log.lines.empty());
+    }
+}

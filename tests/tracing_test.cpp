@@ -1,0 +1,453 @@
+// Where the flux of the photons goes. Statistical checks ask for 3 standard errors with
+// fixed seeds; each would fail in 0.27 % of fresh ones, all of them together (about 50)
+// in 13 %.
+#include <doctest/doctest.h>
+
+#include <numbers>
+#include <string>
+
+#include "ljus/photons/tracing.hpp"
+#include "support/mean.hpp"
+#include "support/rooms.hpp"
+
+using namespace ljus;
+using namespace ljus_test;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Where photons of a pass lie on one object's plane: sums of flux, over blocks of paths
+/// so that there is an error.
+template <typename Scene, typename Where>
+Mean stored_flux(const Scene& scene, PhotonLaw law, const PhotonPass& pass, int seeds,
+                 Where where) {
+    Mean mean;
+    for (int seed = 1; seed <= seeds; ++seed) {
+        PhotonPass one = pass;
+        one.seed = static_cast<std::uint64_t>(seed);
+        const auto traced = trace_photons(scene, law, one);
+        double sum = 0;
+        for (const auto& photon : traced.photons)
+            if (where(photon)) sum += double(photon.flux.x);
+        mean.add(sum);
+    }
+    return mean;
+}
+
+/// The form factor between two equal, parallel rectangles a x b at distance c, as in
+/// every table of form factors.
+double parallel_form_factor(double a, double b, double c) {
+    const double x = a / c, y = b / c;
+    const double x1 = 1 + x * x, y1 = 1 + y * y;
+    return 2 / (pi * x * y) *
+           (std::log(std::sqrt(x1 * y1 / (x1 + y * y))) +
+            x * std::sqrt(y1) * std::atan(x / std::sqrt(y1)) +
+            y * std::sqrt(x1) * std::atan(y / std::sqrt(x1)) - x * std::atan(x) -
+            y * std::atan(y));
+}
+
+/// The form factor from a rectangle of width w to one of height h that stands on its
+/// common edge of length l.
+double perpendicular_form_factor(double l, double h, double w) {
+    const double H = h / l, W = w / l;
+    const double h2 = H * H, w2 = W * W, hw = h2 + w2;
+    const double log_sum = std::log((1 + w2) * (1 + h2) / (1 + hw)) +
+                           w2 * std::log(w2 * (1 + hw) / ((1 + w2) * hw)) +
+                           h2 * std::log(h2 * (1 + hw) / ((1 + h2) * hw));
+    return (W * std::atan(1 / W) + H * std::atan(1 / H) -
+            std::sqrt(hw) * std::atan(1 / std::sqrt(hw)) + log_sum / 4) /
+           (pi * W);
+}
+
+void check_balance(const FluxAudit& audit) {
+    const glm::dvec3 sum = audit.absorbed + audit.escaped + audit.cut + audit.roulette;
+    for (int c = 0; c < 3; ++c) {
+        CAPTURE(c);
+        // Each step is a difference taken in double: only the sum itself is rounded.
+        CHECK(sum[c] == doctest::Approx(audit.emitted[c]).epsilon(1e-12));
+    }
+}
+
+} // namespace
+
+TEST_CASE("tracing: absorbed + escaped + cut + roulette = emitted") {
+    for (const Ball ball : {Ball::oren_nayar, Ball::mirror, Ball::glass, Ball::mixture})
+        for (const Lamp lamp : {Lamp::quad, Lamp::sphere, Lamp::point})
+            for (const int bounces : {1, 3, 1000})
+                for (const PhotonLaw law : {PhotonLaw::general, PhotonLaw::caustics}) {
+                    const Room room = make_room<float>(ball, lamp, 2);
+                    const auto traced = trace_photons(
+                        room, law,
+                        {.photons = 3000, .max_bounces = bounces, .threads = 1});
+                    check_balance(traced.audit);
+                    CHECK(traced.audit.escaped == glm::dvec3(0)); // the room is closed
+                }
+    // An open scene, in double.
+    RoomT<double> open;
+    add_ball(open, Ball::mixture);
+    add_lamps(open, Lamp::quad, 2);
+    const auto traced =
+        trace_photons(open, PhotonLaw::general, {.photons = 3000, .threads = 1});
+    check_balance(traced.audit);
+    CHECK(traced.audit.escaped.x > 0.1 * traced.audit.emitted.x);
+}
+
+TEST_CASE("tracing: all the lights' flux is emitted, and roulette moves none of it in "
+          "the mean") {
+    for (const Ball ball : {Ball::oren_nayar, Ball::glass, Ball::mixture}) {
+        const Room room = make_room<float>(ball, Lamp::sphere, 2);
+        glm::dvec3 flux(0);
+        for (const auto& light : room.lights) flux += glm::dvec3(light.flux);
+        Mean emitted[3], roulette[3];
+        for (std::uint64_t seed = 1; seed <= 64; ++seed) {
+            const auto traced =
+                trace_photons(room, PhotonLaw::general,
+                              {.photons = 2000, .seed = seed, .threads = 1});
+            for (int c = 0; c < 3; ++c) {
+                emitted[c].add(traced.audit.emitted[c]);
+                roulette[c].add(traced.audit.roulette[c]);
+            }
+        }
+        for (int c = 0; c < 3; ++c) {
+            CAPTURE(c);
+            CHECK(std::abs(apart(emitted[c], flux[c])) < 3);
+            CHECK(std::abs(roulette[c].mean) < 3 * roulette[c].error());
+            CHECK(roulette[c].error() < 0.02 * flux[c]);
+        }
+        // By power: the summed flux of a photon is the same for each light.
+        Mean sum;
+        for (std::uint64_t path = 0; path < 2000; ++path) {
+            auto stream = random_stream(3, Pass::general_photons, 0, path);
+            const auto flight = emit(room, light_choice(room.lights), stream);
+            sum.add(double(flight.flux.x + flight.flux.y + flight.flux.z));
+        }
+        CHECK(sum.mean == doctest::Approx(flux.x + flux.y + flux.z).epsilon(1e-5));
+        CHECK(sum.error() < 1e-5 * sum.mean);
+    }
+}
+
+TEST_CASE("tracing: the first hits of a lamp's photons share its flux by the form "
+          "factors") {
+    // The whole ceiling of a 2 x 1.5 x 1 box shines, radiance 1.
+    const double a = 2, b = 1.5, c = 1;
+    RoomT<float> box;
+    const auto black = box.add(Lambertian{.albedo = Rgb{0}});
+    const Vec3 x{float(a), 0, 0}, z{0, 0, float(b)}, y{0, float(c), 0};
+    box.add(Quad{.corner{0, float(c), 0}, .edge_u = x, .edge_v = z}, black, Rgb{1});
+    box.add(Quad{.corner{0, 0, 0}, .edge_u = z, .edge_v = x}, black);
+    box.add(Quad{.corner{0, 0, 0}, .edge_u = x, .edge_v = y}, black);
+    box.add(Quad{.corner{0, 0, float(b)}, .edge_u = x, .edge_v = y}, black);
+    box.add(Quad{.corner{0, 0, 0}, .edge_u = z, .edge_v = y}, black);
+    box.add(Quad{.corner{float(a), 0, 0}, .edge_u = z, .edge_v = y}, black);
+    const double flux = pi * a * b;
+    const auto share_of = [&](auto where) {
+        return stored_flux(box, PhotonLaw::general,
+                           {.photons = 20000, .shadow_photons = false, .threads = 1},
+                           16, where);
+    };
+    const auto near = [](float value, double plane) {
+        return std::abs(double(value) - plane) < 1e-5;
+    };
+    const double floor = parallel_form_factor(a, b, c);
+    const double long_wall = perpendicular_form_factor(a, c, b);
+    const double short_wall = perpendicular_form_factor(b, c, a);
+    CHECK(floor + 2 * long_wall + 2 * short_wall == doctest::Approx(1).epsilon(1e-12));
+    CHECK(parallel_form_factor(1, 1, 1) == doctest::Approx(0.1998249).epsilon(1e-6));
+    CHECK(perpendicular_form_factor(1, 1, 1) ==
+          doctest::Approx(0.2000438).epsilon(1e-6));
+    const Mean on_floor =
+        share_of([&](const Photon& p) { return near(p.position.y, 0); });
+    const Mean on_back =
+        share_of([&](const Photon& p) { return near(p.position.z, 0); });
+    const Mean on_front =
+        share_of([&](const Photon& p) { return near(p.position.z, b); });
+    const Mean on_left =
+        share_of([&](const Photon& p) { return near(p.position.x, 0); });
+    const Mean on_right =
+        share_of([&](const Photon& p) { return near(p.position.x, a); });
+    CHECK(std::abs(apart(on_floor, flux * floor)) < 3);
+    CHECK(std::abs(apart(on_back, flux * long_wall)) < 3);
+    CHECK(std::abs(apart(on_front, flux * long_wall)) < 3);
+    CHECK(std::abs(apart(on_left, flux * short_wall)) < 3);
+    CHECK(std::abs(apart(on_right, flux * short_wall)) < 3);
+    CHECK(on_floor.error() < 0.003 * on_floor.mean);
+}
+
+namespace {
+
+/// Of parallel light on a unit ball of glass: the share of what meets it that goes
+/// through it without a reflection inside, (1 - F)^2 at the angle of entry, and crosses a
+/// plane behind it, at a distance from its centre, within a radius of the axis.
+double straight_through(double index, double distance, double radius) {
+    double sum = 0;
+    const int steps = 100000;
+    for (int k = 0; k < steps; ++k) {
+        const double sine = std::sqrt((k + 0.5) / steps); // uniform over the disc
+        const double i = std::asin(sine), t = std::asin(sine / index);
+        // It leaves at the angle i + pi - 2t around the centre, turned by 2 (i - t).
+        const double place = i + pi - 2 * t, turn = 2 * (i - t);
+        if (turn >= pi / 2) continue;
+        const double way = (distance + std::cos(place)) / std::cos(turn);
+        if (std::abs(std::sin(place) - way * std::sin(turn)) > radius) continue;
+        const double ci = std::cos(i), ct = std::cos(t);
+        const double s = (ci - index * ct) / (ci + index * ct);
+        const double p = (index * ci - ct) / (index * ci + ct);
+        sum += std::pow(1 - (s * s + p * p) / 2, 2) / steps;
+    }
+    return sum;
+}
+
+} // namespace
+
+TEST_CASE("tracing: a caustic has the power that the glass was given") {
+    // A small, far lamp; a ball of glass; a black shell around it all that keeps every
+    // photon. What meets the ball is the lamp's intensity times the ball's solid angle;
+    // all of it leaves the ball, for nothing is absorbed.
+    for (const bool point_light : {true, false}) {
+        Room scene;
+        const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
+        const auto glass = scene.add(Glass{.index = 1.5f});
+        scene.add(Sphere{.center{0, 0, 0}, .radius = 20}, black, Rgb{0}, true);
+        scene.add(Sphere{.center{0, 0, 0}, .radius = 0.5f}, glass);
+        if (point_light)
+            scene.add(PointLight{.position{0, 3, 0}, .intensity = Rgb{2}});
+        else // radius 0.1, seen from the ball's centre with intensity L pi r^2
+            scene.add(Sphere{.center{0, 3, 0}, .radius = 0.1f}, black,
+                      Rgb{float(2 / (pi * 0.01))});
+        // Between two Lambertian spheres: the flux on a ball from a point at distance d
+        // is I 2 pi (1 - cos), and from a lamp the mean of that over its face; to
+        // second order in the lamp's radius they agree, and here within 1e-4.
+        const double solid = 2 * pi * (1 - std::sqrt(1 - 0.25 / 9));
+        const auto everywhere = [](const Photon&) { return true; };
+        const PhotonPass pass{.photons = 20000, .threads = 1};
+        const Mean caustic =
+            stored_flux(scene, PhotonLaw::caustics, pass, 16, everywhere);
+        CAPTURE(point_light);
+        CAPTURE(caustic.mean);
+        CAPTURE(2 * solid);
+        if (point_light) {
+            CHECK(std::abs(apart(caustic, 2 * solid, 1e-5)) < 3);
+            CHECK(caustic.error() < 1e-3 * caustic.mean);
+        } else {
+            CHECK(caustic.mean == doctest::Approx(2 * solid).epsilon(0.01));
+        }
+        // The same photons found blindly: emitted anywhere, kept if they went through
+        // glass first.
+        PhotonPass blind = pass;
+        blind.photons = 200000;
+        Mean found;
+        for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+            blind.seed = seed;
+            double sum = 0;
+            const LightChoice choice = light_choice(scene.lights);
+            FluxAudit audit;
+            std::vector<Photon> out;
+            for (std::uint64_t path = 0; path < 100000; ++path) {
+                auto stream = random_stream(seed, Pass::user, 0, path);
+                auto flight = emit(scene, choice, stream);
+                flight.flux /= 100000.0f;
+                trace(scene, PhotonLaw::caustics, flight, std::nullopt, blind, stream,
+                      out, audit);
+            }
+            for (const Photon& photon : out) sum += double(photon.flux.x);
+            found.add(sum);
+        }
+        CAPTURE(found.mean);
+        CHECK(std::abs(apart(caustic, found)) < 3);
+    }
+    // And what goes straight through a ball in parallel light.
+    Room scene;
+    const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
+    const auto glass = scene.add(Glass{.index = 1.5f});
+    scene.add(Sphere{.center{0, 0, 0}, .radius = 1}, glass);
+    scene.add(
+        Quad{.corner{-1.2f, -1.5f, -1.2f}, .edge_u{0, 0, 2.4f}, .edge_v{2.4f, 0, 0}},
+        black);
+    scene.add(PointLight{.position{0, 2000, 0}, .intensity = Rgb{4e6f}}); // E = 1
+    for (const double radius : {0.1, 0.4, 0.9}) {
+        const Mean through = stored_flux(
+            scene, PhotonLaw::caustics, {.photons = 20000, .threads = 1}, 16,
+            [&](const Photon& p) {
+                return double(p.position.x * p.position.x +
+                              p.position.z * p.position.z) < radius * radius;
+            });
+        // Light reflected inside an even number of times may land there as well: F^2.
+        const double right = pi * straight_through(1.5, 1.5, radius);
+        CAPTURE(radius);
+        CAPTURE(through.mean);
+        CAPTURE(through.error());
+        CAPTURE(right);
+        CHECK(through.mean > right - 3 * through.error());
+        CHECK(through.mean < 1.005 * right + 3 * through.error());
+        CHECK(through.error() < 0.005 * right);
+    }
+}
+
+TEST_CASE("tracing: aimed photons equal blind ones, whatever their targets") {
+    // Targets that hide each other, a light within the bounding sphere of a target (a
+    // large mirror), mirrors and mixtures as targets, all kinds of lights.
+    for (const Lamp lamp : {Lamp::quad, Lamp::sphere, Lamp::point}) {
+        Room scene;
+        add_walls(scene);
+        const auto glass = scene.add(Glass{.index = 1.5f});
+        const auto mirror = scene.add(Mirror{.reflectance = Rgb{0.9f}});
+        const auto mixed = scene.add(
+            Mixture{.color = Rgb{0.5f}, .reflectivity = 0.3f, .transparency = 0.3f});
+        scene.add(Sphere{.center{0, -0.3f, 0}, .radius = 0.3f}, glass);
+        scene.add(Sphere{.center{0.1f, 0.2f, 0.05f}, .radius = 0.2f}, glass); // above
+        scene.add(Sphere{.center{0.5f, -0.5f, 0.3f}, .radius = 0.3f}, mixed);
+        scene.add(Quad{.corner{-0.9f, -0.9f, -0.8f},
+                       .edge_u{1.8f, 0, 0},
+                       .edge_v{0, 1.8f, -0.1f}},
+                  mirror);
+        add_lamps(scene, lamp, 2);
+        Mean aimed[2], blind[2];
+        for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+            const auto half = [](const Photon& p) { return p.position.y < -0.999f; };
+            const auto add = [&](Mean(&mean)[2], const std::vector<Photon>& photons) {
+                double sum = 0, floor = 0;
+                for (const Photon& photon : photons) {
+                    CHECK_FALSE(photon.kind != PhotonKind::caustic);
+                    sum += double(photon.flux.x);
+                    floor += half(photon) ? double(photon.flux.x) : 0;
+                }
+                mean[0].add(sum);
+                mean[1].add(floor);
+            };
+            add(aimed, trace_photons(scene, PhotonLaw::caustics,
+                                     {.photons = 6000, .seed = seed, .threads = 1})
+                           .photons);
+            const LightChoice choice = light_choice(scene.lights);
+            FluxAudit audit;
+            std::vector<Photon> out;
+            const int paths = 8000;
+            for (std::uint64_t path = 0; path < paths; ++path) {
+                auto stream = random_stream(seed, Pass::user, 0, path);
+                auto flight = emit(scene, choice, stream);
+                flight.flux /= float(paths);
+                trace(scene, PhotonLaw::caustics, flight, std::nullopt, PhotonPass{},
+                      stream, out, audit);
+            }
+            add(blind, out);
+        }
+        for (const int i : {0, 1}) {
+            CAPTURE(static_cast<int>(lamp));
+            CAPTURE(i);
+            CAPTURE(aimed[i].mean);
+            CAPTURE(blind[i].mean);
+            CHECK(std::abs(apart(aimed[i], blind[i])) < 3);
+            CHECK(aimed[i].error() < 0.02 * aimed[i].mean);
+        }
+    }
+}
+
+TEST_CASE("tracing: the kinds of photons are those of their paths") {
+    // The walk of a photon is done again beside trace(), from the same random numbers,
+    // with its path spelt out; the photons must be those whose path the law owns.
+    const Room room = make_room<float>(Ball::mixture, Lamp::quad, 2);
+    const LightChoice choice = light_choice(room.lights);
+    int seen[3] = {};
+    for (std::uint64_t path = 0; path < 4000; ++path) {
+        for (const PhotonLaw law : {PhotonLaw::general, PhotonLaw::caustics}) {
+            auto stream = random_stream(5, Pass::user, 0, path);
+            const auto flight = emit(room, choice, stream);
+            std::vector<Photon> out;
+            FluxAudit audit;
+            trace(room, law, flight, std::nullopt, {.shadow_photons = false}, stream,
+                  out, audit);
+
+            std::vector<std::pair<std::string, Vec3>> expected;
+            auto again = random_stream(5, Pass::user, 0, path);
+            auto walk = emit(room, choice, again);
+            std::string letters = "L";
+            for (std::uint64_t bounce = 1; bounce <= 1000; ++bounce) {
+                start_bounce(again, bounce);
+                const auto hit = closest_hit(room, walk.ray);
+                if (!hit) break;
+                const auto at = surface_at(room, walk.ray, *hit);
+                const bool alive =
+                    room.visit_material(at.object.material, [&](const auto& material) {
+                        if (has(lobes(material), Lobes::diffuse))
+                            expected.push_back({letters + "D", at.point.position});
+                        const auto next = sample(
+                            material, to_local(at.frame, -walk.ray.direction),
+                            next_3d<float>(again), Transport::flux,
+                            law == PhotonLaw::caustics ? Lobes::specular : Lobes::all);
+                        if (!next) return false;
+                        letters += next->specular ? 'S' : 'D';
+                        walk.ray = ray_from(at.point, to_world(at.frame, next->wi));
+                        return true;
+                    });
+                if (!alive) break;
+            }
+            // Roulette may have ended the photon before the walk: it is a beginning.
+            std::size_t place = 0;
+            for (const Photon& photon : out) {
+                while (place < expected.size() &&
+                       expected[place].second != photon.position)
+                    ++place;
+                REQUIRE(place < expected.size());
+                const std::string& string = expected[place].first;
+                CAPTURE(string);
+                const std::string between = string.substr(1, string.size() - 2);
+                const bool direct = between.empty();
+                const bool indirect = between.find('D') != std::string::npos;
+                const PhotonKind kind = direct     ? PhotonKind::direct
+                                        : indirect ? PhotonKind::indirect
+                                                   : PhotonKind::caustic;
+                CHECK(photon.kind == kind);
+                CHECK((law == PhotonLaw::caustics) == (kind == PhotonKind::caustic));
+                ++seen[direct ? 0 : indirect ? 1 : 2];
+            }
+            // And none is missing: what lies before the last one and is owned is there.
+            std::size_t owned = 0;
+            for (std::size_t i = 0; i < std::min(place + 1, expected.size()); ++i) {
+                const std::string& s = expected[i].first;
+                const bool caustic = s.size() > 2 && s.find('D') == s.size() - 1;
+                owned += caustic == (law == PhotonLaw::caustics) ? 1 : 0;
+            }
+            if (!out.empty()) CHECK(owned == out.size());
+        }
+    }
+    CHECK(seen[0] > 1000);
+    CHECK(seen[1] > 1000);
+    CHECK(seen[2] > 100);
+}
+
+TEST_CASE("tracing: shadow photons lie behind the first surface, where it faces the "
+          "light") {
+    const Room room = make_room<float>(Ball::glass, Lamp::sphere, 2);
+    const auto traced =
+        trace_photons(room, PhotonLaw::general, {.photons = 2000, .threads = 1});
+    std::size_t shadows = 0;
+    for (const Photon& photon : traced.photons) {
+        if (photon.kind != PhotonKind::shadow) continue;
+        ++shadows;
+        // From there its light cannot be seen along the photon's direction.
+        const Ray back{.origin = photon.position - 1e-4f * photon.direction,
+                       .direction = -photon.direction};
+        const auto hit = closest_hit(room, back);
+        REQUIRE(hit);
+        CHECK(room.lights[photon.light].object != hit->object);
+    }
+    CHECK(shadows > 100);
+    const auto without =
+        trace_photons(room, PhotonLaw::general,
+                      {.photons = 2000, .shadow_photons = false, .threads = 1});
+    CHECK(without.photons.size() + shadows == traced.photons.size());
+}
+
+TEST_CASE("tracing: no photons, no light, no target") {
+    const Room room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    for (const PhotonLaw law : {PhotonLaw::general, PhotonLaw::caustics})
+        CHECK(trace_photons(room, law, {.photons = 0}).photons.empty());
+    CHECK_THROWS_AS((void)trace_photons(room, PhotonLaw::general, {.photons = -1}),
+                    std::invalid_argument);
+    const Room matt = make_room<float>(Ball::lambertian, Lamp::quad, 1);
+    CHECK(trace_photons(matt, PhotonLaw::caustics, {.photons = 1000}).photons.empty());
+    Room dark;
+    add_walls(dark);
+    CHECK_THROWS_AS((void)trace_photons(dark, PhotonLaw::general, {}),
+                    std::invalid_argument);
+}
