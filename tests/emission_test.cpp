@@ -22,7 +22,7 @@
 using namespace ljus;
 using photon_test::integrate;
 using photon_test::Mean;
-using D3 = glm::dvec3;
+using D3 = glm::dvec3; ///< What the closed forms are computed with.
 
 namespace {
 

@@ -95,7 +95,7 @@ std::vector<Gather> each_kernel(float radius, std::size_t nearest = 0) {
 } // namespace
 
 TEST_CASE("photon_map: within a fixed radius every kernel finds the flux density") {
-    for (const Mean& mean : over_maps(1500, 500, each_kernel(0.25f), 11)) {
+    for (const Mean& mean : over_maps(1000, 500, each_kernel(0.25f), 11)) {
         CHECK(std::abs(mean.sigmas(exact(0))) < 4.5);
         CHECK(std::sqrt(mean.variance() / mean.count) <
               0.01 * exact(0)); // sharp enough
@@ -104,7 +104,7 @@ TEST_CASE("photon_map: within a fixed radius every kernel finds the flux density
 
 TEST_CASE("photon_map: with the k nearest, too, for few and for many") {
     for (const std::size_t k : {2u, 3u, 5u, 50u})
-        for (const Mean& mean : over_maps(1500, 500, each_kernel(0.9f, k), 12)) {
+        for (const Mean& mean : over_maps(1000, 500, each_kernel(0.9f, k), 12)) {
             CAPTURE(k);
             // Of k = 2 the variance is infinite: its standard error says little.
             if (k == 2)
@@ -117,7 +117,7 @@ TEST_CASE("photon_map: with the k nearest, too, for few and for many") {
 TEST_CASE("photon_map: also where the radius ends a search before k are found") {
     // On the mean 9.8 photons lie within: often fewer than k, often more.
     for (const std::size_t k : {5u, 10u, 14u})
-        for (const Mean& mean : over_maps(3000, 200, each_kernel(0.25f, k), 13)) {
+        for (const Mean& mean : over_maps(2000, 200, each_kernel(0.25f, k), 13)) {
             CAPTURE(k);
             CHECK(std::abs(mean.sigmas(exact(0))) < 4.5);
         }
@@ -141,7 +141,7 @@ TEST_CASE(
     // kernels are those of kernel_test.cpp.
     const double e = std::exp(-2.0);
     const std::array squares{1.0, 1.5, (1 + e) / (1 - e), 4.0 / 3, 9.0 / 5};
-    constexpr int maps = 4000; // the variance of a variance: 2/maps, squared 2.2 %
+    constexpr int maps = 2500; // a variance is found within sqrt(2/maps): 2.8 %
     struct Case {
         int count;
         float radius;

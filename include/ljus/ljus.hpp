@@ -3,6 +3,7 @@
 /// \file ljus/ljus.hpp
 /// \brief Everything, but the headers that need a package of their own (load_json.hpp).
 
+#include "ljus/geometry/pair_triangles.hpp"
 #include "ljus/geometry/shape.hpp"
 #include "ljus/geometry/solid_angle.hpp"
 #include "ljus/geometry/transform.hpp"
@@ -20,6 +21,11 @@
 #include "ljus/math/sum.hpp"
 #include "ljus/optics/schlick.hpp"
 #include "ljus/parallel.hpp"
+#include "ljus/render/explain.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"
+#include "ljus/scene/cornell_box.hpp"
+#include "ljus/scene/furnaces.hpp"
+#include "ljus/scene/material_rows.hpp"
+#include "ljus/scene/report_rooms.hpp"

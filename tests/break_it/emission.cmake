@@ -43,6 +43,13 @@ ljus_break_it(NAME aim-cosine HEADER photons/emission.hpp TEST emission
 
 # Within the bound of its target a lamp needs its whole hemisphere.
 ljus_break_it(NAME aim-inside HEADER photons/emission.hpp TEST emission
-    FROM "cone = {point.normal, T(1)}"
-    TO   "cone = {point.normal, T(0.5)}"
+    FROM "ConeT<T>{from.normal, T(1)}"
+    TO   "ConeT<T>{from.normal, T(0.5)}"
     CASES "emission: a lamp within*")
+
+# A target takes the place of the one before with its share, but u is not stretched: the
+# first ones are chosen too often, and the others never.
+ljus_break_it(NAME aim-stretch HEADER photons/emission.hpp TEST emission
+    FROM "u_target = (u_target - share) / (T(1) - share);"
+    TO   ""
+    CASES "emission: where cones overlap*")

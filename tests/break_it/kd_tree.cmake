@@ -8,7 +8,7 @@ ljus_break_it(NAME kd-tree-cube HEADER photons/kd_tree.hpp TEST kd_tree
 # are on one side only, it believes. They are on both.
 ljus_break_it(NAME kd-tree-equal-keys HEADER photons/kd_tree.hpp TEST kd_tree
     FROM "if (!reaches("
-    TO   "if (offset[axis] == 0 || !reaches("
+    TO   "if (from_plane == 0 || !reaches("
     CASES "kd_tree: every search*")
 
 # An open ball in the walk, a closed one at the point: points on the border are found on

@@ -82,6 +82,7 @@ for name in $(cd "$include" && find ljus -type f | sort); do
             problem "$name: it includes \"$used\"; includes point one way only."
         fi
         case $optional in
+            *" $name "*) ;; # an optional header may build on another one
             *" $used "*) problem "$name: it includes \"$used\", an optional header." ;;
         esac
     done
