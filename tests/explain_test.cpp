@@ -25,11 +25,19 @@ constexpr std::pair<int, int> places[] = {{0, 0}, {6, 1},  {3, 9},
 template <typename Renderer>
 void check_sums(const Renderer& renderer, const Camera& camera) {
     const auto rendered = render(renderer, camera, picture);
-    for (const auto& [x, y] : places) {
+    for (const auto& place : places) {
+        const int x = place.first;
+        const int y = place.second;
         CAPTURE(x);
         CAPTURE(y);
         const auto apart = take_apart(renderer, camera, picture, x, y);
-        CHECK(apart.radiance == pixel(rendered.image, x, y)); // to the last bit
+        const Rgb& expected = pixel(rendered.image, x, y);
+#ifdef __FMA__
+        // The compiler may fuse other products and sums in a renderer with a log.
+        CHECK(glm::distance(apart.radiance, expected) <= 1e-5f * glm::length(expected));
+#else
+        CHECK(apart.radiance == expected); // to the last bit
+#endif
         CHECK(apart.rejected == 0);
         glm::dvec3 sum{0};
         for (const PathSum& part : apart.sums) sum += part.value;
@@ -117,8 +125,8 @@ TEST_CASE("explain: the text has a line for each vertex, each term and each path
 TEST_CASE("explain: long lists of paths end in one line for the rest") {
     ExplainedPixelT<float> apart{.radiance = Rgb{5}, .rays = 5};
     for (int i = 0; i < 5; ++i)
-        apart.sums.push_back({"E" + std::string(std::size_t(i), 'D') + "L", "emission",
-                              glm::dvec3{1}, 1});
+        apart.sums.push_back({std::string("E").append(std::size_t(i), 'D') + "L",
+                              "emission", glm::dvec3{1}, 1});
     const std::string text = describe(apart, 3);
     CHECK(text.find("  E D D L ") != std::string::npos);
     CHECK(text.find("E D D D L") == std::string::npos);
