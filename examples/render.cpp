@@ -17,6 +17,7 @@
 #include "ljus/image/hdr.hpp"
 #include "ljus/image/pfm.hpp"
 #include "ljus/image/png.hpp"
+#include "ljus/photons/census.hpp"
 #include "ljus/render/explain.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/scene/load_json.hpp"
@@ -97,11 +98,31 @@ std::pair<int, int> pixel_of(const std::string& text, const Picture& picture) {
     if (!comma || second.ec != std::errc{} || second.ptr != end || x < 0 || y < 0 ||
         x >= picture.width || y >= picture.height)
         throw std::invalid_argument(
-            "--explain is " + shown(text) +
+            std::string("--explain is ").append(shown(text)) +
             "; it must be X,Y, from the upper left corner, within [0, " +
             std::to_string(picture.width - 1) + "],[0, " +
             std::to_string(picture.height - 1) + "]");
     return {x, y};
+}
+
+void print(const Counts& counts, double seconds) {
+    const auto samples = static_cast<double>(counts.camera_rays);
+    const auto rays = static_cast<double>(counts.rays());
+    std::printf("  %-16s %8.2f s  %" PRIu64 " rays, %.2f a sample, %.2f million/s\n",
+                "render", seconds, counts.rays(), rays / samples,
+                rays / seconds * 1e-6);
+    std::printf("  %-16s %10s  %" PRIu64 " from the camera, %" PRIu64
+                " bounces, %" PRIu64 " to lights\n",
+                "", "", counts.camera_rays, counts.bounce_rays, counts.shadow_rays);
+    if (counts.map_queries > 0)
+        std::printf("  %-16s %10s  %.2f map queries a sample, %.1f photons each\n", "",
+                    "", static_cast<double>(counts.map_queries) / samples,
+                    static_cast<double>(counts.map_photons) /
+                        static_cast<double>(counts.map_queries));
+    if (counts.rejected > 0)
+        std::printf("  %-16s %10s  %" PRIu64
+                    " samples were not finite and are left out\n",
+                    "", "", counts.rejected);
 }
 
 /// Renders, or explains one pixel.
@@ -115,10 +136,12 @@ RenderedT<float> run(const Renderer& renderer, const Camera& camera, Picture pic
         std::fputs(explain(stoppable, camera, picture, x, y).c_str(), stdout);
         return {};
     }
+    const examples::StopWatch watch;
     examples::ProgressBar bar("render", quiet);
     picture.progress = bar;
     auto rendered = render(stoppable, camera, picture);
     examples::stop_if_asked();
+    if (!quiet) print(rendered.counts, watch.seconds());
     return rendered;
 }
 
@@ -133,12 +156,16 @@ PhotonMapsT<float> photon_pass(const LoadedScene& loaded, PhotonMapping settings
     (caustics ? settings.caustics : settings.general).progress = bar;
     auto maps = make_photon_maps(loaded.scene, settings);
     examples::stop_if_asked();
-    const auto& kept = caustics ? maps.caustics.records : maps.general.records;
-    if (!quiet)
-        std::printf("  %-16s %8.2f s  %lld photons emitted, %zu kept\n",
-                    caustics ? "caustics map" : "general map", watch.seconds(),
-                    (caustics ? settings.caustics : settings.general).photons,
-                    kept.size());
+    if (quiet) return maps;
+    std::printf("  %-16s %8.2f s  %lld photons emitted; kept:",
+                caustics ? "caustics map" : "general map", watch.seconds(),
+                (caustics ? settings.caustics : settings.general).photons);
+    const PhotonCensus kept = census(caustics ? maps.caustics : maps.general);
+    for (const PhotonKind kind : {PhotonKind::direct, PhotonKind::caustic,
+                                  PhotonKind::indirect, PhotonKind::shadow})
+        if (kept[kind].photons > 0)
+            std::printf(" %" PRIu64 " %s", kept[kind].photons, name_of(kind));
+    std::printf("\n");
     return maps;
 }
 
@@ -223,8 +250,9 @@ void body(examples::CommandLine& line) {
                     request.renderer == "path" ? "path tracing" : "photon mapping");
     if (request.plan) {
         if (request.renderer == "photon")
-            std::fputs(to_text(survey(loaded.scene, settings_of(request, options))).c_str(),
-                       stdout);
+            std::fputs(
+                to_text(survey(loaded.scene, settings_of(request, options))).c_str(),
+                stdout);
         return;
     }
 
@@ -234,21 +262,7 @@ void body(examples::CommandLine& line) {
     const double seconds = watch.seconds();
     save(rendered.image, path, request.exposure);
     if (options.quiet) return;
-    const Counts& counts = rendered.counts;
-    const double samples = static_cast<double>(counts.camera_rays);
-    std::printf("  %-16s %8.2f s  %" PRIu64 " rays, %.2f a sample, %.2f million/s\n",
-                "all passes", seconds, counts.rays(),
-                static_cast<double>(counts.rays()) / samples,
-                static_cast<double>(counts.rays()) / seconds * 1e-6);
-    if (counts.map_queries > 0)
-        std::printf("  %-16s %10s  %.1f photons a query, %.2f queries a sample\n", "",
-                    "",
-                    static_cast<double>(counts.map_photons) /
-                        static_cast<double>(counts.map_queries),
-                    static_cast<double>(counts.map_queries) / samples);
-    if (counts.rejected > 0)
-        std::printf("  %" PRIu64 " samples were not finite and are left out\n",
-                    counts.rejected);
+    std::printf("  %-16s %8.2f s\n", "all passes", seconds);
     std::printf("  %s\n", path.c_str());
 }
 
