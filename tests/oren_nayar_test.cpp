@@ -182,10 +182,9 @@ TEST_CASE_TEMPLATE("oren_nayar: samples, density and weight belong together", T,
 TEST_CASE("oren_nayar: what is no angle is refused by name and value") {
     CHECK(refusal(OrenNayar{.albedo = {1, 1, 1}, .sigma = 0}).empty());
     CHECK(refusal(OrenNayar{.albedo = {1, 1, 1}, .sigma = 100}).empty()); // figure 14
-    CHECK(
-        refusal(OrenNayar{.albedo = {1, 1, 1}, .sigma = -0.5f}) ==
-        "oren_nayar.sigma is -0.500000; it must be within [0, 1000] radians (the model "
-        "saturates near 1).");
+    CHECK(refusal(OrenNayar{.albedo = {1, 1, 1}, .sigma = -0.5f}) ==
+          "oren_nayar.sigma is -0.5; it must be within [0, 1000] radians (the model "
+          "saturates near 1).");
     CHECK(refusal(OrenNayar{.sigma = NAN}).find("oren_nayar.sigma is NaN") == 0);
     CHECK(refusal(OrenNayar{.albedo = {1, 1, 2}}).find("oren_nayar.albedo") == 0);
 }

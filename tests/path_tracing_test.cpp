@@ -180,6 +180,32 @@ TEST_CASE_TEMPLATE("path tracing: a matt ball embedded in glass in a furnace", T
         }
 }
 
+TEST_CASE_TEMPLATE("path tracing: a lamp embedded in glass looks n^2 times darker", T,
+                   float, double) {
+    // What is lit from outside enters and leaves, and n^2 cancels on the way; light that
+    // starts within the glass only leaves it: L = (1 - F) Le / n^2. What the surface
+    // throws back meets the black lamp again.
+    const double n = 1.5, a = 0.55;
+    for (const double impact : {0.0, 0.5, 0.8, 0.9}) {
+        Furnace<T> scene;
+        const auto glass = scene.add(GlassT<T>{.index = T(n)});
+        const auto black = scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0)}});
+        scene.add(SphereT<T>{.radius = T(1)}, glass);
+        scene.add(SphereT<T>{.radius = T(a)}, black, RgbT<T>{T(4)});
+        const auto ray = [&](RandomStream&) {
+            return RayT<T>{.origin{T(impact), T(0), T(3)},
+                           .direction{T(0), T(0), T(-1)}};
+        };
+        const double share = fresnel_share(std::sqrt(1 - impact * impact), 1, n);
+        const double right = impact / n < a ? (1 - share) * 4 / (n * n) : 0;
+        const Mean seen = mean_radiance(make_path_tracer(scene), 30000, 37, ray);
+        CAPTURE(impact);
+        CAPTURE(seen.mean);
+        CAPTURE(right);
+        CHECK(std::abs(apart(seen, right, 2e-5)) < 3);
+    }
+}
+
 TEST_CASE_TEMPLATE("path tracing: a spherical lamp lights a surface with pi L (R/d)^2",
                    T, float, double) {
     for (const double ratio : {1e-4, 0.01, 0.3, 0.7, 0.99, 0.99997}) {

@@ -6,7 +6,6 @@
 static_assert(ljus::schlick_r0(1.0, 1.5) > 0.0399999 &&
               ljus::schlick_r0(1.0, 1.5) < 0.0400001);
 static_assert(ljus::schlick(0.04f, 1.0f) == 0.04f);
-static_assert(ljus::schlick(0.04f, 0.0f) == 1.0f);
 
 #include <doctest/doctest.h>
 
@@ -102,6 +101,7 @@ TEST_CASE("schlick: with both cosines at hand it is the same, without a square r
     CHECK(ljus::schlick(1.5f, 1.0f, 0.5f, 0.0f) == 1.0f);
     CHECK(ljus::schlick_dielectric(0.5f, 1.5f, 1.0f) == 1.0f);
     CHECK(ljus::schlick_dielectric(0.0f, 1.0f, 1.5f) == 1.0f);
+    CHECK(ljus::schlick(0.04f, 0.0f) == 1.0f);
 }
 
 TEST_CASE("schlick: within [0, 1] for every index and angle") {

@@ -124,10 +124,17 @@ void check(const QuadT<T>& quad) {
 template <typename S>
 using ScalarOf = decltype(area(std::declval<const S&>()));
 
+/// What has an area; asked first, so that the message for what is no shape is short.
+template <typename S>
+concept HasArea = requires(const S& shape) {
+    area(shape);
+};
+
 /// What a scene asks of a shape.
 template <typename S>
-concept Shape = requires(const S& shape, RayT<ScalarOf<S>> ray, Vec2T<ScalarOf<S>> u,
-                         FlatHitT<ScalarOf<S>> hit) {
+concept Shape = HasArea<S> &&
+    requires(const S& shape, RayT<ScalarOf<S>> ray, Vec2T<ScalarOf<S>> u,
+             FlatHitT<ScalarOf<S>> hit) {
     as_hit(*intersect(ray, shape));
     { surface_point(shape, ray, hit) } -> std::same_as<SurfacePointT<ScalarOf<S>>>;
     { sample_area(shape, u) } -> std::same_as<SurfacePointT<ScalarOf<S>>>;

@@ -1,0 +1,29 @@
+# The cosine of the angle at which light arrives.
+ljus_break_it(NAME direct-light-cosine HEADER render/direct_light.hpp TEST direct_light
+    FROM "std::abs(wi.z) * weigh"
+    TO   "weigh"
+    CASES "direct light: a point light*")
+
+# The inverse square, as the report's program has it.
+ljus_break_it(NAME direct-light-distance HEADER scene/light.hpp TEST direct_light
+    FROM ".weight = light.emission / distance2"
+    TO   ".weight = light.emission"
+    CASES "direct light: a point light*")
+
+# The density of the point of a lamp.
+ljus_break_it(NAME direct-light-pdf HEADER scene/light.hpp TEST direct_light
+    FROM ".weight = light.emission / seen.pdf"
+    TO   ".weight = light.emission"
+    CASES "direct light: lamps give*")
+
+# A lamp that shines on both sides.
+ljus_break_it(NAME direct-light-side HEADER scene/light.hpp TEST direct_light
+    FROM "glm::dot(wi, seen.point.normal) < T(0) && "
+    TO   ""
+    CASES "direct light: no ray*")
+
+# Nothing hides anything.
+ljus_break_it(NAME direct-light-shadow HEADER render/direct_light.hpp TEST direct_light
+    FROM "if (occluded(scene, shadow)) return RgbT<T>{T(0)};"
+    TO   ""
+    CASES "direct light: what stands between*")

@@ -1,0 +1,30 @@
+# Radiance that leaves glass as if it were flux.
+ljus_break_it(NAME photon-mapping-n2 HEADER materials/glass.hpp TEST photon_mapping
+    FROM "transport == Transport::radiance ? eta * eta : T(1)"
+    TO   "transport == Transport::radiance ? T(1) : T(1)"
+    CASES "photon mapping: a matt ball embedded*")
+
+# Flux that enters glass as if it were radiance.
+ljus_break_it(NAME photon-mapping-flux HEADER photons/tracing.hpp TEST photon_mapping
+    FROM "sample(material, wo, u, Transport::flux,"
+    TO   "sample(material, wo, u, Transport::radiance,"
+    CASES "photon mapping: a matt ball embedded*")
+
+# A cosine in the estimate, which the arriving flux holds already.
+ljus_break_it(NAME photon-mapping-cosine HEADER photons/photon_map.hpp TEST photon_mapping
+    FROM "sum += weight * evaluate(material, wo, wi) * photon.flux;"
+    TO   "sum += weight * std::abs(wi.z) * evaluate(material, wo, wi) * photon.flux;"
+    CASES "photon mapping: a matt ball embedded*")
+
+# The report's weight of a photon, a hill whose volume is not 1.
+ljus_break_it(NAME photon-mapping-kernel HEADER photons/kernel.hpp TEST photon_mapping
+    FROM "return T(2) * (T(1) - x);"
+    TO   "return T(1) - x;"
+    CASES "photon mapping: away from edges*")
+
+# The general map's shadow photons are not light.
+ljus_break_it(NAME photon-mapping-shadow HEADER render/photon_mapping.hpp
+    TEST photon_mapping
+    FROM "return kind != PhotonKind::shadow;"
+    TO   "return kind != PhotonKind::caustic;"
+    CASES "photon mapping: the general map*")

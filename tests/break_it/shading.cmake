@@ -1,0 +1,11 @@
+# The dead are not paid for.
+ljus_break_it(NAME shading-roulette HEADER render/shading.hpp TEST shading
+    FROM "throughput /= probability;"
+    TO   ""
+    CASES "shading: roulette*")
+
+# Coming out of glass, a path takes the glass along.
+ljus_break_it(NAME shading-medium HEADER render/shading.hpp TEST shading
+    FROM "wi.z < T(0) ? absorption(material) : RgbT<T>{T(0)}"
+    TO   "absorption(material)"
+    CASES "shading: what a path is in*")

@@ -1,0 +1,47 @@
+# As the report's program has it: survivors carry no more than before.
+ljus_break_it(NAME tracing-roulette HEADER photons/tracing.hpp TEST tracing
+    FROM "reflected / probability"
+    TO   "reflected"
+    CASES "tracing: all the lights' flux*")
+
+# Photons share the flux among those that were stored, not those that were emitted.
+ljus_break_it(NAME tracing-stored HEADER photons/tracing.hpp TEST tracing
+    FROM [[        block = {};
+    }
+]]
+    TO   [[        block = {};
+    }
+    for (auto& photon : result.photons)
+        photon.flux *= T(pass.photons) / T(result.photons.size());
+]]
+    CASES "tracing: a caustic has*")
+
+# What the glass has focused is kept by both maps.
+ljus_break_it(NAME tracing-owner HEADER photons/tracing.hpp TEST tracing
+    FROM "const bool owned = (kind == PhotonKind::caustic) == caustics;"
+    TO   "const bool owned = true;"
+    CASES "tracing: the kinds*")
+
+# Where cones overlap, photons count for whatever they meet.
+ljus_break_it(NAME tracing-target HEADER photons/tracing.hpp TEST tracing
+    FROM "bounce == 1 && target && hit->object != *target"
+    TO   "false"
+    CASES "tracing: aimed photons*")
+
+# Aimed photons carry as much as blind ones.
+ljus_break_it(NAME tracing-aim HEADER photons/emission.hpp TEST tracing
+    FROM "light.flux * (emitted / (pdf * chosen.probability))"
+    TO   "light.flux / chosen.probability"
+    CASES "tracing: a caustic has*")
+
+# From each light as many photons as from the next, all with its own flux.
+ljus_break_it(NAME tracing-light-choice HEADER photons/emission.hpp TEST tracing
+    FROM ".flux = light.flux / chosen.probability,"
+    TO   ".flux = light.flux,"
+    CASES "tracing: all the lights' flux*")
+
+# Directions uniform over the hemisphere, with the flux of Lambert's.
+ljus_break_it(NAME tracing-cosine HEADER photons/emission.hpp TEST tracing
+    FROM "to_world(frame, sample_cosine_hemisphere(u_direction))"
+    TO   "to_world(frame, sample_uniform_hemisphere(u_direction))"
+    CASES "tracing: the first hits*")
