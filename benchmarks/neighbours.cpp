@@ -55,7 +55,7 @@ struct PlainTree {
         return sum;
     }
     float sum_nearest(Vec3 center, std::size_t k) const {
-        std::array<ljus::NeighborT<float>, 256> room;
+        std::array<ljus::Neighbor, 256> room;
         const std::span found(room.data(), k);
         const std::size_t count =
             tree.nearest(center, std::numeric_limits<float>::infinity(), found,

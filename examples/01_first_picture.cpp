@@ -1,6 +1,7 @@
 /// \file 01_first_picture.cpp
 /// \brief The program of the README: a glass ball and its caustic, in under 20 lines.
 // figures: first_picture
+// runs in the folder of its picture
 
 // [first picture]
 #include <ljus/ljus.hpp>

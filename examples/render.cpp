@@ -85,12 +85,6 @@ PhotonMapping settings_of(const Request& request, const examples::Options& optio
     return settings;
 }
 
-void print(const Plan& plan) {
-    for (const PlanItem* item : plan.items())
-        std::printf("  %-16s %-4s %s\n", item->pass, item->on ? "on" : "off",
-                    item->why.c_str());
-}
-
 /// The numbers of "120,80".
 std::pair<int, int> pixel_of(const std::string& text, const Picture& picture) {
     int x = 0;
@@ -229,7 +223,8 @@ void body(examples::CommandLine& line) {
                     request.renderer == "path" ? "path tracing" : "photon mapping");
     if (request.plan) {
         if (request.renderer == "photon")
-            print(survey(loaded.scene, settings_of(request, options)));
+            std::fputs(to_text(survey(loaded.scene, settings_of(request, options))).c_str(),
+                       stdout);
         return;
     }
 

@@ -19,7 +19,8 @@ constexpr float quiet_nan = std::numeric_limits<float>::quiet_NaN();
 
 /// Numbers of all sizes and signs; a few special ones among them.
 Lanes numbers(RandomStream& stream) {
-    constexpr std::array special{0.0f, -0.0f, infinity, -infinity, quiet_nan, 1e-45f, 3e38f};
+    constexpr std::array special{0.0f,      -0.0f,  infinity, -infinity,
+                                 quiet_nan, 1e-45f, 3e38f};
     Lanes result{};
     for (float& x : result.lane) {
         const float u = next_1d(stream);

@@ -5,15 +5,18 @@
 
 #include <doctest/doctest.h>
 
+#include <stdexcept>
 #include <type_traits>
 
+#include "ljus/geometry/shape.hpp"
+#include "ljus/materials/lambertian.hpp"
 #include "ljus/photons/tracing.hpp"
 #include "support/photon_samples.hpp"
 
 using ljus::FluxAudit;
 using ljus::Rgb;
 using photon_test::Numbers;
-using RgbD = ljus::RgbT<double>;
+using RgbD = ljus::RgbT<double>; ///< Accounts are kept in double.
 
 TEST_CASE("photon: 40 bytes in float, and a plain value") {
     CHECK(sizeof(ljus::Photon) == 40);
@@ -98,4 +101,28 @@ TEST_CASE("photon: roulette at its ends") {
     CHECK_FALSE(ljus::play_roulette(flux, Rgb{0}, 0.0f, audit));
     CHECK(audit.roulette == RgbD{0});
     CHECK(audit.absorbed == RgbD(flux));
+}
+
+TEST_CASE("photon: a pass that cannot be made is refused with a sentence") {
+    ljus::Scene<ljus::Shapes<ljus::Sphere>, ljus::Materials<ljus::Lambertian>> scene;
+    const auto trace = [&](const ljus::PhotonPass& pass) {
+        return ljus::trace_photons(scene, ljus::PhotonLaw::general, pass);
+    };
+    CHECK_THROWS_WITH(
+        (void)trace({}),
+        "the number of lights is 0; it must be at least 1, because photons "
+        "start at lights.");
+    scene.add(ljus::PointLight{});
+    CHECK_NOTHROW((void)trace({.photons = 10}));
+    CHECK_THROWS_WITH((void)trace({.photons = -1}),
+                      "the number of photons is -1; it must be at least 0.");
+    CHECK_THROWS_WITH((void)trace({.max_bounces = 0}),
+                      "the largest number of bounces is 0; it must be at least 1.");
+    CHECK_THROWS_AS((void)trace({.threads = -1}), std::invalid_argument);
+
+    // A photon has 16 bits for the number of its light.
+    for (int i = 1; i < 65536; ++i) scene.add(ljus::PointLight{});
+    CHECK_NOTHROW((void)trace({.photons = 10}));
+    scene.add(ljus::PointLight{});
+    CHECK_THROWS_AS((void)trace({.photons = 10}), std::invalid_argument);
 }

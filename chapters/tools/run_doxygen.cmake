@@ -1,15 +1,22 @@
-# Runs Doxygen in FOLDER and shows its warnings, which it also leaves in warnings.txt.
+# Runs Doxygen in FOLDER and shows its warnings, which it also leaves in warnings.txt;
+# with GATE they are errors. What a test or benchmark has for itself needs no documentation.
 cmake_minimum_required(VERSION 3.22)
+file(REMOVE "${FOLDER}/warnings.txt")
 execute_process(COMMAND "${DOXYGEN}" Doxyfile WORKING_DIRECTORY "${FOLDER}"
     RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+if(NOT result EQUAL 0)
+    message(FATAL_ERROR "Doxygen failed (${result}).\n${output}")
+endif()
 set(warnings)
 if(EXISTS "${FOLDER}/warnings.txt")
     file(READ "${FOLDER}/warnings.txt" warnings)
+    string(REGEX REPLACE "[^\n]*/(tests|benchmarks)/[^\n]* is not documented\\.\n?" "" warnings "${warnings}")
+    string(STRIP "${warnings}" warnings)
 endif()
-if(NOT "x${warnings}" STREQUAL "x")
-    message("${warnings}")
+if("x${warnings}" STREQUAL "x")
+    return()
 endif()
-if(NOT result EQUAL 0)
-    message("${output}")
-    message(FATAL_ERROR "Doxygen is not content with the book; its messages are above.")
+message("${warnings}")
+if(GATE)
+    message(FATAL_ERROR "Doxygen is not content with the book; its warnings are above.")
 endif()

@@ -1,3 +1,6 @@
+/// \file command_line.cpp
+/// \brief The command line that the example programs share.
+
 // The one file that includes CLI11.
 #include "command_line.hpp"
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# A header and the files it names, copied into an empty folder, compile there.
+# A header and the files it names, copied into an empty folder, compile there: without
+# OpenMP, with the warnings of a careful user.
 . "$(dirname "$0")/common.sh"
 status=0
 count=0
@@ -12,8 +13,8 @@ while read -r header; do
     done
     files=$(find "$folder" -name '*.hpp' | wc -l | tr -d ' ')
     # shellcheck disable=SC2086
-    if ! echo "#include \"$header\"" | "$LJUS_CXX" -std=c++20 -Wall -Werror \
-        $LJUS_PACKAGE_FLAGS -I "$folder" -fsyntax-only -x c++ -; then
+    if ! echo "#include \"$header\"" | "$LJUS_CXX" -std=c++20 -Wall -Wextra -Wpedantic \
+        -Wconversion -Wshadow -Werror $LJUS_PACKAGE_FLAGS -I "$folder" -fsyntax-only -x c++ -; then
         echo "$header does not compile with only the $files files that it names."
         status=1
     fi

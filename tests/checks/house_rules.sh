@@ -81,7 +81,9 @@ for name in $(cd "$include" && find ljus -type f | sort); do
             { [ "$there" -eq "$here" ] && [ "${used%/*}" != "${name%/*}" ]; }; then
             problem "$name: it includes \"$used\"; includes point one way only."
         fi
-        case $optional in
+        # Only an optional header may include an optional one.
+        case "$optional|$optional" in
+            *" $name "*'|'*) ;;
             *" $used "*) problem "$name: it includes \"$used\", an optional header." ;;
         esac
     done

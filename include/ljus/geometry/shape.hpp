@@ -30,22 +30,28 @@ template <std::floating_point T>
     return hit;
 }
 
-/// The point of a sphere that a ray hit: at(ray, t), put back onto the sphere.
+/// The point of a sphere that a ray hit: O + tD, put back onto the sphere. The way from
+/// the centre is summed without the centre's own place, which far from the origin would
+/// round it away; what is left of a sphere too small and far for t faces the ray.
 /// \param sphere  The sphere.
 /// \param ray     The ray.
 /// \param hit     What intersect() returned.
 /// \return Position, its error bound, the outer normal.
+// [surface_point]
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> surface_point(const SphereT<T>& sphere,
                                              const RayT<T>& ray,
                                              const FlatHitT<T>& hit) noexcept {
-    const Vec3T<T> n = glm::normalize(at(ray, hit.t) - sphere.center);
+    Vec3T<WideT<T>> way{(ray.origin - sphere.center) + hit.t * ray.direction};
+    if (way == Vec3T<WideT<T>>{0}) way = -Vec3T<WideT<T>>{ray.direction};
+    const Vec3T<T> n{glm::normalize(way)};
     const Vec3T<T> offset = sphere.radius * n;
     return {.position = sphere.center + offset,
             .error =
                 rounding_bound<T>(5) * (glm::abs(sphere.center) + glm::abs(offset)),
             .normal = n};
 }
+// [surface_point]
 
 /// The point of a flat shape that a ray hit, from its coordinates u and v.
 /// \param shape  A triangle or a quad.
@@ -118,10 +124,17 @@ void check(const QuadT<T>& quad) {
 template <typename S>
 using ScalarOf = decltype(area(std::declval<const S&>()));
 
+/// What has an area; asked first, so that the message for what is no shape is short.
+template <typename S>
+concept HasArea = requires(const S& shape) {
+    area(shape);
+};
+
 /// What a scene asks of a shape.
 template <typename S>
-concept Shape = requires(const S& shape, RayT<ScalarOf<S>> ray, Vec2T<ScalarOf<S>> u,
-                         FlatHitT<ScalarOf<S>> hit) {
+concept Shape = HasArea<S> &&
+    requires(const S& shape, RayT<ScalarOf<S>> ray, Vec2T<ScalarOf<S>> u,
+             FlatHitT<ScalarOf<S>> hit) {
     as_hit(*intersect(ray, shape));
     { surface_point(shape, ray, hit) } -> std::same_as<SurfacePointT<ScalarOf<S>>>;
     { sample_area(shape, u) } -> std::same_as<SurfacePointT<ScalarOf<S>>>;

@@ -30,16 +30,14 @@ template <std::floating_point T>
     const Vec3T<T> way = sphere.center - from;
     const T sin2 = sphere.radius * sphere.radius / glm::dot(way, way);
     if (!(sin2 < T(1))) return {};
-    // 1 - cos = sin^2 / (1 + cos) does not cancel for a small, distant sphere.
-    return {.axis = glm::normalize(way),
-            .one_minus_cos = sin2 / (T(1) + std::sqrt(T(1) - sin2))};
+    return {.axis = glm::normalize(way), .one_minus_cos = one_minus_cosine(sin2)};
 }
 
 /// A point of a shape, and the density with which an observer's direction fell on it.
 template <std::floating_point T>
 struct SeenPointT {
-    SurfacePointT<T> point; ///< The point.
-    T pdf = T(0);           ///< Per steradian of the observer.
+    SurfacePointT<T> point{}; ///< The point.
+    T pdf = T(0);             ///< Per steradian of the observer.
 };
 
 /// The density per steradian of a point that was chosen uniformly over the area.
@@ -57,12 +55,16 @@ template <std::floating_point T>
     return distance2 / (cosine * area);
 }
 
-/// Whether an observer samples a sphere by the cone in which it is seen: from inside,
-/// or so close that the cone is a hemisphere, the area serves better.
+/// Whether an observer is surely outside a sphere, and samples the cone in which it is
+/// seen. From inside, and from a point on the sphere, which may be rounded to either
+/// side, the area serves: a room made of a sphere must see all of its wall.
+/// \param sphere  The sphere.
+/// \param from    The observer.
 template <std::floating_point T>
 [[nodiscard]] bool sees_cone(const SphereT<T>& sphere, const Vec3T<T>& from) noexcept {
-    const Vec3T<T> way = sphere.center - from;
-    return glm::dot(way, way) > T(1.0001) * sphere.radius * sphere.radius;
+    const T doubt = T(8) * std::numeric_limits<T>::epsilon() *
+                    (max_component(glm::abs(sphere.center)) + sphere.radius);
+    return glm::distance(sphere.center, from) > sphere.radius + doubt;
 }
 
 /// A point of any shape, uniform over its area.
@@ -91,9 +93,10 @@ template <Shape S, std::floating_point T>
 /// A point of the near side of a sphere, uniform over the cone in which it is seen;
 /// from inside, uniform over its area.
 /// \param sphere  The sphere.
-/// \param from  The observer.
-/// \param u  Point of the unit square.
-/// \return The point and its density per steradian of the observer. \cite shirley1996
+/// \param from    The observer.
+/// \param u       Point of the unit square.
+/// \return The point and its density per steradian of the observer.
+/// \cite shirley1996
 // [sample_towards]
 template <std::floating_point T>
 [[nodiscard]] SeenPointT<T> sample_towards(const SphereT<T>& sphere,

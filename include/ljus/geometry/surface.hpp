@@ -40,9 +40,8 @@ template <std::floating_point T>
 /// A fixed distance (the report's program has four, from 0.0001 to 0.1) is too long for
 /// a small scene and too short far from the origin. Here the distance is twice the
 /// error of the point, along the normal, and 4 units in the last place of its largest
-/// coordinate for the rounding of the sum. It is never 0, for at t = 0 the ray would
-/// meet the surface again: the error counts among the coordinates, of which all three
-/// may be 0.
+/// coordinate for the rounding of the sum. A point of a wall through the origin may have
+/// no coordinate but 0: then the error in the wall's plane gives the scale.
 ///
 /// \param point      A point of the surface, with its error.
 /// \param direction  Where the ray goes; its length does not matter.
@@ -53,10 +52,10 @@ template <std::floating_point T>
 [[nodiscard]] Vec3T<T> leave(const SurfacePointT<T>& point,
                              const Vec3T<T>& direction) noexcept {
     const Vec3T<T>& n = point.normal;
-    const T last_place = max_component(glm::abs(point.position) + point.error) *
-                         std::numeric_limits<T>::epsilon();
-    const T distance = T(2) * glm::dot(glm::abs(n), point.error) +
-                       std::max(T(4) * last_place, std::numeric_limits<T>::min());
+    const T scale = max_component(glm::abs(point.position) + point.error);
+    const T last_place = std::max(scale * std::numeric_limits<T>::epsilon(),
+                                  std::numeric_limits<T>::min());
+    const T distance = T(2) * glm::dot(glm::abs(n), point.error) + T(4) * last_place;
     return point.position + std::copysign(distance, glm::dot(direction, n)) * n;
 }
 // [leave]
@@ -72,16 +71,24 @@ template <std::floating_point T>
 }
 
 /// A ray between two points of surfaces that touches neither surface.
+///
+/// The farther the way, the less is known of where it meets its end: the arithmetic of
+/// an intersection is rounded by the length of the way. Without that, a lamp close to
+/// the origin of the scene shades itself from afar.
 /// \param from  Where it starts.
 /// \param to    Where it ends, at t = 1.
 /// \return The ray; its direction has the length of the way.
+// [ray_between]
 template <std::floating_point T>
 [[nodiscard]] RayT<T> ray_between(const SurfacePointT<T>& from,
                                   const SurfacePointT<T>& to) noexcept {
-    const Vec3T<T> origin = leave(from, to.position - from.position);
-    const Vec3T<T> end = leave(to, from.position - to.position);
-    return {.origin = origin, .direction = end - origin, .t_max = T(1)};
+    const Vec3T<T> way = to.position - from.position;
+    SurfacePointT<T> seen = to;
+    seen.error += rounding_bound<T>(8) * max_component(glm::abs(way));
+    const Vec3T<T> origin = leave(from, way);
+    return {.origin = origin, .direction = leave(seen, -way) - origin, .t_max = T(1)};
 }
+// [ray_between]
 
 /// \}
 

@@ -23,8 +23,7 @@ namespace ljus {
 /// \report{Section 3.2.4, Eq. (4)}
 // [reflect]
 template <std::floating_point T>
-[[nodiscard]] constexpr Vec3T<T> reflect(const Vec3T<T>& d,
-                                         const Vec3T<T>& n) noexcept {
+[[nodiscard]] Vec3T<T> reflect(const Vec3T<T>& d, const Vec3T<T>& n) {
     const Vec3T<T> along = d - glm::dot(d, n) * n; // I, figure 9
     return T(2) * along - d;
 }

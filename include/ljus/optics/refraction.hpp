@@ -36,7 +36,8 @@ template <std::floating_point T>
     return std::fma(a, b, -cd) + lost;
 }
 
-/// The direction of a ray behind a boundary.
+/// The direction of a ray behind a boundary. Write `ljus::refract`: the compiler finds
+/// GLM's function of that name by itself, and that one knows no total reflection.
 /// \param direction  The direction in which the ray *travels*, towards the surface;
 ///                   unit vector.
 /// \param normal     Unit normal, on either side.

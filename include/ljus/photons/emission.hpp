@@ -94,6 +94,26 @@ struct AimedFlightT {
     ObjectId target;   ///< It counts only if this is what it meets first.
 };
 
+/// The directions in which a point of a light aims at an object: the cone in which it
+/// sees the object's bounding sphere. From inside of that, a lamp aims at all that it
+/// can shine on, and a point light everywhere.
+/// \param scene   The scene.
+/// \param light   One of its lights.
+/// \param from    A point of the light.
+/// \param target  The object.
+/// \return The cone.
+// [aiming_cone]
+template <typename Scene, std::floating_point T>
+[[nodiscard]] ConeT<T> aiming_cone(const Scene& scene, const LightT<T>& light,
+                                   const SurfacePointT<T>& from, ObjectId target) {
+    const SphereT<T> bound = scene.visit_shape(
+        target, [](const auto& shape) { return bounding_sphere(shape); });
+    const ConeT<T> cone = cone_towards(bound, from.position);
+    const bool inside = cone.one_minus_cos == T(2);
+    return inside && light.object ? ConeT<T>{from.normal, T(1)} : cone;
+}
+// [aiming_cone]
+
 /// A photon aimed at one of several objects: at the cone in which the light's point
 /// sees the object's bounding sphere, uniformly; a wide cone is chosen more often, so
 /// that the density is the same, one over the sum of the cones, in all of them.
@@ -106,7 +126,9 @@ struct AimedFlightT {
 /// \param choice   Of the scene's lights; at least one.
 /// \param targets  The objects; at least one.
 /// \param stream   Six numbers are drawn.
-/// \return The photon; nothing if its direction lies behind the light.
+/// \return The photon; nothing if its direction lies behind the light, or if all targets
+///         are points.
+/// \cost One cone a target.
 /// \report{Section 3.2.2.2} \cite jensen1996
 /// \erratum{The program behind the report does not correct for the density of the
 ///          direction, and divides by the photons that were stored: a caustic's
@@ -120,36 +142,31 @@ aim(const Scene& scene, const LightChoice& choice, const std::vector<ObjectId>& 
     const ChosenLightT<T> chosen = choose_light(choice, next_1d<T>(stream));
     const LightT<T>& light = scene.lights[chosen.light];
     const Vec2T<T> u_point = next_2d<T>(stream);
-    const T u_target = next_1d<T>(stream);
+    T u_target = next_1d<T>(stream);
     const Vec2T<T> u_direction = next_2d<T>(stream);
 
-    const SurfacePointT<T> point = light.object
-                                       ? light_point(scene, light, u_point)
-                                       : SurfacePointT<T>{.position = light.position};
-    const auto cone_of = [&](ObjectId target) {
-        const SphereT<T> bound = scene.visit_shape(
-            target, [](const auto& shape) { return bounding_sphere(shape); });
-        ConeT<T> cone = cone_towards(bound, point.position);
-        // Inside the bound of its target, a lamp aims at all it can shine on.
-        if (light.object && cone.one_minus_cos == T(2)) cone = {point.normal, T(1)};
-        return cone;
-    };
+    SurfacePointT<T> point{.position = light.position};
+    if (light.object) point = light_point(scene, light, u_point);
 
-    // Choose a target by the size of its cone.
+    // Choose a target by the size of its cone: each takes the place of the one before
+    // with its share of the sum so far, and u is stretched to [0, 1) again.
     T sum = T(0);
-    for (const ObjectId target : targets) sum += cone_of(target).one_minus_cos;
-    ObjectId target = targets.back();
-    ConeT<T> cone = cone_of(target);
-    T before = T(0);
+    ObjectId target;
+    ConeT<T> cone;
     for (const ObjectId candidate : targets) {
-        const ConeT<T> seen = cone_of(candidate);
-        before += seen.one_minus_cos;
-        if (u_target * sum < before) {
+        const ConeT<T> seen = aiming_cone(scene, light, point, candidate);
+        if (!(seen.one_minus_cos > T(0))) continue;
+        sum += seen.one_minus_cos;
+        const T share = seen.one_minus_cos / sum;
+        if (u_target < share) {
             target = candidate;
             cone = seen;
-            break;
+            u_target /= share;
+        } else {
+            u_target = (u_target - share) / (T(1) - share);
         }
     }
+    if (!(sum > T(0))) return std::nullopt;
 
     const Vec3T<T> direction = to_world(
         frame_around(cone.axis), sample_uniform_cone(u_direction, cone.one_minus_cos));

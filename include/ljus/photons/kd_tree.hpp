@@ -216,20 +216,21 @@ void KdTreeT<T>::descend(std::size_t first, std::size_t last, const Vec3T<T>& ce
     if (first >= last) return;
     const std::size_t middle = first + (last - first) / 2;
     const int axis = axis_[middle];
-    const glm::dvec3 offset = glm::dvec3(center) - glm::dvec3(points_[middle]);
+    const double from_plane = double(center[axis]) - double(points_[middle][axis]);
 
     // Equal coordinates lie on both sides of the plane: which one is first is a matter
     // of speed, whether the other is left out is for its distance to say.
-    const bool low_first = offset[axis] < 0;
+    const bool low_first = from_plane < 0;
     if (low_first)
         descend(first, middle, center, offer, reaches);
     else
         descend(middle + 1, last, center, offer, reaches);
 
+    const glm::dvec3 offset = glm::dvec3(center) - glm::dvec3(points_[middle]);
     offer(static_cast<std::uint32_t>(middle), glm::dot(offset, offset));
 
     // Squares are compared, rounded as those of the points are.
-    if (!reaches(offset[axis] * offset[axis])) return;
+    if (!reaches(from_plane * from_plane)) return;
     if (low_first)
         descend(middle + 1, last, center, offer, reaches);
     else

@@ -161,7 +161,7 @@ void trace(const Scene& scene, PhotonLaw law, FlightT<T> flight,
                 if (!survivor) return false;
                 flight.flux = *survivor;
                 (scattered->specular ? met_specular : met_diffuse) = true;
-                if (wo.z * scattered->wi.z < T(0))
+                if (!same_side(wo, scattered->wi))
                     medium = scattered->wi.z < T(0) ? absorption(material) : RgbT<T>{};
                 flight.ray =
                     ray_from(surface.point, to_world(surface.frame, scattered->wi));
@@ -178,7 +178,8 @@ void trace(const Scene& scene, PhotonLaw law, FlightT<T> flight,
 /// \param law    For which map.
 /// \param pass   How many, and with which seed.
 /// \return The photons in the order of emission, the same for any number of threads.
-/// \throws std::invalid_argument  if the scene has no light, or the number is negative.
+/// \throws std::invalid_argument  if the scene has no light or more than 65536, or a
+///         number of the pass is out of range.
 // [trace_photons]
 template <typename Scene>
 [[nodiscard]] TracedPhotonsT<typename Scene::Scalar>
@@ -187,6 +188,11 @@ trace_photons(const Scene& scene, PhotonLaw law, const PhotonPass& pass) {
     require(pass.photons >= 0, "the number of photons", pass.photons, "at least 0");
     require(!scene.lights.empty(), "the number of lights", 0LL,
             "at least 1, because photons start at lights");
+    require(scene.lights.size() <= 65536, "the number of lights",
+            static_cast<long long>(scene.lights.size()),
+            "at most 65536, because a photon has 16 bits for its light's number");
+    require(pass.max_bounces >= 1, "the largest number of bounces",
+            static_cast<long long>(pass.max_bounces), "at least 1");
 
     const bool caustics = law == PhotonLaw::caustics;
     const LightChoice choice = light_choice(scene.lights);

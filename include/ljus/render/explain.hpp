@@ -65,6 +65,7 @@ take_apart(const Renderer& renderer, const CameraT<T>& camera, const Picture& pi
     const Strata strata = strata_for(picture.rays);
     std::map<std::pair<std::string, std::string>, PathSum> sums;
     Counts counts;
+    RgbT<double> radiance{0};
     for (int i = 0; i < picture.rays; ++i) {
         PathLog log;
         const RgbT<T> sample =
@@ -74,7 +75,7 @@ take_apart(const Renderer& renderer, const CameraT<T>& camera, const Picture& pi
             ++pixel.rejected;
             continue;
         }
-        pixel.radiance += sample;
+        radiance += RgbT<double>(sample);
         for (const PathLogLine& line : log.lines) {
             if (line.what == "vertex") continue;
             PathSum& sum = sums[{line.path, line.what}];
@@ -82,7 +83,7 @@ take_apart(const Renderer& renderer, const CameraT<T>& camera, const Picture& pi
             ++sum.terms;
         }
     }
-    pixel.radiance /= T(picture.rays);
+    pixel.radiance = RgbT<T>(radiance / double(picture.rays));
 
     for (auto& [key, sum] : sums) {
         sum.path = key.first;

@@ -16,12 +16,12 @@ namespace ljus {
 ///
 /// Every light path has one owner:
 ///
-/// | path             | who carries it |
-/// |------------------|-----------------------------------------------------------------|
-/// | E S* L           | emission, while no diffuse surface has been met | | E ... D L
-/// | shadow rays                                                     | | E ... D S+ L
-/// | the caustics map, at every diffuse surface                      | | E ... D ... D
-/// .. | indirect rays, or the general map where the first of them ends  |
+/// | path            | who carries it                                              |
+/// |-----------------|-------------------------------------------------------------|
+/// | E S* L          | emission, while no diffuse surface has been met             |
+/// | E ... D L       | shadow rays                                                 |
+/// | E ... D S+ L    | the caustics map, at every diffuse surface                  |
+/// | E ... D ... D.. | indirect rays, or the general map where the first one ends  |
 /// \{
 
 /// What the first pass made. Plain data: it may be made in any other way.

@@ -118,6 +118,7 @@ template <typename Scene>
 /// \param scene     The scene.
 /// \param settings  What the user asks for.
 /// \return The plan; printed by examples, obeyed by make_photon_maps().
+// [survey]
 template <typename Scene>
 [[nodiscard]] Plan survey(const Scene& scene, const PhotonMapping& settings) {
     const SceneNeeds found = needs(scene);
@@ -164,6 +165,7 @@ template <typename Scene>
                           std::to_string(found.objects) + " objects are asked in turn");
     return plan;
 }
+// [survey]
 
 /// \}
 

@@ -46,20 +46,23 @@ template <std::floating_point T>
     require_finite("camera.up", view.up);
     require(view.vfov_degrees > T(0) && view.vfov_degrees < T(180),
             "camera.vfov_degrees", view.vfov_degrees, "above 0 and below 180");
-    const Vec3T<T> way = view.target - view.position;
-    require(glm::dot(way, way) > T(0), "camera.target", view.target,
+    // Once for a picture, so in double: a target 1e25 away, an angle of 179.99 degrees.
+    using W = WideT<T>;
+    const Vec3T<W> way = Vec3T<W>{view.target} - Vec3T<W>{view.position};
+    require(glm::dot(way, way) > W(0), "camera.target", view.target,
             "another point than camera.position");
-    const Vec3T<T> forward = glm::normalize(way);
-    const Vec3T<T> side = glm::cross(forward, view.up);
-    require(glm::dot(side, side) > T(1e-12) * glm::dot(view.up, view.up), "camera.up",
-            view.up, "a direction that is not along the view");
-    const Vec3T<T> right = glm::normalize(side);
+    const Vec3T<W> forward = glm::normalize(way);
+    const Vec3T<W> up{view.up};
+    const Vec3T<W> side = glm::cross(forward, up);
+    require(glm::dot(side, side) > W(1e-12) * glm::dot(up, up), "camera.up", view.up,
+            "a direction that is not along the view");
+    const Vec3T<W> right = glm::normalize(side);
+    const W half_angle = W(view.vfov_degrees) * std::numbers::pi_v<W> / W(360);
     return {.position = view.position,
-            .right = right,
-            .up = glm::cross(right, forward),
-            .forward = forward,
-            .half_height =
-                std::tan(view.vfov_degrees * std::numbers::pi_v<T> / T(360))};
+            .right = Vec3T<T>(right),
+            .up = Vec3T<T>(glm::cross(right, forward)),
+            .forward = Vec3T<T>(forward),
+            .half_height = static_cast<T>(std::tan(half_angle))};
 }
 
 /// The same in float, for a view written in braces.

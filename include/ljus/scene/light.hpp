@@ -27,9 +27,9 @@ using PointLight = PointLightT<float>; ///< PointLightT in float.
 template <std::floating_point T>
 struct LightT {
     std::optional<ObjectId> object{}; ///< The emissive object; none for a point light.
-    Vec3T<T> position{T(0)};        ///< Of a point light.
-    RgbT<T> emission{T(0)};         ///< Radiance of an object, or intensity of a point.
-    RgbT<T> flux{T(0)};             ///< W that leave the light in all.
+    Vec3T<T> position{T(0)};          ///< Of a point light.
+    RgbT<T> emission{T(0)}; ///< Radiance of an object, or intensity of a point.
+    RgbT<T> flux{T(0)};     ///< W that leave the light in all.
 };
 using Light = LightT<float>; ///< LightT in float.
 
@@ -45,8 +45,9 @@ template <std::floating_point T>
 /// What arrives at a point from one sampled point of a light, if nothing is between.
 template <std::floating_point T>
 struct LightSampleT {
-    SurfacePointT<T> point; ///< Where the shadow ray ends; a point light has no error.
-    Vec3T<T> wi{T(0)};      ///< Unit direction to the light.
+    SurfacePointT<T>
+        point{};          ///< Where the shadow ray ends; a point light has no error.
+    Vec3T<T> wi{T(0)};    ///< Unit direction to the light.
     RgbT<T> weight{T(0)}; ///< Radiance / pdf; of a point light intensity / distance^2.
     T pdf = T(0);         ///< Per steradian; 0 for a point light.
 };

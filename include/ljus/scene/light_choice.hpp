@@ -3,6 +3,9 @@
 /// \file ljus/scene/light_choice.hpp
 /// \brief One light of many, chosen in proportion to its power.
 
+#include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "ljus/scene/light.hpp"
@@ -55,7 +58,7 @@ template <std::floating_point T>
 /// A light, with a probability in proportion to its power.
 /// \param choice  Of the scene's lights; at least one.
 /// \param u       In [0, 1).
-/// \return Its number and the probability.
+/// \return Its number and the probability, which is never 0.
 /// \cost A binary search.
 template <std::floating_point T>
 [[nodiscard]] ChosenLightT<T> choose_light(const LightChoice& choice, T u) noexcept {
@@ -63,7 +66,10 @@ template <std::floating_point T>
     const auto place =
         std::upper_bound(choice.cumulative.begin(), choice.cumulative.end() - 1, power);
     const auto light = static_cast<std::uint32_t>(place - choice.cumulative.begin());
-    return {light, probability_of<T>(choice, light)};
+    // Beside one 1e38 times as strong, a light's share may be too small for T, but the
+    // light's flux is divided by it.
+    return {light,
+            std::max(probability_of<T>(choice, light), std::numeric_limits<T>::min())};
 }
 
 /// \}

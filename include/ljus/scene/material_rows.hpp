@@ -6,8 +6,10 @@
 #include <array>
 #include <numbers>
 
+#include "ljus/materials/glass.hpp"
+#include "ljus/materials/mirror.hpp"
 #include "ljus/materials/oren_nayar.hpp"
-#include "ljus/scene/report_rooms.hpp"
+#include "ljus/scene/report_room.hpp"
 
 namespace ljus {
 

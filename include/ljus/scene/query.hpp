@@ -16,8 +16,8 @@ namespace ljus {
 /// The first object that a ray meets.
 template <std::floating_point T>
 struct SceneHitT {
-    FlatHitT<T> at;  ///< Distance, and the shape's own coordinates.
-    ObjectId object; ///< Which object.
+    FlatHitT<T> at{};  ///< Distance, and the shape's own coordinates.
+    ObjectId object{}; ///< Which object.
 };
 
 /// The first object that a ray meets, by asking every shape in turn.
@@ -64,9 +64,9 @@ template <typename Scene, std::floating_point T>
 /// A point of an object, ready to be shaded.
 template <std::floating_point T>
 struct SurfaceT {
-    SurfacePointT<T> point; ///< Position, error bound, normal of the outer side.
-    FrameT<T> frame;        ///< Around the normal; materials work in it.
-    ObjectT<T> object;      ///< What it is made of, and whether it shines.
+    SurfacePointT<T> point{}; ///< Position, error bound, normal of the outer side.
+    FrameT<T> frame{};        ///< Around the normal; materials work in it.
+    ObjectT<T> object{};      ///< What it is made of, and whether it shines.
 };
 
 /// The surface at a hit.

@@ -25,6 +25,13 @@ struct Shapes {};
 template <Bsdf... M>
 struct Materials {};
 
+/// Whether no type is listed twice.
+template <typename... T>
+inline constexpr bool each_once = true;
+template <typename First, typename... T>
+inline constexpr bool each_once<First, T...> =
+    !(std::is_same_v<First, T> || ...) && each_once<T...>;
+
 /// A scene; see the specialisation.
 template <typename ShapeList, typename MaterialList>
 struct Scene;
@@ -44,6 +51,9 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
                   "A scene's shapes must all have one precision.");
     static_assert((std::is_same_v<Scalar, typename M::Scalar> && ...),
                   "A scene's materials must have the precision of its shapes.");
+    static_assert(sizeof...(M) > 0, "A scene lists at least one type of material.");
+    static_assert(each_once<FirstShape, S...> && each_once<M...>,
+                  "A scene lists each type once.");
 
     std::tuple<std::vector<FirstShape>, std::vector<S>...> shapes; ///< An array a type.
     /// What each shape is made of, in the order of `shapes`.
@@ -64,21 +74,23 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
     }
 
     /// Adds a shape.
-    /// \param shape  One of the listed types.
+    /// \param shape     One of the listed types.
     /// \param material  What add() returned for its material.
     /// \param radiance  The radiance it emits along its normal's side, W/(m^2 sr);
-    ///          added to what the material itself emits.
+    ///                  added to what the material itself emits.
     /// \param inside_out  Whether the normal points inwards, as in a room made of a
-    ///          sphere.
+    ///                  sphere.
     /// \return Its number.
     /// \throws std::invalid_argument  if a value is out of range, or the material
-    ///     unknown.
+    ///                                unknown.
     template <Shape G>
     requires(std::same_as<G, FirstShape> || (std::same_as<G, S> || ...)) ObjectId
         add(const G& shape, MaterialId material, RgbT<Scalar> radiance = {},
             bool inside_out = false) {
         check(shape);
         require_radiance("emission", radiance);
+        require(material.type < sizeof...(M), "the material's type",
+                static_cast<long long>(material.type), "one that add() returned");
         require(has(material), "the material's number",
                 static_cast<long long>(material.index), "one that add() returned");
         radiance += visit_material(material, [](const auto& m) { return emission(m); });
@@ -88,9 +100,9 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
                           static_cast<std::uint32_t>(array.size())};
         if (!is_black(radiance)) {
             require_positive("the area of a light", area(shape));
-            lights.push_back({.object = id,
-                              .emission = radiance,
-                              .flux = diffuse_flux(radiance, area(shape))});
+            const RgbT<Scalar> flux = diffuse_flux(radiance, area(shape));
+            check_flux(flux);
+            lights.push_back({.object = id, .emission = radiance, .flux = flux});
         }
         array.push_back(shape);
         const auto light = static_cast<std::uint32_t>(lights.size()) - 1u;
@@ -106,10 +118,11 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
         require_finite("point light.position", light.position);
         require_radiance("point light.intensity", light.intensity);
         if (is_black(light.intensity)) return;
+        const RgbT<Scalar> flux =
+            Scalar(4) * std::numbers::pi_v<Scalar> * light.intensity;
+        check_flux(flux);
         lights.push_back(
-            {.position = light.position,
-             .emission = light.intensity,
-             .flux = Scalar(4) * std::numbers::pi_v<Scalar> * light.intensity});
+            {.position = light.position, .emission = light.intensity, .flux = flux});
     }
 
     /// What the scene knows of a shape besides its geometry.
@@ -142,6 +155,12 @@ private:
         std::uint32_t place = 0;
         (void)((std::is_same_v<X, List> ? true : (++place, false)) || ...);
         return place;
+    }
+
+    // Radiance and area may be fine, and their product beyond the range of T.
+    static void check_flux(const RgbT<Scalar>& flux) {
+        require(is_finite(flux) && !is_black(flux), "the flux of a light", flux,
+                "finite and above 0");
     }
 
     bool has(MaterialId id) const noexcept {

@@ -1,0 +1,55 @@
+# The report's program: the flux times the cosine that the density already holds.
+ljus_break_it(NAME emission-cosine HEADER photons/emission.hpp TEST emission
+    FROM "to_world(frame, sample_cosine_hemisphere(u_direction)));"
+    TO   "to_world(frame, sample_cosine_hemisphere(u_direction)));
+    flight.flux *= glm::dot(flight.ray.direction, point.normal);"
+    CASES "emission: photons of a quad*")
+
+# Directions uniform over the hemisphere, at unchanged flux.
+ljus_break_it(NAME emission-uniform HEADER photons/emission.hpp TEST emission
+    FROM "sample_cosine_hemisphere(u_direction)"
+    TO   "sample_uniform_hemisphere(u_direction)"
+    CASES "emission: photons of a quad*")
+
+# A light that is chosen rarely must be paid for it.
+ljus_break_it(NAME emission-probability HEADER photons/emission.hpp TEST emission
+    FROM "light.flux / chosen.probability"
+    TO   "light.flux"
+    CASES "emission: lights are chosen*")
+
+# A room of light that shines outwards.
+ljus_break_it(NAME emission-inside-out HEADER photons/emission.hpp TEST emission
+    FROM "if (scene.object(*light.object).inside_out) point.normal = -point.normal;"
+    TO   ""
+    CASES "emission: a room*")
+
+# The report's program: aimed photons as if they had been sent everywhere.
+ljus_break_it(NAME aim-weight HEADER photons/emission.hpp TEST emission
+    FROM "(emitted / (pdf * chosen.probability))"
+    TO   "(T(1) / chosen.probability)"
+    CASES "emission: aimed at a sphere*")
+
+# The density of the chosen cone alone, without the choice.
+ljus_break_it(NAME aim-choice HEADER photons/emission.hpp TEST emission
+    FROM "pdf_uniform_cone(sum)"
+    TO   "pdf_uniform_cone(cone.one_minus_cos)"
+    CASES "emission: where cones overlap*")
+
+# The cosine at the lamp, forgotten: right for a point light only.
+ljus_break_it(NAME aim-cosine HEADER photons/emission.hpp TEST emission
+    FROM "cosine * std::numbers::inv_pi_v<T>"
+    TO   "std::numbers::inv_pi_v<T>"
+    CASES "emission: aimed at a sphere*")
+
+# Within the bound of its target a lamp needs its whole hemisphere.
+ljus_break_it(NAME aim-inside HEADER photons/emission.hpp TEST emission
+    FROM "ConeT<T>{from.normal, T(1)}"
+    TO   "ConeT<T>{from.normal, T(0.5)}"
+    CASES "emission: a lamp within*")
+
+# A target takes the place of the one before with its share, but u is not stretched: the
+# first ones are chosen too often, and the others never.
+ljus_break_it(NAME aim-stretch HEADER photons/emission.hpp TEST emission
+    FROM "u_target = (u_target - share) / (T(1) - share);"
+    TO   ""
+    CASES "emission: where cones overlap*")

@@ -1,0 +1,49 @@
+# The report's range query: a cube, not a ball.
+ljus_break_it(NAME kd-tree-cube HEADER photons/kd_tree.hpp TEST kd_tree
+    FROM "glm::dot(offset, offset)"
+    TO   "std::max({offset.x * offset.x, offset.y * offset.y, offset.z * offset.z})"
+    CASES "kd_tree: the ball is closed*")
+
+# The tree of the textbook compares while it walks: points equal to the root's coordinate
+# are on one side only, it believes. They are on both.
+ljus_break_it(NAME kd-tree-equal-keys HEADER photons/kd_tree.hpp TEST kd_tree
+    FROM "if (!reaches("
+    TO   "if (from_plane == 0 || !reaches("
+    CASES "kd_tree: every search*")
+
+# An open ball in the walk, a closed one at the point: points on the border are found on
+# one side of a plane and not on the other.
+ljus_break_it(NAME kd-tree-border HEADER photons/kd_tree.hpp TEST kd_tree
+    FROM "return distance2 <= limit2; }"
+    TO   "return distance2 < limit2; }"
+    CASES "kd_tree: the ball is closed*")
+
+# The axes in turn would do for a cloud; the same axis for ever makes searches slow.
+ljus_break_it(NAME kd-tree-one-axis HEADER photons/kd_tree.hpp TEST kd_tree
+    FROM "size.x >= size.y && size.x >= size.z ? 0"
+    TO   "true ? 0"
+    CASES "kd_tree: no set*")
+
+# Ties that count as nearer: each of a thousand equal points is tried.
+ljus_break_it(NAME kd-tree-ties HEADER photons/kd_tree.hpp TEST kd_tree
+    FROM "distance2 < found[0].distance2"
+    TO   "distance2 <= found[0].distance2"
+    CASES "kd_tree: no set*")
+
+# Differences in float: near the border of the ball they decide wrongly.
+ljus_break_it(NAME kd-tree-float HEADER photons/kd_tree.hpp TEST kd_tree
+    FROM "glm::dvec3(center) - glm::dvec3(points_[middle])"
+    TO   "glm::dvec3(center - points_[middle])"
+    CASES "kd_tree: every search*")
+
+# A square forgets the sign.
+ljus_break_it(NAME kd-tree-negative-radius HEADER photons/kd_tree.hpp TEST kd_tree
+    FROM "if (!(radius >= T(0))) return;"
+    TO   ""
+    CASES "kd_tree: a ball without*")
+
+# NaN and infinity let in.
+ljus_break_it(NAME kd-tree-not-finite HEADER photons/kd_tree.hpp TEST kd_tree
+    FROM [[require_finite("a point of the k-d tree", point);]]
+    TO   ""
+    CASES "kd_tree: a point that*")

@@ -1,0 +1,29 @@
+# A fixed distance is too long for a small scene.
+ljus_break_it(NAME surface-fixed HEADER geometry/surface.hpp TEST surface
+    FROM "T(2) * glm::dot(glm::abs(n), point.error) + T(4) * last_place"
+    TO   "T(1e-3)"
+    CASES "surface: at a millionth*")
+
+# The bound of the error alone is 0 on a wall along an axis.
+ljus_break_it(NAME surface-last-place HEADER geometry/surface.hpp TEST surface
+    FROM " + T(4) * last_place"
+    TO   ""
+    CASES "surface: coordinates of 0*")
+
+# A wall through the origin has no last place of its own.
+ljus_break_it(NAME surface-scale HEADER geometry/surface.hpp TEST surface
+    FROM "T(4) * last_place"
+    TO   "T(4) * std::numeric_limits<T>::epsilon() * max_component(glm::abs(point.position))"
+    CASES "surface: coordinates of 0*")
+
+# Always to the outer side, whichever way the ray goes.
+ljus_break_it(NAME surface-side HEADER geometry/surface.hpp TEST surface
+    FROM "std::copysign(distance, glm::dot(direction, n))"
+    TO   "distance"
+    CASES "surface: a ray leaves*")
+
+# A lamp near the origin shades itself from afar.
+ljus_break_it(NAME surface-own-light HEADER geometry/surface.hpp TEST surface
+    FROM "seen.error += rounding_bound<T>(8) * max_component(glm::abs(way));"
+    TO   ""
+    CASES "surface: no lamp*")

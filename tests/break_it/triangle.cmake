@@ -1,0 +1,41 @@
+# Without u + v <= 1 the triangle is a parallelogram.
+ljus_break_it(NAME triangle-u-plus-v HEADER geometry/triangle.hpp TEST triangle
+    FROM " && u + v <= C(1)"
+    TO   ""
+    CASES "triangle: each of the three edges*")
+
+# u + v <= 1 holds where v is negative.
+ljus_break_it(NAME triangle-v HEADER geometry/triangle.hpp TEST triangle
+    FROM "u >= C(0) && v >= C(0) && u + v"
+    TO   "u >= C(0) && u + v"
+    CASES "triangle: each of the three edges*")
+
+# The usual guard against parallel rays: an epsilon with a unit loses every small mesh.
+ljus_break_it(NAME triangle-epsilon HEADER geometry/triangle.hpp TEST triangle
+    FROM "inverse != C(0)"
+    TO   "glm::abs(inverse) < C(1e6)"
+    CASES "triangle: a mesh of any size*")
+
+# A determinant that overflows makes all quotients 0.
+ljus_break_it(NAME triangle-overflow HEADER geometry/triangle.hpp TEST triangle
+    FROM " && inverse != C(0)"
+    TO   ""
+    CASES "triangle: sizes beyond*")
+
+# t_max is infinite by default, and so may be t.
+ljus_break_it(NAME triangle-infinity HEADER geometry/triangle.hpp TEST triangle
+    FROM " && t <= max"
+    TO   ""
+    CASES "triangle: sizes beyond*")
+
+# The cube of a size leaves the range of float.
+ljus_break_it(NAME triangle-cube HEADER geometry/triangle.hpp TEST triangle
+    FROM "glm::dot(inverse * q, e2)"
+    TO   "glm::dot(q, e2) * inverse"
+    CASES "triangle: a mesh of any size*")
+
+# In float the normal of a small or a thin triangle is off.
+ljus_break_it(NAME triangle-normal HEADER geometry/triangle.hpp TEST triangle
+    FROM "Vec3T<T>(glm::normalize(cross_of_edges(triangle)))"
+    TO   "glm::normalize(glm::cross(triangle.v2 - triangle.v1, triangle.v3 - triangle.v1))"
+    CASES "triangle: the normal is that*")

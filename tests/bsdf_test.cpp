@@ -1,0 +1,90 @@
+/// \file bsdf_test.cpp
+/// \brief The concept: what is a material, what is not, and what comes by default.
+
+#include "ljus/materials/bsdf.hpp"
+
+#include <doctest/doctest.h>
+
+#include <optional>
+
+using ljus::Lobes, ljus::Rgb, ljus::Transport, ljus::Vec3;
+
+// A material of a reader, in a namespace of the reader.
+namespace reader {
+
+struct Paint {
+    using Scalar = float;
+    float grey = 0.5f;
+};
+Lobes lobes(const Paint&) {
+    return Lobes::diffuse;
+}
+Rgb evaluate(const Paint& p, const Vec3&, const Vec3&) {
+    return Rgb{p.grey / 3.14159f};
+}
+float pdf(const Paint&, const Vec3&, const Vec3& wi, Lobes) {
+    return wi.z / 3.14159f;
+}
+std::optional<ljus::BsdfSample> sample(const Paint& p, const Vec3&, const Vec3&,
+                                       Transport, Lobes) {
+    return ljus::diffuse_sample(Vec3{0, 0, 1}, Rgb{p.grey}, 1 / 3.14159f);
+}
+void check(const Paint&) {}
+
+struct Lamp : Paint {};
+Rgb emission(const Lamp&) {
+    return Rgb{3};
+}
+
+struct Forgetful { // no pdf
+    using Scalar = float;
+};
+Lobes lobes(const Forgetful&) {
+    return Lobes::none;
+}
+
+} // namespace reader
+
+static_assert(ljus::Bsdf<reader::Paint>);
+static_assert(!ljus::Bsdf<reader::Forgetful>);
+static_assert(!ljus::Bsdf<int>);
+static_assert(!ljus::Bsdf<Vec3>);
+
+TEST_CASE("bsdf: a reader's material needs nothing but its functions") {
+    const reader::Paint paint;
+    CHECK_FALSE(ljus::is_specular(paint));
+    CHECK(ljus::absorption(paint) == Rgb{0, 0, 0});
+    CHECK(ljus::emission(paint) == Rgb{0, 0, 0});
+}
+
+TEST_CASE("bsdf: a material that emits says so, and its word counts") {
+    using ljus::emission;
+    CHECK(emission(reader::Lamp{}) == Rgb{3, 3, 3});
+}
+
+TEST_CASE("bsdf: lobes are a set") {
+    CHECK((Lobes::diffuse | Lobes::specular) == Lobes::all);
+    CHECK((Lobes::all & Lobes::specular) == Lobes::specular);
+    CHECK((Lobes::diffuse & Lobes::specular) == Lobes::none);
+    CHECK(ljus::has(Lobes::all, Lobes::diffuse));
+    CHECK(ljus::has(Lobes::diffuse, Lobes::all));
+    CHECK_FALSE(ljus::has(Lobes::diffuse, Lobes::specular));
+    CHECK_FALSE(ljus::has(Lobes::none, Lobes::all));
+}
+
+TEST_CASE("bsdf: the surface itself is on neither side") {
+    CHECK(ljus::same_side(Vec3{0, 0, 1e-30f}, Vec3{0, 0, 1e-30f})); // no underflow
+    CHECK(ljus::same_side(Vec3{0, 0, -1}, Vec3{0, 0, -1}));
+    CHECK_FALSE(ljus::same_side(Vec3{0, 0, 1}, Vec3{0, 0, -1}));
+    CHECK_FALSE(ljus::same_side(Vec3{1, 0, 0}, Vec3{0, 0, 1}));
+    CHECK_FALSE(ljus::same_side(Vec3{1, 0, 0}, Vec3{1, 0, 0}));
+    CHECK_FALSE(ljus::same_side(Vec3{0, 0, 1}, Vec3{0, 0, NAN}));
+}
+
+TEST_CASE("bsdf: a delta has no density") {
+    constexpr auto s = ljus::specular_sample(Vec3{0, 0, 1}, Rgb{1, 1, 1});
+    static_assert(s.specular && s.pdf == 0);
+    constexpr auto d = ljus::diffuse_sample(Vec3{0, 0, 1}, Rgb{1, 1, 1}, 0.3f);
+    static_assert(!d.specular && d.pdf == 0.3f);
+    CHECK(s.weight == d.weight);
+}

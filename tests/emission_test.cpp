@@ -1,0 +1,520 @@
+/// \file emission_test.cpp
+/// \brief Photons that leave lights against irradiance and form factors worked out on
+/// paper.
+///
+/// Counts are held against chi-square, which gives a false alarm once in a million; means
+/// within 4.5 standard errors, once in 150 000.
+
+#include "ljus/photons/emission.hpp"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <numbers>
+#include <vector>
+
+#include "ljus/geometry/shape.hpp"
+#include "ljus/materials/glass.hpp"
+#include "ljus/materials/lambertian.hpp"
+#include "ljus/materials/mirror.hpp"
+#include "support/photon_samples.hpp"
+
+using namespace ljus;
+using photon_test::integrate;
+using photon_test::Mean;
+using D3 = glm::dvec3; ///< What the closed forms are computed with.
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+using TestScene = Scene<Shapes<Quad, Sphere>, Materials<Lambertian, Glass, Mirror>>;
+
+/// A scene with its materials at hand.
+struct Stage {
+    TestScene scene;
+    MaterialId matt = scene.add(Lambertian{});
+    MaterialId glass = scene.add(Glass{});
+    MaterialId mirror = scene.add(Mirror{});
+};
+
+RandomStream stream_of(long long path, std::uint64_t seed = 1) {
+    return random_stream(seed, Pass::user, 0, static_cast<std::uint64_t>(path));
+}
+
+/// A rectangle of light above the floor z = 0, tilted; it shines down.
+constexpr Quad lamp{
+    .corner{-0.5f, -0.7f, 2.0f}, .edge_u{0, 1.4f, 0.2f}, .edge_v{1, 0, 0.3f}};
+
+/// Lambert's formula: irradiance from a uniform polygon that lies above the horizon.
+double polygon_irradiance(const std::array<D3, 4>& polygon, D3 at, D3 normal,
+                          double radiance) {
+    D3 sum{0};
+    for (std::size_t i = 0; i < 4; ++i) {
+        const D3 a = glm::normalize(polygon[i] - at);
+        const D3 b = glm::normalize(polygon[(i + 1) % 4] - at);
+        sum += std::acos(glm::dot(a, b)) * glm::normalize(glm::cross(a, b));
+    }
+    return radiance / 2 * std::abs(glm::dot(sum, normal));
+}
+
+/// Emits photons, and compares where they meet the floor with the irradiance there.
+template <typename Irradiance>
+void compare_with_irradiance(const TestScene& scene, double flux,
+                             Irradiance irradiance) {
+    constexpr int cells = 8;
+    constexpr double half = 2; // the cells cover [-2, 2]^2
+    constexpr long long photons = 200000;
+    std::vector<double> counts(cells * cells + 1), expected(cells * cells + 1);
+    const LightChoice choice = light_choice(scene.lights);
+    for (long long i = 0; i < photons; ++i) {
+        RandomStream stream = stream_of(i);
+        const auto flight = emit(scene, choice, stream);
+        REQUIRE(double(flight.flux.x) == doctest::Approx(flux).epsilon(1e-5));
+        std::size_t cell = cells * cells; // anywhere else
+        if (flight.ray.direction.z < 0) {
+            const D3 o{flight.ray.origin}, d{flight.ray.direction};
+            const D3 p = o - d * (o.z / d.z);
+            const double x = (p.x + half) / (2 * half) * cells;
+            const double y = (p.y + half) / (2 * half) * cells;
+            if (x >= 0 && x < cells && y >= 0 && y < cells)
+                cell = std::size_t(y) * cells + std::size_t(x);
+        }
+        ++counts[cell];
+    }
+    double elsewhere = photons;
+    for (int y = 0; y < cells; ++y)
+        for (int x = 0; x < cells; ++x) {
+            const double side = 2 * half / cells;
+            const double power =
+                integrate(-half + x * side, -half + (x + 1) * side, [&](double px) {
+                    return integrate(-half + y * side, -half + (y + 1) * side,
+                                     [&](double py) {
+                                         return irradiance(D3{px, py, 0});
+                                     });
+                });
+            auto& cell = expected[std::size_t(y * cells + x)];
+            cell = photons * power / flux;
+            elsewhere -= cell;
+        }
+    expected.back() = elsewhere;
+    const auto result = photon_test::chi_square(counts, expected);
+    CAPTURE(result.sum);
+    CHECK(result.cells == cells * cells + 1);
+    CHECK(result.sum < result.limit());
+}
+
+/// What photons aimed at the targets bring to each of them: flux per photon aimed.
+struct AimedFlux {
+    std::vector<ObjectId> targets;
+    std::vector<std::array<Mean, 3>> means; ///< One a target and channel.
+    long long kept = 0;                     ///< Photons that met their target first.
+    long long behind = 0;                   ///< Photons that the lamp could not send.
+};
+AimedFlux aim_at_all(const TestScene& scene, long long photons,
+                     std::uint64_t seed = 1) {
+    AimedFlux result{.targets = specular_objects(scene), .means = {}};
+    result.means.resize(result.targets.size());
+    const LightChoice choice = light_choice(scene.lights);
+    for (long long i = 0; i < photons; ++i) {
+        RandomStream stream = stream_of(i, seed);
+        const auto aimed = aim(scene, choice, result.targets, stream);
+        bool keep = false;
+        if (!aimed) {
+            ++result.behind;
+        } else {
+            const auto hit = closest_hit(scene, aimed->flight.ray);
+            keep = hit && hit->object == aimed->target;
+        }
+        if (keep) ++result.kept;
+        for (std::size_t j = 0; j < result.targets.size(); ++j)
+            for (int c = 0; c < 3; ++c)
+                result.means[j][std::size_t(c)].add(keep && result.targets[j] ==
+                                                                aimed->target
+                                                        ? double(aimed->flight.flux[c])
+                                                        : 0.0);
+    }
+    return result;
+}
+
+/// The flux that photons sent everywhere bring to each target.
+std::vector<Mean> emit_to(const TestScene& scene, const std::vector<ObjectId>& targets,
+                          long long photons) {
+    std::vector<Mean> means(targets.size());
+    const LightChoice choice = light_choice(scene.lights);
+    for (long long i = 0; i < photons; ++i) {
+        RandomStream stream = stream_of(i, 77);
+        const auto flight = emit(scene, choice, stream);
+        const auto hit = closest_hit(scene, flight.ray);
+        for (std::size_t j = 0; j < targets.size(); ++j)
+            means[j].add(hit && hit->object == targets[j] ? double(flight.flux.x)
+                                                          : 0.0);
+    }
+    return means;
+}
+
+/// The flux from a lamp with a normal to a sphere, by quadrature over the lamp's area and
+/// the cone in which each of its points sees the sphere.
+double quad_to_sphere(const Quad& quad, const Sphere& ball, double radiance,
+                      int pieces = 4) {
+    const D3 normal = glm::normalize(glm::cross(D3(quad.edge_u), D3(quad.edge_v)));
+    const double area = glm::length(glm::cross(D3(quad.edge_u), D3(quad.edge_v)));
+    return radiance * area * integrate(0, 1, [&](double u) {
+               return integrate(0, 1, [&](double v) {
+                   const D3 from =
+                       D3(quad.corner) + u * D3(quad.edge_u) + v * D3(quad.edge_v);
+                   const D3 way = D3(ball.center) - from;
+                   const double d = glm::length(way), sine = double(ball.radius) / d;
+                   const double cosine = glm::dot(way, normal) / d;
+                   if (cosine >= sine) return pi * sine * sine * cosine; // all above
+                   if (cosine <= -sine) return 0.0;
+                   // Partly below the horizon: ring by ring around the axis.
+                   const double tilt = std::sqrt(1 - cosine * cosine);
+                   return integrate(0, std::asin(sine), pieces, [&](double beta) {
+                       return integrate(0, pi, pieces, [&](double phi) {
+                           return 2 * std::sin(beta) *
+                                  std::max(0.0,
+                                           std::cos(beta) * cosine +
+                                               std::sin(beta) * tilt * std::cos(phi));
+                       });
+                   });
+               });
+           });
+}
+
+} // namespace
+
+TEST_CASE("emission: photons of a quad lie as densely as its irradiance") {
+    Stage stage;
+    stage.scene.add(lamp, stage.matt, Rgb{3});
+    const D3 c{lamp.corner}, u{lamp.edge_u}, v{lamp.edge_v};
+    const std::array polygon{c, c + u, c + u + v, c + v};
+    const double flux = 3 * pi * glm::length(glm::cross(u, v));
+    compare_with_irradiance(stage.scene, flux, [&](D3 at) {
+        return polygon_irradiance(polygon, at, {0, 0, 1}, 3);
+    });
+}
+
+TEST_CASE("emission: photons of a sphere lie as densely as its irradiance") {
+    Stage stage;
+    stage.scene.add(Sphere{.center{0.3f, -0.2f, 1.5f}, .radius = 0.6f}, stage.matt,
+                    Rgb{2});
+    const double r = double(0.6f);
+    compare_with_irradiance(stage.scene, 2 * pi * 4 * pi * r * r, [&](D3 at) {
+        const D3 way = D3{double(0.3f), double(-0.2f), 1.5} - at;
+        const double d2 = glm::dot(way, way);
+        return pi * 2 * r * r / d2 * way.z / std::sqrt(d2); // E = pi L (R/d)^2 cos
+    });
+}
+
+TEST_CASE("emission: photons of a point light lie as densely as its irradiance") {
+    Stage stage;
+    stage.scene.add(PointLight{.position{-0.3f, 0.4f, 1}, .intensity = Rgb{5}});
+    compare_with_irradiance(stage.scene, 4 * pi * 5, [&](D3 at) {
+        const D3 way = D3{double(-0.3f), double(0.4f), 1} - at;
+        const double d2 = glm::dot(way, way);
+        return 5 / d2 * way.z / std::sqrt(d2);
+    });
+}
+
+TEST_CASE("emission: directions go with the cosine, wherever on the lamp they start") {
+    Stage stage;
+    stage.scene.add(lamp, stage.matt, Rgb{1});
+    const LightChoice choice = light_choice(stage.scene.lights);
+    const D3 u{lamp.edge_u}, v{lamp.edge_v};
+    const D3 n = glm::normalize(glm::cross(u, v));
+    const D3 tangent = glm::normalize(u), bitangent = glm::cross(n, tangent);
+    constexpr long long photons = 160000;
+    std::vector<double> counts(4 * 4 * 10 * 8), expected(counts.size());
+    for (long long i = 0; i < photons; ++i) {
+        RandomStream stream = stream_of(i);
+        const RayT<float> ray = emit(stage.scene, choice, stream).ray;
+        const D3 d{ray.direction}, p = D3(ray.origin) - D3(lamp.corner);
+        REQUIRE(std::abs(glm::length(d) - 1) < 1e-6);
+        REQUIRE(std::abs(glm::dot(p, n)) < 1e-5); // it starts on the lamp ...
+        REQUIRE(glm::dot(p, n) > 0);              // ... but in front of it
+        const double cosine = glm::dot(d, n);
+        REQUIRE(cosine > 0);
+        // Where u.v is not 0, the coordinates along the edges come from a 2 x 2 system.
+        const double uu = glm::dot(u, u), vv = glm::dot(v, v), uv = glm::dot(u, v);
+        const double pu = glm::dot(p, u), pv = glm::dot(p, v), det = uu * vv - uv * uv;
+        const double s = (pu * vv - pv * uv) / det, t = (pv * uu - pu * uv) / det;
+        const double phi = std::atan2(glm::dot(d, bitangent), glm::dot(d, tangent));
+        const auto bin = [](double x, int bins) {
+            return std::size_t(std::clamp(int(x * bins), 0, bins - 1));
+        };
+        // cos^2 is uniform where the density is cos / pi.
+        ++counts[((bin(s, 4) * 4 + bin(t, 4)) * 10 + bin(cosine * cosine, 10)) * 8 +
+                 bin(phi / (2 * pi) + 0.5, 8)];
+    }
+    std::fill(expected.begin(), expected.end(),
+              double(photons) / double(counts.size()));
+    const auto result = photon_test::chi_square(counts, expected);
+    CAPTURE(result.sum);
+    CHECK(result.sum < result.limit());
+}
+
+TEST_CASE("emission: a point light shines alike in all directions") {
+    Stage stage;
+    stage.scene.add(PointLight{.position{1, 2, 3}});
+    const LightChoice choice = light_choice(stage.scene.lights);
+    std::vector<double> counts(20 * 20);
+    constexpr long long photons = 80000;
+    for (long long i = 0; i < photons; ++i) {
+        RandomStream stream = stream_of(i);
+        const RayT<float> ray = emit(stage.scene, choice, stream).ray;
+        REQUIRE(ray.origin == Vec3{1, 2, 3});
+        const D3 d{ray.direction};
+        const int z = std::clamp(int((d.z + 1) * 10), 0, 19);
+        const int phi = std::clamp(int((std::atan2(d.y, d.x) / pi + 1) * 10), 0, 19);
+        ++counts[std::size_t(z * 20 + phi)];
+    }
+    const std::vector<double> expected(400, photons / 400.0);
+    const auto result = photon_test::chi_square(counts, expected);
+    CHECK(result.sum < result.limit());
+}
+
+TEST_CASE("emission: a room that is a lamp shines inwards") {
+    Stage stage;
+    stage.scene.add(Sphere{.center{0, 0, 0}, .radius = 2}, stage.matt, Rgb{1}, true);
+    const LightChoice choice = light_choice(stage.scene.lights);
+    for (long long i = 0; i < 2000; ++i) {
+        RandomStream stream = stream_of(i);
+        const RayT<float> ray = emit(stage.scene, choice, stream).ray;
+        REQUIRE(glm::length(ray.origin) < 2);
+        REQUIRE(glm::length(ray.origin) > 1.9999f);
+        REQUIRE(glm::dot(ray.origin, ray.direction) < 0);
+    }
+}
+
+TEST_CASE("emission: lights are chosen by their power, and keep their colours") {
+    Stage stage;
+    stage.scene.add(lamp, stage.matt, Rgb{1, 0.5f, 0});
+    stage.scene.add(PointLight{.intensity{0, 0.1f, 0.4f}});
+    stage.scene.add(Sphere{.center{5, 0, 0}, .radius = 0.5f}, stage.matt, Rgb{0.2f});
+    const double area = glm::length(glm::cross(D3(lamp.edge_u), D3(lamp.edge_v)));
+    const std::array<D3, 3> flux{pi * area * D3{1, 0.5, 0},
+                                 4 * pi * D3{0, double(0.1f), double(0.4f)},
+                                 pi * pi * D3{double(0.2f)}};
+    std::array<double, 3> expected{}, counts{};
+    double power = 0;
+    for (const D3& f : flux) power += f.x + f.y + f.z;
+
+    constexpr long long photons = 60000;
+    for (std::size_t i = 0; i < 3; ++i)
+        expected[i] = photons * (flux[i].x + flux[i].y + flux[i].z) / power;
+    D3 sum{0};
+    const LightChoice choice = light_choice(stage.scene.lights);
+    for (long long i = 0; i < photons; ++i) {
+        RandomStream stream = stream_of(i);
+        const auto flight = emit(stage.scene, choice, stream);
+        REQUIRE(flight.light < 3);
+        ++counts[flight.light];
+        sum += D3(flight.flux) / double(photons);
+        // Every photon carries the same power, in the colours of its light.
+        const D3 f =
+            flux[flight.light] * (power / (flux[flight.light].x + flux[flight.light].y +
+                                           flux[flight.light].z));
+        for (int c = 0; c < 3; ++c)
+            REQUIRE(double(flight.flux[c]) == doctest::Approx(f[c]).epsilon(1e-5));
+    }
+    const auto result = photon_test::chi_square(counts, expected);
+    CHECK(result.sum < result.limit());
+    const D3 total = flux[0] + flux[1] + flux[2];
+    for (int c = 0; c < 3; ++c)
+        CHECK(sum[c] == doctest::Approx(total[c]).epsilon(0.02));
+}
+
+TEST_CASE("emission: what is mirror or glass is what photons are aimed at") {
+    Stage stage;
+    stage.scene.add(Sphere{}, stage.matt);
+    const ObjectId ball = stage.scene.add(Sphere{}, stage.glass);
+    const ObjectId wall = stage.scene.add(lamp, stage.mirror);
+    CHECK(specular_objects(stage.scene) == std::vector<ObjectId>{wall, ball});
+    CHECK(specular_objects(TestScene{}).empty());
+}
+
+TEST_CASE(
+    "emission: aimed at a sphere by a point light, each photon carries its cone") {
+    for (const float distance : {1.0001f, 1.5f, 3.0f, 1000.0f}) {
+        CAPTURE(distance);
+        Stage stage;
+        stage.scene.add(Sphere{.center{0, distance, 0}}, stage.glass);
+        stage.scene.add(PointLight{.intensity = Rgb{7}});
+        const AimedFlux found = aim_at_all(stage.scene, 20000);
+        // Phi (1 - cos) / 2, where 1 - cos is sin^2 / (1 + cos).
+        const double sine2 = 1 / (double(distance) * double(distance));
+        const double exact = 4 * pi * 7 * sine2 / (1 + std::sqrt(1 - sine2)) / 2;
+        CHECK(found.means[0][0].mean == doctest::Approx(exact).epsilon(1e-3));
+        CHECK(found.kept >= 19990); // the rest grazed it
+    }
+}
+
+TEST_CASE("emission: aimed at a sphere by a quad, from far, near and the horizon") {
+    for (const Vec3 center :
+         {Vec3{0, 0, -6}, Vec3{0.3f, 0.2f, 0.8f}, Vec3{2.5f, 0, 2.0f}, Vec3{2, 1, 2.8f},
+          Vec3{-3, 0.5f, 1}}) {
+        CAPTURE(center.x);
+        CAPTURE(center.z);
+        Stage stage;
+        const Sphere ball{.center = center, .radius = 0.7f};
+        stage.scene.add(ball, stage.glass);
+        stage.scene.add(lamp, stage.matt, Rgb{2});
+        const AimedFlux found = aim_at_all(stage.scene, 60000);
+        const double exact = quad_to_sphere(lamp, ball, 2);
+        CAPTURE(exact);
+        CHECK(std::abs(found.means[0][0].sigmas(exact, 1e-4)) < 4.5);
+        // Sharp enough to see a few percent.
+        const Mean& mean = found.means[0][0];
+        CHECK(std::sqrt(mean.variance() / mean.count) < 0.02 * exact);
+    }
+}
+
+TEST_CASE("emission: where cones overlap, each object gets what it is hit by first") {
+    Stage stage;
+    const ObjectId near =
+        stage.scene.add(Sphere{.center{0, 0, -3}, .radius = 0.5f}, stage.glass);
+    const ObjectId far =
+        stage.scene.add(Sphere{.center{0.4f, 0, -6}, .radius = 1.5f}, stage.mirror);
+    const ObjectId beside = stage.scene.add(Sphere{.center{0, 4, 0}}, stage.glass);
+    stage.scene.add(PointLight{});
+    const AimedFlux found = aim_at_all(stage.scene, 100000);
+    REQUIRE(found.targets == std::vector<ObjectId>{near, far, beside});
+
+    // The far ball shows a crescent beside the near one: count it on a fine grid.
+    const D3 axis_near{0, 0, -1}, axis_far = glm::normalize(D3{double(0.4f), 0, -6});
+    const double cos_near = std::sqrt(1 - 0.25 / 9);
+    const double d2 = 36 + double(0.4f) * double(0.4f);
+    const double cos_far = std::sqrt(1 - 2.25 / d2);
+    const D3 side = glm::normalize(glm::cross(axis_far, D3{0, 1, 0}));
+    const D3 up = glm::cross(side, axis_far);
+    constexpr int steps = 1500;
+    double visible = 0;
+    for (int i = 0; i < steps; ++i)
+        for (int j = 0; j < steps; ++j) {
+            const double z = 1 - (1 - cos_far) * (i + 0.5) / steps;
+            const double phi = 2 * pi * (j + 0.5) / steps;
+            const double r = std::sqrt(1 - z * z);
+            const D3 d =
+                z * axis_far + r * std::cos(phi) * side + r * std::sin(phi) * up;
+            if (glm::dot(d, axis_near) < cos_near) ++visible;
+        }
+    visible /= double(steps) * steps;
+
+    const double flux = 4 * pi;
+    CHECK(std::abs(found.means[0][0].sigmas(flux * (1 - cos_near) / 2)) < 4.5);
+    CHECK(std::abs(found.means[1][0].sigmas(flux * (1 - cos_far) / 2 * visible, 1e-4)) <
+          4.5);
+    CHECK(std::abs(found.means[2][0].sigmas(flux * (1 - std::sqrt(15.0 / 16)) / 2)) <
+          4.5);
+    CHECK(visible < 0.9); // the case is one of overlap
+}
+
+TEST_CASE(
+    "emission: a lamp within the bound of its target aims at its whole hemisphere") {
+    // Two unit squares face each other; the corners of the lamp are outside of the
+    // mirror's bound, its middle inside. Form factor: Howell's C-11.
+    for (const double c : {0.1, 0.4, 0.6}) {
+        CAPTURE(c);
+        Stage stage;
+        stage.scene.add(Quad{.corner{-0.5f, -0.5f, 0}}, stage.mirror);
+        stage.scene.add(
+            Quad{.corner{-0.5f, -0.5f, float(c)}, .edge_u{0, 1, 0}, .edge_v{1, 0, 0}},
+            stage.matt, Rgb{1});
+        const double x = 1 / double(float(c)), w = std::sqrt(1 + x * x);
+        const double factor = 2 / (pi * x * x) *
+                              (std::log(std::sqrt(w * w * w * w / (1 + 2 * x * x))) +
+                               2 * x * w * std::atan(x / w) - 2 * x * std::atan(x));
+        const AimedFlux found = aim_at_all(stage.scene, 100000);
+        CHECK(std::abs(found.means[0][0].sigmas(pi * factor, 1e-4)) < 4.5);
+    }
+}
+
+TEST_CASE("emission: a point light within the bound aims everywhere") {
+    Stage ball;
+    ball.scene.add(Sphere{.center{0.2f, 0, 0}}, ball.glass);
+    ball.scene.add(PointLight{});
+    const AimedFlux inside = aim_at_all(ball.scene, 5000);
+    CHECK(inside.kept == 5000);
+    CHECK(inside.means[0][1].mean == doctest::Approx(4 * pi).epsilon(1e-5));
+
+    Stage wall;
+    wall.scene.add(Quad{.corner{-0.5f, -0.5f, 0}}, wall.mirror);
+    wall.scene.add(PointLight{.position{0, 0, 0.25f}});
+    // The solid angle of a square from above its middle: 4 asin(1 / (1 + 4 h^2)).
+    const double solid_angle = 4 * std::asin(1 / (1 + 4 * 0.25 * 0.25));
+    CHECK(std::abs(aim_at_all(wall.scene, 50000).means[0][0].sigmas(solid_angle)) <
+          4.5);
+}
+
+TEST_CASE("emission: a shell of light sends a ball within it the share (r/R)^2") {
+    for (const float r : {0.1f, 0.9f}) {
+        Stage stage;
+        stage.scene.add(Sphere{.radius = 2}, stage.matt, Rgb{1}, true);
+        stage.scene.add(Sphere{.radius = r}, stage.glass);
+        const double flux = pi * 4 * pi * 4;
+        const double share = double(r) * double(r) / 4;
+        CHECK(
+            std::abs(aim_at_all(stage.scene, 30000).means[0][0].sigmas(flux * share)) <
+            4.5);
+    }
+}
+
+TEST_CASE("emission: what lies behind the lamp, or a wall, gets nothing") {
+    Stage stage;
+    stage.scene.add(lamp, stage.matt, Rgb{1});
+    stage.scene.add(Sphere{.center{0, 0, 6}}, stage.glass);
+    const AimedFlux found = aim_at_all(stage.scene, 5000);
+    CHECK(found.kept == 0);
+    CHECK(found.behind == 5000);
+    CHECK(found.means[0][0].mean == 0);
+
+    Stage hidden;
+    hidden.scene.add(lamp, hidden.matt, Rgb{1});
+    hidden.scene.add(Quad{.corner{-9, -9, 1.5f}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}},
+                     hidden.matt);
+    hidden.scene.add(Sphere{.center{0, 0, 0}}, hidden.glass);
+    CHECK(aim_at_all(hidden.scene, 5000).kept == 0);
+}
+
+TEST_CASE("emission: aimed photons bring what photons sent everywhere bring") {
+    // Three kinds of light, three targets that hide each other, one near a lamp.
+    Stage stage;
+    stage.scene.add(lamp, stage.matt, Rgb{1});
+    stage.scene.add(Sphere{.center{2, 0, 1.5f}, .radius = 0.4f}, stage.matt, Rgb{2});
+    stage.scene.add(PointLight{.position{-1.5f, 0, 0.5f}, .intensity = Rgb{1}});
+    stage.scene.add(Sphere{.center{0, 0, 0.5f}, .radius = 0.5f}, stage.glass);
+    stage.scene.add(Sphere{.center{0.9f, 0, 1.5f}, .radius = 0.6f}, stage.mirror);
+    stage.scene.add(Quad{.corner{-1, -1, -0.5f}, .edge_u{2, 0, 0}, .edge_v{0, 2, 0}},
+                    stage.mirror);
+    const AimedFlux aimed = aim_at_all(stage.scene, 150000);
+    const auto everywhere = emit_to(stage.scene, aimed.targets, 150000);
+    REQUIRE(aimed.targets.size() == 3);
+    for (std::size_t i = 0; i < 3; ++i) {
+        CAPTURE(i);
+        const Mean& a = aimed.means[i][0];
+        const Mean& b = everywhere[i];
+        const double error = std::sqrt(a.variance() / a.count + b.variance() / b.count);
+        CHECK(std::abs(a.mean - b.mean) < 4.5 * error);
+        CHECK(error < 0.03 * b.mean);
+    }
+}
+
+TEST_CASE("emission: the light of an aimed photon has its colour and its number") {
+    Stage stage;
+    stage.scene.add(PointLight{.position{0, 0, 3}, .intensity{1, 0, 0}});
+    stage.scene.add(PointLight{.position{0, 0, -3}, .intensity{0, 2, 0}});
+    stage.scene.add(Sphere{}, stage.glass);
+    const AimedFlux found = aim_at_all(stage.scene, 50000);
+    const double cap = 2 * pi * (1 - std::sqrt(8.0) / 3); // solid angle of the ball
+    CHECK(std::abs(found.means[0][0].sigmas(cap)) < 4.5);
+    CHECK(std::abs(found.means[0][1].sigmas(2 * cap)) < 4.5);
+    CHECK(found.means[0][2].mean == 0);
+    const LightChoice choice = light_choice(stage.scene.lights);
+    for (long long i = 0; i < 100; ++i) {
+        RandomStream stream = stream_of(i);
+        const auto aimed = aim(stage.scene, choice, found.targets, stream);
+        REQUIRE(aimed);
+        CHECK((aimed->flight.flux.x > 0) == (aimed->flight.light == 0));
+        CHECK((aimed->flight.flux.y > 0) == (aimed->flight.light == 1));
+    }
+}

@@ -1,0 +1,170 @@
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <numbers>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "ljus/render/explain.hpp"
+#include "ljus/render/photon_mapping.hpp"
+#include "ljus/scene/cornell_box.hpp"
+
+using namespace ljus;
+
+namespace {
+
+constexpr Picture picture{
+    .width = 12, .height = 12, .rays = 8, .seed = 3, .threads = 1};
+
+// Pixels of the box's walls, balls and lamp.
+constexpr std::pair<int, int> places[] = {{0, 0}, {6, 1},  {3, 9},
+                                          {8, 9}, {8, 11}, {6, 6}};
+
+template <typename Renderer>
+void check_sums(const Renderer& renderer, const Camera& camera) {
+    const auto rendered = render(renderer, camera, picture);
+    for (const auto& place : places) {
+        const int x = place.first;
+        const int y = place.second;
+        CAPTURE(x);
+        CAPTURE(y);
+        const auto apart = take_apart(renderer, camera, picture, x, y);
+        const Rgb& expected = pixel(rendered.image, x, y);
+#ifdef __FMA__
+        // The compiler may fuse other products and sums in a renderer with a log.
+        CHECK(glm::distance(apart.radiance, expected) <= 1e-5f * glm::length(expected));
+#else
+        CHECK(apart.radiance == expected); // to the last bit
+#endif
+        CHECK(apart.rejected == 0);
+        glm::dvec3 sum{0};
+        for (const PathSum& part : apart.sums) sum += part.value;
+        for (int channel = 0; channel < 3; ++channel)
+            CHECK(sum[channel] ==
+                  doctest::Approx(double(apart.radiance[channel])).epsilon(1e-5));
+    }
+}
+
+// A renderer whose rays are NaN, but for every other one.
+struct HalfNan {};
+
+[[maybe_unused]] Rgb radiance(const HalfNan&, const Ray&, RandomStream&, Counts& counts,
+                              auto&& log) {
+    log.begin();
+    const bool bad = counts.camera_rays % 2 == 0;
+    const Rgb value{bad ? std::numeric_limits<float>::quiet_NaN() : 3.0f};
+    log.term("emission", "L", value);
+    return value;
+}
+
+} // namespace
+
+TEST_CASE("explain: the sums by path add up to the pixel as it is rendered") {
+    const auto room = cornell_box();
+    SUBCASE("path tracing") {
+        check_sums(make_path_tracer(room.scene), room.camera);
+    }
+    SUBCASE("path tracing without shadow rays") {
+        check_sums(make_path_tracer(room.scene, {.sample_lights = false}), room.camera);
+    }
+    for (const auto indirect :
+         {IndirectLight::rays, IndirectLight::map, IndirectLight::none}) {
+        const PhotonMapping settings{.max_depth = 6,
+                                     .indirect = indirect,
+                                     .caustics = {.photons = 2000},
+                                     .general = {.photons = 2000}};
+        const auto maps = make_photon_maps(room.scene, settings);
+        check_sums(make_photon_mapper(room.scene, maps, settings), room.camera);
+    }
+}
+
+TEST_CASE("explain: a floor below a point light has one path, of the known value") {
+    Scene<Shapes<Quad>, Materials<Lambertian>> scene;
+    scene.add(Quad{.corner{-9, 0, 9}, .edge_u{18, 0, 0}, .edge_v{0, 0, -18}},
+              scene.add(Lambertian{.albedo{0.8f, 0.4f, 0.2f}}));
+    scene.add(PointLight{.position{0, 2, 0}, .intensity = Rgb{10}});
+    const Camera camera = look_at(
+        {.position{0, 5, 0}, .target{0, 0, 0}, .up{0, 0, -1}, .vfov_degrees = 0.01f});
+    const auto apart = take_apart(make_path_tracer(scene), camera,
+                                  {.width = 1, .height = 1, .rays = 4}, 0, 0);
+    REQUIRE(apart.sums.size() == 1);
+    CHECK(apart.sums[0].path == "EDL");
+    CHECK(apart.sums[0].owner == "shadow ray");
+    CHECK(apart.sums[0].terms == 4);
+    // albedo/pi times intensity over the squared distance.
+    CHECK(apart.sums[0].value.x ==
+          doctest::Approx(0.8 / std::numbers::pi * 10 / 4).epsilon(1e-4));
+    CHECK(apart.sums[0].value.z ==
+          doctest::Approx(0.2 / std::numbers::pi * 10 / 4).epsilon(1e-4));
+}
+
+TEST_CASE("explain: the text has a line for each vertex, each term and each path") {
+    const auto room = cornell_box();
+    const auto apart =
+        take_apart(make_path_tracer(room.scene), room.camera, picture, 3, 9, 2);
+    const std::string text = describe(apart);
+    CHECK(text.find("ray 1\n") == 0);
+    CHECK(text.find("\nray 2\n") != std::string::npos);
+    CHECK(text.find("\nray 3\n") == std::string::npos);
+    CHECK(text.find("sums over 8 rays\n") != std::string::npos);
+    CHECK(text.find("the pixel") != std::string::npos);
+    // The pixel shows the mirror ball: a delta, and then what it reflects.
+    CHECK(text.find("  E S ") != std::string::npos);
+    CHECK(text.find(", delta\n") != std::string::npos);
+    CHECK(text.find("  E S D L ") != std::string::npos);
+    CHECK(text.find("shadow ray") != std::string::npos);
+    std::size_t lines = 0;
+    for (const PathLog& log : apart.first_rays) lines += 1 + log.lines.size();
+    lines += 1 + apart.sums.size() + 1;
+    if (apart.sums.size() <= 16)
+        CHECK(std::size_t(std::count(text.begin(), text.end(), '\n')) == lines);
+}
+
+TEST_CASE("explain: long lists of paths end in one line for the rest") {
+    ExplainedPixelT<float> apart{.radiance = Rgb{5}, .rays = 5};
+    for (int i = 0; i < 5; ++i)
+        apart.sums.push_back({std::string("E").append(std::size_t(i), 'D') + "L",
+                              "emission", glm::dvec3{1}, 1});
+    const std::string text = describe(apart, 3);
+    CHECK(text.find("  E D D L ") != std::string::npos);
+    CHECK(text.find("E D D D L") == std::string::npos);
+    CHECK(text.find("2 more") != std::string::npos);
+}
+
+TEST_CASE("explain: a scene alone is explained by path tracing") {
+    const auto room = cornell_box();
+    CHECK(explain(room.scene, room.camera, 120, 300) ==
+          explain(make_path_tracer(room.scene), room.camera, {}, 120, 300));
+}
+
+TEST_CASE("explain: rays that are not finite are left out and counted") {
+    const Camera camera = look_at({.position{0, 0, 0}, .target{0, 0, -1}});
+    const Picture odd{.width = 3, .height = 3, .rays = 7};
+    const auto apart = take_apart(HalfNan{}, camera, odd, 1, 1);
+    const auto rendered =
+        render(HalfNan{}, camera, {.width = 1, .height = 1, .rays = 7});
+    CHECK(apart.rejected == 3);
+    CHECK(rendered.counts.rejected == 3);
+    CHECK(apart.radiance == pixel(rendered.image, 0, 0));
+    REQUIRE(apart.sums.size() == 1);
+    CHECK(apart.sums[0].value.x == doctest::Approx(3 * 4 / 7.0));
+    CHECK(describe(apart).find("3 rays were not finite") != std::string::npos);
+}
+
+TEST_CASE("explain: a pixel outside of the picture is refused") {
+    const auto room = cornell_box();
+    const auto tracer = make_path_tracer(room.scene);
+    for (const auto& [x, y] : {std::pair{-1, 0}, {12, 0}, {0, -1}, {0, 12}})
+        CHECK_THROWS_AS((void)explain(tracer, room.camera, picture, x, y),
+                        std::invalid_argument);
+    CHECK_THROWS_WITH_AS(
+        (void)explain(tracer, room.camera, picture, 12, 0),
+        "the pixel's column is 12; it must be at least 0 and below the "
+        "picture's width.",
+        std::invalid_argument);
+    CHECK_THROWS_AS(
+        (void)explain(tracer, room.camera, {.width = 4, .height = 4, .rays = 0}, 1, 1),
+        std::invalid_argument);
+}

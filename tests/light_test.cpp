@@ -1,0 +1,137 @@
+/// \file light_test.cpp
+/// \brief What arrives from a sampled light, against closed forms.
+///
+/// A test of a mean gives a false alarm once in 1.7 million.
+
+#include "ljus/scene/light.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "ljus/materials/lambertian.hpp"
+#include "ljus/scene/make_scene.hpp"
+#include "support/numbers.hpp"
+
+using namespace ljus;
+using ljus_test::Mean;
+using ljus_test::Numbers;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Irradiance at a point with a normal, by one light of a scene: no shadows.
+template <typename Scene>
+Mean irradiance(const Scene& scene, const Vec3& at, const Vec3& up, int count) {
+    Numbers n;
+    Mean mean;
+    for (int i = 0; i < count; ++i) {
+        const auto sample =
+            sample_light(scene, scene.lights.at(0), at, n.square<float>());
+        mean.add(sample ? double(std::max(0.0f, glm::dot(sample->wi, up))) *
+                              double(sample->weight.x)
+                        : 0.0);
+    }
+    return mean;
+}
+
+} // namespace
+
+TEST_CASE("light: the flux of a diffuse emitter is pi L A") {
+    CHECK(double(diffuse_flux(Rgb{1, 2, 0}, 3.0f).y) == doctest::Approx(6 * pi));
+    const auto scene = make_scene(
+        placed(Sphere{.radius = 2}, Lambertian{}, Rgb{1}),
+        placed(Quad{.edge_u{2, 0, 0}, .edge_v{0, 3, 0}}, Lambertian{}, Rgb{0, 5, 0}),
+        PointLight{.intensity = Rgb{1, 2, 3}});
+    CHECK(double(scene.lights[0].flux.x) == doctest::Approx(16 * pi * pi));
+    CHECK(double(scene.lights[1].flux.y) == doctest::Approx(30 * pi));
+    CHECK(scene.lights[1].flux.x == 0.0f);
+    CHECK(double(scene.lights[2].flux.z) == doctest::Approx(12 * pi));
+}
+
+TEST_CASE("light: a point light falls off with the square of the distance") {
+    const auto scene =
+        make_scene(placed(Sphere{.center{99, 0, 0}}, Lambertian{}),
+                   PointLight{.position{0, 2, 0}, .intensity = Rgb{4, 8, 0}});
+    for (const float d : {1e-6f, 0.5f, 1.0f, 10.0f, 1e6f}) {
+        const auto s =
+            sample_light(scene, scene.lights[0], Vec3{d, 2, 0}, Vec2{0.5f, 0.5f});
+        REQUIRE(s);
+        CHECK(s->wi == Vec3{-1, 0, 0});
+        CHECK(double(s->weight.x) == doctest::Approx(4 / (double(d) * double(d))));
+        CHECK(double(s->weight.y) == doctest::Approx(8 / (double(d) * double(d))));
+        CHECK(s->weight.z == 0.0f);
+        CHECK(s->pdf == 0.0f);
+        CHECK(s->point.position == Vec3{0, 2, 0});
+        CHECK(s->point.error == Vec3{0});
+    }
+    CHECK_FALSE(sample_light(scene, scene.lights[0], Vec3{0, 2, 0}, Vec2{0}));
+}
+
+TEST_CASE("light: a spherical lamp gives pi L (R/d)^2, far and near") {
+    for (const float d : {1.001f, 1.5f, 4.0f, 100.0f, 1e4f}) {
+        const auto scene = make_scene(placed(Sphere{}, Lambertian{}, Rgb{3}));
+        const Mean e = irradiance(scene, Vec3{0, -d, 0}, Vec3{0, 1, 0}, 20000);
+        CAPTURE(d);
+        CHECK(e.agrees_with(3 * pi / (double(d) * double(d)), 1e-4));
+    }
+}
+
+TEST_CASE("light: a room made of a lamp gives pi L everywhere in it") {
+    const auto scene =
+        make_scene(placed(Sphere{.radius = 5}, Lambertian{}, Rgb{2}, true));
+    for (const Vec3 at : {Vec3{0}, Vec3{1, 2, 3}, Vec3{0, -4.9f, 0}})
+        CHECK(irradiance(scene, at, glm::normalize(Vec3{1, 2, 1}), 100000)
+                  .agrees_with(2 * pi));
+    // From outside it is dark.
+    CHECK(irradiance(scene, Vec3{0, -9, 0}, Vec3{0, 1, 0}, 100).value() == 0);
+    // And a lamp that is not inside out is dark within.
+    const auto lamp = make_scene(placed(Sphere{.radius = 5}, Lambertian{}, Rgb{2}));
+    CHECK(irradiance(lamp, Vec3{0, 1, 0}, Vec3{0, 1, 0}, 100).value() == 0);
+}
+
+TEST_CASE("light: a square lamp above, by the form factor to a small element") {
+    // An element under the corner of an a x b rectangle at height c, parallel to it.
+    const auto corner = [](double a, double b, double c) {
+        const double x = a / c, y = b / c;
+        return (x / std::sqrt(1 + x * x) * std::atan(y / std::sqrt(1 + x * x)) +
+                y / std::sqrt(1 + y * y) * std::atan(x / std::sqrt(1 + y * y))) /
+               (2 * pi);
+    };
+    for (const float height : {0.1f, 1.0f, 10.0f}) {
+        const auto scene = make_scene(
+            placed(Quad{{-1, height, -1}, {2, 0, 0}, {0, 0, 2}}, Lambertian{}, Rgb{1}));
+        CAPTURE(height);
+        REQUIRE(normal(std::get<0>(scene.shapes)[0]) == Vec3{0, -1, 0});
+        CHECK(irradiance(scene, Vec3{0}, Vec3{0, 1, 0}, 200000)
+                  .agrees_with(4 * pi * corner(1, 1, double(height))));
+        // Its back is dark.
+        CHECK(irradiance(scene, Vec3{0, height + 1, 0}, Vec3{0, -1, 0}, 100).value() ==
+              0);
+    }
+}
+
+TEST_CASE("light: two triangles shine as their quad does") {
+    const Vec3 a{-1, 2, -1}, b{1, 2, -1}, c{1, 2, 1}, d{-1, 2, 1};
+    const auto low = make_scene(placed(Triangle{a, b, c}, Lambertian{}, Rgb{1}));
+    const auto high = make_scene(placed(Triangle{a, c, d}, Lambertian{}, Rgb{1}));
+    const auto quad = make_scene(placed(Quad{a, b - a, d - a}, Lambertian{}, Rgb{1}));
+    const Vec3 at{0.3f, 0, -0.2f}, up{0, 1, 0};
+    const Mean e1 = irradiance(low, at, up, 100000),
+               e2 = irradiance(high, at, up, 100000);
+    const Mean e = irradiance(quad, at, up, 100000);
+    CHECK(std::abs(e1.value() + e2.value() - e.value()) <
+          5 * (e1.error() + e2.error() + e.error()));
+}
+
+TEST_CASE("light: an observer on the lamp or beside it gets no light, no NaN") {
+    const auto scene = make_scene(
+        placed(Quad{{-1, 0, -1}, {0, 0, 2}, {2, 0, 0}}, Lambertian{}, Rgb{1}));
+    for (const Vec3 at : {Vec3{0}, Vec3{0.5f, 0, 0.5f}, Vec3{4, 0, 0}})
+        for (const Vec2 u : {Vec2{0.5f, 0.5f}, Vec2{0.75f, 0.75f}, Vec2{0, 0}}) {
+            const auto sample = sample_light(scene, scene.lights[0], at, u);
+            CHECK_FALSE(sample);
+        }
+}

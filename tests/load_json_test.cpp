@@ -1,0 +1,386 @@
+#include <doctest/doctest.h>
+
+// Scene files need nlohmann-json, the library does not.
+#if __has_include(<nlohmann/json.hpp>)
+
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ljus/scene/load_json.hpp"
+#include "ljus/scene/query.hpp"
+#include "scratch_folder.hpp"
+
+using namespace ljus;
+
+namespace {
+
+// A scene with each material and each type of object; numbered from 0: floor, lamp,
+// ball, wedge.
+const std::string good = R"({
+ "format": "see README.md",
+ "name": "four things",
+ "description": "for the tests",
+ "camera": {"position": [0, 1, 5], "look_at": [0, 1, 0], "up": [0, 1, 0],
+            "vfov_deg": 40},
+ "image": {"width": 30, "height": 20, "pixel_filter": "box, exactly one pixel wide"},
+ "materials": {
+  "matt": {"type": "lambertian", "albedo": [0.75, 0.5, 0.25]},
+  "rough": {"type": "oren-nayar", "albedo": [0.5, 0.5, 0.5], "sigma_deg": 30},
+  "mirror": {"type": "mirror", "reflectance": [0.9, 0.8, 0.7]},
+  "glass": {"type": "dielectric", "ior": 1.5}
+ },
+ "objects": [
+  {"type": "triangles", "name": "floor", "material": "matt",
+   "vertices": [[-2, 0, -2], [-2, 0, 2], [2, 0, 2], [2, 0, -2]],
+   "indices": [[0, 1, 2], [0, 2, 3]]},
+  {"type": "triangles", "name": "lamp", "material": "rough",
+   "vertices": [[-0.6, 3, -0.6], [0.6, 3, -0.6], [0.6, 3, 0.6], [-0.6, 3, 0.6]],
+   "indices": [[0, 1, 2], [0, 2, 3]], "emission": [5, 4, 2.5]},
+  {"type": "sphere", "name": "ball", "material": "glass", "center": [0.5, 1, 0],
+   "radius": 0.75},
+  {"type": "triangles", "material": "mirror",
+   "vertices": [[-1, 1, 0], [-1.5, 1, 0.5], [-1, 2, 0]], "indices": [[0, 1, 2]]}
+ ]
+})";
+
+// The good scene with one place changed.
+std::string changed(const std::string& from, const std::string& to) {
+    const std::size_t at = good.find(from);
+    REQUIRE_MESSAGE(at != std::string::npos, "the scene has no ", from);
+    std::string text = good;
+    return text.replace(at, from.size(), to);
+}
+
+// The sentence with which a text is refused.
+std::string refusal(const std::string& text) {
+    try {
+        (void)read_json_scene(text, "a.json");
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+std::string refusal(const std::string& from, const std::string& to) {
+    return refusal(changed(from, to));
+}
+
+} // namespace
+
+TEST_CASE("load_json: everything in the file is in the scene") {
+    const LoadedScene loaded = read_json_scene(good, "a.json");
+    CHECK(loaded.name == "four things");
+    CHECK(loaded.width == 30);
+    CHECK(loaded.height == 20);
+
+    const auto& scene = loaded.scene;
+    CHECK(scene.size() == 4);
+    const auto& quads = std::get<0>(scene.shapes);
+    const auto& spheres = std::get<1>(scene.shapes);
+    const auto& triangles = std::get<2>(scene.shapes);
+    REQUIRE(quads.size() == 2);
+    REQUIRE(spheres.size() == 1);
+    REQUIRE(triangles.size() == 1);
+    CHECK(normal(quads[0]) == Vec3{0, 1, 0});
+    CHECK(area(quads[0]) == 16.0f);
+    CHECK(normal(quads[1]).y == doctest::Approx(-1)); // the lamp faces down
+    CHECK(spheres[0].center == Vec3{0.5f, 1, 0});
+    CHECK(spheres[0].radius == 0.75f);
+    CHECK(triangles[0].v2 == Vec3{-1.5f, 1, 0.5f});
+
+    CHECK(scene
+              .visit_material(scene.object({0, 0}).material,
+                              [](const auto& m) {
+                                  return evaluate(m, Vec3{0, 0, 1}, Vec3{0, 0, 1}) *
+                                         std::numbers::pi_v<float>;
+                              })
+              .x == doctest::Approx(0.75));
+    const auto& rough = std::get<1>(scene.materials);
+    REQUIRE(rough.size() == 1);
+    CHECK(rough[0].sigma == doctest::Approx(std::numbers::pi / 6));
+    const auto& mirrors = std::get<2>(scene.materials);
+    REQUIRE(mirrors.size() == 1);
+    CHECK(mirrors[0].reflectance == Rgb{0.9f, 0.8f, 0.7f});
+    const auto& glasses = std::get<3>(scene.materials);
+    REQUIRE(glasses.size() == 1);
+    CHECK(glasses[0].index == 1.5f);
+}
+
+TEST_CASE("load_json: a lamp of two triangles is one light") {
+    const LoadedScene loaded = read_json_scene(good, "a.json");
+    REQUIRE(loaded.scene.lights.size() == 1);
+    CHECK(loaded.scene.lights[0].emission == Rgb{5, 4, 2.5f});
+    CHECK(loaded.scene.lights[0].flux.x ==
+          doctest::Approx(5 * 1.44 * std::numbers::pi));
+}
+
+TEST_CASE("load_json: the camera sees what it looks at in the middle") {
+    const LoadedScene loaded = read_json_scene(good, "a.json");
+    const Ray ray = primary_ray(loaded.camera, Vec2{15, 10}, 30, 20);
+    CHECK(ray.origin == Vec3{0, 1, 5});
+    CHECK(glm::distance(ray.direction, Vec3{0, 0, -1}) < 1e-6f);
+    // The upper edge of the picture lies at half the angle.
+    const Ray up = primary_ray(loaded.camera, Vec2{15, 0}, 30, 20);
+    CHECK(up.direction.y / -up.direction.z ==
+          doctest::Approx(std::tan(20 * std::numbers::pi / 180)));
+}
+
+TEST_CASE("load_json: what may be missing may be missing") {
+    CHECK(refusal(" \"format\": \"see README.md\",", "") == "accepted");
+    CHECK(refusal(" \"name\": \"four things\",", "") == "accepted");
+    CHECK(refusal(" \"description\": \"for the tests\",", "") == "accepted");
+    CHECK(refusal(", \"pixel_filter\": \"box, exactly one pixel wide\"", "") ==
+          "accepted");
+    CHECK(refusal(" \"name\": \"ball\",", "") == "accepted");
+}
+
+TEST_CASE(
+    "load_json: an error names the file, the field, its value and what is right") {
+    CHECK(refusal("\"radius\": 0.75", "\"radius\": -1") ==
+          "a.json: objects[2].radius is -1; it must be above 0.");
+    CHECK(refusal("\"radius\": 0.75", "\"radius\": 0") ==
+          "a.json: objects[2].radius is 0; it must be above 0.");
+    // Above 0 in double, 0 in float.
+    CHECK(refusal("\"radius\": 0.75", "\"radius\": 1e-60") ==
+          "a.json: objects[2].radius is 1e-60; it must be above 0.");
+    CHECK(refusal("\"radius\": 0.75", "\"radius\": \"big\"") ==
+          "a.json: objects[2].radius is \"big\"; it must be a number.");
+    CHECK(refusal("\"radius\": 0.75", "\"radius\": 2e9") ==
+          "a.json: objects[2].radius is 2000000000.0; it must be at most 1e9.");
+    CHECK(refusal("0.75, 0.5, 0.25", "0.75, 1.5, 0.25") ==
+          "a.json: materials.matt.albedo[1] is 1.5; it must be within [0, 1].");
+    CHECK(refusal("0.75, 0.5, 0.25", "0.75, -0.1, 0.25") ==
+          "a.json: materials.matt.albedo[1] is -0.1; it must be within [0, 1].");
+    CHECK(refusal("0.75, 0.5, 0.25", "0.75, 0.5") ==
+          "a.json: materials.matt.albedo is [0.75,0.5]; it must be a list of three "
+          "numbers.");
+    CHECK(refusal("0.75, 0.5, 0.25", "0.75, null, 0.25") ==
+          "a.json: materials.matt.albedo[1] is null; it must be a number.");
+    CHECK(refusal("0.9, 0.8, 0.7", "0.9, 0.8, 7") ==
+          "a.json: materials.mirror.reflectance[2] is 7; it must be within [0, 1].");
+    CHECK(refusal("\"sigma_deg\": 30", "\"sigma_deg\": 100") ==
+          "a.json: materials.rough.sigma_deg is 100; it must be within [0, 90] "
+          "degrees.");
+    CHECK(refusal("\"ior\": 1.5", "\"ior\": 0") ==
+          "a.json: materials.glass.ior is 0; it must be within [0.001, 1000].");
+    CHECK(refusal("[5, 4, 2.5]", "[5, -4, 2.5]") ==
+          "a.json: objects[1].emission[1] is -4; it must be within [0, 1e12].");
+    CHECK(refusal("[0.5, 1, 0]", "[0.5, 1e300, 0]") ==
+          "a.json: objects[2].center[1] is 1e+300; it must be within [-1e9, 1e9].");
+    CHECK(refusal("\"vfov_deg\": 40", "\"vfov_deg\": 180") ==
+          "a.json: camera.vfov_deg is 180; it must be within [0.001, 179.99] degrees.");
+    CHECK(refusal("\"look_at\": [0, 1, 0]", "\"look_at\": [0, 1, 5]") ==
+          "a.json: camera.look_at is [0,1,5]; it must be another point than "
+          "camera.position.");
+    CHECK(refusal("\"up\": [0, 1, 0]", "\"up\": [0, 0, 2]") ==
+          "a.json: camera.up is [0,0,2]; it must be a direction that is not along the "
+          "view.");
+    CHECK(refusal("\"up\": [0, 1, 0]", "\"up\": [0, 0, 0]") ==
+          "a.json: camera.up is [0,0,0]; it must be a direction that is not along the "
+          "view.");
+    CHECK(refusal("\"width\": 30", "\"width\": 0") ==
+          "a.json: image.width is 0; it must be a whole number within [1, 268435456].");
+    CHECK(refusal("\"width\": 30", "\"width\": 30.5") ==
+          "a.json: image.width is 30.5; it must be a whole number within "
+          "[1, 268435456].");
+    CHECK(refusal("\"width\": 30", "\"width\": 100000000000000000000") ==
+          "a.json: image.width is 1e+20; it must be a whole number within "
+          "[1, 268435456].");
+    CHECK(refusal("\"width\": 30, \"height\": 20",
+                  "\"width\": 200000, \"height\": 200000") ==
+          "a.json: image has more than 268435456 pixels.");
+    CHECK(refusal("box, exactly one pixel wide", "gaussian") ==
+          "a.json: image.pixel_filter is \"gaussian\"; it must be \"box\", the only "
+          "filter that there is.");
+    CHECK(refusal("\"name\": \"four things\"", "\"name\": 4") ==
+          "a.json: name is 4; it must be a text in quotation marks.");
+}
+
+TEST_CASE("load_json: numbers of vertices are checked") {
+    CHECK(refusal("[[0, 1, 2], [0, 2, 3]]}", "[[0, 1, 2], [0, 2, 4]]}") ==
+          "a.json: objects[0].indices[1][2] is 4; it must be a whole number within "
+          "[0, 3].");
+    CHECK(refusal("[[0, 1, 2], [0, 2, 3]]}", "[[0, 1, -1], [0, 2, 3]]}") ==
+          "a.json: objects[0].indices[0][2] is -1; it must be a whole number within "
+          "[0, 3].");
+    CHECK(refusal("[[0, 1, 2], [0, 2, 3]]}", "[[0, 1, 4294967296]]}") ==
+          "a.json: objects[0].indices[0][2] is 4294967296; it must be a whole number "
+          "within [0, 3].");
+    CHECK(refusal("[[0, 1, 2], [0, 2, 3]]}", "[[0, 1, 2, 3]]}") ==
+          "a.json: objects[0].indices[0] is [0,1,2,3]; it must be a list of three "
+          "numbers.");
+    CHECK(refusal("[[0, 1, 2], [0, 2, 3]]}", "[[0, 1, 1]]}") ==
+          "a.json: objects[0].indices[0] is a triangle without an area.");
+    CHECK(refusal("[[-1, 1, 0], [-1.5, 1, 0.5], [-1, 2, 0]]", "[]") ==
+          "a.json: objects[3].indices[0][0] names a vertex, but there are none.");
+    CHECK(refusal("\"indices\": [[0, 1, 2]]", "\"indices\": 7") ==
+          "a.json: objects[3].indices is 7; it must be a list.");
+}
+
+TEST_CASE("load_json: unknown and missing fields, types and materials are named") {
+    CHECK(refusal("\"radius\": 0.75", "\"radios\": 0.75") ==
+          "a.json: objects[2].radios is not known; the fields here are type, name, "
+          "material, emission, center and radius.");
+    CHECK(refusal("\"radius\": 0.75", "\"vertices\": []") ==
+          "a.json: objects[2].vertices is not known; the fields here are type, name, "
+          "material, emission, center and radius.");
+    CHECK(refusal(",\n   \"radius\": 0.75", "") ==
+          "a.json: objects[2].radius is missing.");
+    CHECK(refusal("\"camera\": {", "\"camera\": {\"fov\": 3, ") ==
+          "a.json: camera.fov is not known; the fields here are position, look_at, up "
+          "and vfov_deg.");
+    CHECK(refusal("\"format\"", "\"formt\"") ==
+          "a.json: formt is not known; the fields here are format, name, description, "
+          "camera, image, materials and objects.");
+    CHECK(refusal("\"camera\"", "\"name\"").find("name is there twice") !=
+          std::string::npos);
+    CHECK(refusal("\"type\": \"dielectric\"", "\"type\": \"crystal\"") ==
+          "a.json: materials.glass.type is \"crystal\"; it must be lambertian, "
+          "oren-nayar, mirror or dielectric.");
+    CHECK(refusal("\"type\": \"sphere\"", "\"type\": \"cube\"") ==
+          "a.json: objects[2].type is \"cube\"; it must be sphere or triangles.");
+    CHECK(refusal("\"type\": \"sphere\", ", "") ==
+          "a.json: objects[2].type is missing.");
+    CHECK(refusal("\"material\": \"glass\"", "\"material\": \"gold\"") ==
+          "a.json: objects[2].material is \"gold\"; it must be one of the materials "
+          "glass, matt, mirror or rough.");
+    CHECK(refusal("{\"type\": \"dielectric\", \"ior\": 1.5}", "\"glass\"") ==
+          "a.json: materials.glass is \"glass\"; it must be an object.");
+    CHECK(refusal(", \"emission\": [5, 4, 2.5]", "") ==
+          "a.json: objects has no light; at least one needs an emission above 0.");
+    CHECK(refusal("[5, 4, 2.5]", "[0, 0, 0]") ==
+          "a.json: objects has no light; at least one needs an emission above 0.");
+    CHECK(refusal("[]") == "a.json: the file is []; it must be an object.");
+    CHECK(refusal("{}") == "a.json: camera is missing.");
+}
+
+TEST_CASE("load_json: names that are no plain words cannot disturb a message") {
+    CHECK(refusal("\"format\"", "\"a\\nb\\u001b[31m\"") ==
+          "a.json: [\"a?b?[31m\"] is not known; the fields here are format, name, "
+          "description, camera, image, materials and objects.");
+    CHECK(refusal("\"format\"", "\"" + std::string(100'000, 'x') + "\"") ==
+          "a.json: [\"" + std::string(48, 'x') +
+              "...\"] is not known; the fields here are format, name, description, "
+              "camera, image, materials and objects.");
+}
+
+TEST_CASE("load_json: broken JSON is refused with line and column") {
+    CHECK(refusal("") == "a.json: the file is empty.");
+    CHECK(refusal(" \n\t\r\n") == "a.json: the file is empty.");
+    // What comes after the place is nlohmann's and may change.
+    const auto place = [](const std::string& text, const std::string& expected) {
+        const std::string message = refusal(text);
+        CHECK_MESSAGE(message.find("a.json: " + expected) == 0, message);
+    };
+    place("{\n \"name\": \"x\",\n", "line 3, column 1: unexpected end of input");
+    place("{\n \"name\": x}", "line 2, column 10: invalid literal");
+    place(changed("\"radius\": 0.75", "\"radius\": NaN"), "line 22, column 14: ");
+    place(good + "x", "line 26, column 2: ");
+    place("{\"a\": \"\xff\"}", "line 1, column 8: ");
+    place("{\"a\": \"\\x\"}", "line 1, column 9: ");
+    place(std::string("{\0}", 3), "line 1, column 2: ");
+    CHECK(refusal("\"radius\": 0.75", "\"radius\": 1e999") ==
+          "a.json: line 22, column 18: objects[2].radius is 1e999; it must be finite.");
+    CHECK(refusal("\"albedo\": [0.5, 0.5, 0.5]", "\"albedo\": [0.5, -1e999, 0.5]")
+              .find("materials.rough.albedo[1] is -1e999; it must be finite.") !=
+          std::string::npos);
+    const std::string deep(100'000, '[');
+    CHECK(refusal(deep).find("is nested too deeply; at most 32 levels are allowed.") !=
+          std::string::npos);
+}
+
+TEST_CASE("load_json: files") {
+    const ScratchFolder folder;
+    ScratchFolder::write(folder.file("scene.json"), good);
+    CHECK(load_json(folder.file("scene.json")).scene.size() == 4);
+    CHECK(load_json<double>(folder.file("scene.json")).scene.size() == 4);
+
+    ScratchFolder::write(folder.file("empty.json"), "");
+    CHECK_THROWS_WITH_AS((void)load_json(folder.file("empty.json")),
+                         (folder.file("empty.json") + ": the file is empty.").c_str(),
+                         std::runtime_error);
+    CHECK_THROWS_AS((void)load_json(folder.file("missing.json")), std::runtime_error);
+    CHECK_THROWS_AS((void)load_json(folder.file("")), std::runtime_error);
+}
+
+TEST_CASE("load_json: tens of thousands of lights are refused") {
+    std::string text = "{\"camera\": {\"position\": [0, 0, 9], \"look_at\": [0, 0, 0],"
+                       "\"up\": [0, 1, 0], \"vfov_deg\": 40},"
+                       "\"image\": {\"width\": 2, \"height\": 2},"
+                       "\"materials\": {\"m\": {\"type\": \"lambertian\","
+                       "\"albedo\": [0, 0, 0]}}, \"objects\": [";
+    for (int i = 0; i < 65536; ++i)
+        text += "{\"type\": \"sphere\", \"material\": \"m\", \"center\": [0, 0, 0],"
+                "\"radius\": 1, \"emission\": [1, 1, 1]},";
+    text.back() = ']';
+    CHECK(refusal(text + "}") ==
+          "a.json: objects has 65536 lights; it must have at most 65535.");
+}
+
+TEST_CASE("load_json: garbage is refused, or gives a scene that can be used") {
+    // Every truncation, and 20 000 mutations, always the same ones.
+    std::uint64_t state = 1;
+    const auto random = [&state](std::uint64_t below) {
+        state = state * 6364136223846793005u + 1442695040888963407u;
+        return (state >> 33) % below;
+    };
+    int accepted = 0;
+    const auto try_it = [&](const std::string& text) {
+        try {
+            const LoadedScene loaded = read_json_scene(text, "a.json");
+            ++accepted;
+            REQUIRE(!loaded.scene.lights.empty());
+            REQUIRE(loaded.width >= 1);
+            REQUIRE(is_finite(loaded.camera.forward));
+            const auto hit =
+                closest_hit(loaded.scene, primary_ray(loaded.camera, Vec2{0.5f, 0.5f},
+                                                      loaded.width, loaded.height));
+            if (hit) REQUIRE(hit->at.t >= 0);
+        } catch (const std::runtime_error& error) {
+            const std::string what = error.what();
+            REQUIRE_MESSAGE(what.find("a.json: ") == 0, what);
+            REQUIRE_MESSAGE(what.back() == '.', what);
+            REQUIRE_MESSAGE(what.size() < 400, what);
+            for (const char c : what) REQUIRE_MESSAGE((c >= 0x20 || c < 0), what);
+        }
+    };
+    for (std::size_t length = 0; length < good.size(); ++length)
+        try_it(good.substr(0, length));
+    CHECK(accepted == 0);
+
+    const std::string alphabet =
+        "{}[]:,\"-+.eE0123456789 truefalsn\\\n\x01\x7f\xc3\xff";
+    for (int i = 0; i < 20'000; ++i) {
+        std::string text = good;
+        const std::uint64_t count = 1 + random(4);
+        for (std::uint64_t k = 0; k < count; ++k) {
+            // One by one, because the order of a call's arguments is not fixed.
+            const std::size_t at = random(text.size());
+            const char c = alphabet[random(alphabet.size())];
+            const std::size_t length = 1 + random(8);
+            const std::size_t from = random(text.size());
+            switch (random(4)) {
+            case 0:
+                text[at] = c;
+                break;
+            case 1:
+                text.insert(at, 1, c);
+                break;
+            case 2:
+                text.erase(at, length);
+                break;
+            default:
+                text.insert(at, text.substr(from, 5 * length));
+            }
+        }
+        try_it(text);
+    }
+    CHECK(accepted > 300); // or the mutations test the parser only
+}
+
+#endif

@@ -1,0 +1,113 @@
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "ljus/geometry/pair_triangles.hpp"
+
+using namespace ljus;
+
+namespace {
+
+using Triples = std::vector<std::array<std::uint32_t, 3>>;
+
+const std::vector<glm::dvec3> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+
+FlatShapesT<float> shapes(const std::vector<glm::dvec3>& vertices,
+                          const Triples& indices) {
+    return pair_triangles<float>(vertices, indices);
+}
+
+} // namespace
+
+TEST_CASE("pair_triangles: a square is found however its triangles begin") {
+    const std::array<std::array<std::uint32_t, 3>, 2> halves{{{0, 1, 2}, {0, 2, 3}}};
+    for (std::uint32_t i = 0; i < 3; ++i)
+        for (std::uint32_t j = 0; j < 3; ++j)
+            for (const bool swapped : {false, true}) {
+                Triples triples;
+                for (const auto& [half, turn] : {std::pair{0u, i}, std::pair{1u, j}})
+                    triples.push_back({halves[half][turn], halves[half][(turn + 1) % 3],
+                                       halves[half][(turn + 2) % 3]});
+                if (swapped) std::swap(triples[0], triples[1]);
+                const auto found = shapes(square, triples);
+                REQUIRE(found.quads.size() == 1);
+                CHECK(found.triangles.empty());
+                CHECK(normal(found.quads[0]) == Vec3{0, 0, 1});
+                CHECK(area(found.quads[0]) == 1.0f);
+                // The middle is the middle, so that the quad covers the square.
+                CHECK(point_at(found.quads[0], 0.5f, 0.5f).position ==
+                      Vec3{0.5f, 0.5f, 0});
+            }
+}
+
+TEST_CASE("pair_triangles: vertices that are listed twice are the same") {
+    const auto found =
+        shapes({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+               {{0, 1, 2}, {3, 4, 5}});
+    CHECK(found.quads.size() == 1);
+    CHECK(found.triangles.empty());
+}
+
+TEST_CASE("pair_triangles: what is not one parallelogram stays two triangles") {
+    SUBCASE("a kite") {
+        const auto found = shapes({{0, 0, 0}, {1, 0, 0}, {1.001, 1, 0}, {0, 1, 0}},
+                                  {{0, 1, 2}, {0, 2, 3}});
+        CHECK(found.quads.empty());
+        CHECK(found.triangles.size() == 2);
+    }
+    SUBCASE("folded along the diagonal") {
+        const auto found = shapes({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 1e-9}},
+                                  {{0, 1, 2}, {0, 2, 3}});
+        CHECK(found.quads.empty());
+    }
+    SUBCASE("of opposite sides: one would emit up, the other down") {
+        CHECK(shapes(square, {{0, 1, 2}, {0, 3, 2}}).quads.empty());
+    }
+    SUBCASE("the same triangle twice") {
+        CHECK(shapes(square, {{0, 1, 2}, {0, 1, 2}}).triangles.size() == 2);
+    }
+    SUBCASE("one triangle, and none") {
+        CHECK(shapes(square, {{0, 1, 2}}).triangles.size() == 1);
+        CHECK(shapes(square, {}).triangles.empty());
+    }
+}
+
+TEST_CASE("pair_triangles: decimals that are rounded are still a parallelogram") {
+    // 0.1 + 0.2 is not 0.3 in double.
+    const auto found =
+        shapes({{0.1, 0, 0}, {0.3, 0, 0.1}, {0.4, 0.7, 0.2}, {0.2, 0.7, 0.1}},
+               {{0, 1, 2}, {0, 2, 3}});
+    CHECK(found.quads.size() == 1);
+}
+
+TEST_CASE("pair_triangles: every triangle is used once, and the area is kept") {
+    // A grid of 5 x 4 squares, skewed, each cut along one diagonal or the other.
+    std::vector<glm::dvec3> vertices;
+    for (int y = 0; y <= 4; ++y)
+        for (int x = 0; x <= 5; ++x) vertices.push_back({x + 0.25 * y, y, 0.5 * x});
+    Triples triples;
+    for (std::uint32_t y = 0; y < 4; ++y)
+        for (std::uint32_t x = 0; x < 5; ++x) {
+            const std::uint32_t a = y * 6 + x;
+            if ((x + y) % 2 == 0) {
+                triples.push_back({a, a + 1, a + 7});
+                triples.push_back({a, a + 7, a + 6});
+            } else {
+                triples.push_back({a, a + 1, a + 6});
+                triples.push_back({a + 1, a + 7, a + 6});
+            }
+        }
+    const auto found = shapes(vertices, triples);
+    CHECK(2 * found.quads.size() + found.triangles.size() == triples.size());
+    CHECK(found.quads.size() >= 10);
+    double sum = 0;
+    for (const Quad& quad : found.quads) {
+        sum += double(area(quad));
+        CHECK(glm::dot(normal(quad), normal(found.quads[0])) == doctest::Approx(1));
+    }
+    for (const Triangle& triangle : found.triangles) sum += double(area(triangle));
+    const double one = glm::length(glm::cross(glm::dvec3{1, 0, 0.5}, {0.25, 1, 0}));
+    CHECK(sum == doctest::Approx(20 * one));
+}

@@ -1,0 +1,424 @@
+/// \file photon_map_test.cpp
+/// \brief The estimate from photons against the flux density that they were made with.
+///
+/// Standard errors come from independent maps, one a seed. A mean is accepted within 4.5
+/// of them: each such check gives a false alarm once in 150 000 seeds.
+
+#include "ljus/photons/photon_map.hpp"
+
+#include <doctest/doctest.h>
+
+#include <numbers>
+#include <stdexcept>
+
+#include "ljus/materials/lambertian.hpp"
+#include "support/photon_samples.hpp"
+
+using ljus::Gather;
+using ljus::Kernel;
+using ljus::Lambertian;
+using ljus::Photon;
+using ljus::PhotonKind;
+using ljus::PhotonMap;
+using ljus::Rgb;
+using ljus::Vec3;
+using photon_test::Mean;
+using photon_test::Numbers;
+
+namespace {
+
+constexpr std::array kernels{Kernel::box, Kernel::cone, Kernel::gaussian,
+                             Kernel::epanechnikov, Kernel::biweight};
+const Lambertian matt{.albedo{0.8f, 0.4f, 0.2f}};
+constexpr Rgb flux_density{3.0f, 2.0f, 1.0f}; // W per unit of area, on the square
+constexpr auto everything = [](PhotonKind) { return true; };
+
+/// The floor z = 0 at a point.
+template <typename T = float>
+ljus::SurfaceT<T> floor_at(ljus::Vec3T<T> position) {
+    ljus::SurfaceT<T> surface{};
+    surface.point.position = position;
+    surface.point.normal = {0, 0, 1};
+    surface.frame = ljus::frame_around(surface.point.normal);
+    return surface;
+}
+
+/// Photons that fall on the square [-1, 1]^2 at a height, uniformly: together they carry
+/// the flux density.
+std::vector<Photon> rain(int count, Numbers& numbers, float height = 0,
+                         PhotonKind kind = PhotonKind::direct, float share = 1) {
+    std::vector<Photon> photons;
+    for (int i = 0; i < count; ++i) {
+        const auto x = float(numbers.between(-1, 1));
+        photons.push_back(
+            {.position{x, float(numbers.between(-1, 1)), height},
+             .direction = glm::normalize(Vec3{float(numbers.between(-1, 1)), 0.3f, -1}),
+             .flux = share * flux_density * 4.0f / float(count),
+             .kind = kind});
+    }
+    return photons;
+}
+
+Rgb estimate(const PhotonMap& map, const Gather& gather, Vec3 at = Vec3{0}) {
+    std::uint64_t gathered = 0;
+    return ljus::estimate_radiance(map, floor_at(at), matt, Vec3{0.6f, 0, 0.8f}, gather,
+                                   everything, gathered);
+}
+
+/// The exact radiance: albedo / pi times the irradiance.
+double exact(int channel) {
+    return double(matt.albedo[channel]) / std::numbers::pi *
+           double(flux_density[channel]);
+}
+
+/// Mean and variance of the first channel over maps, for several ways to gather.
+std::vector<Mean> over_maps(int maps, int count, const std::vector<Gather>& ways,
+                            std::uint64_t seed, Vec3 at = Vec3{0}) {
+    Numbers numbers{seed};
+    std::vector<Mean> means(ways.size());
+    for (int i = 0; i < maps; ++i) {
+        const auto map = ljus::make_photon_map(rain(count, numbers));
+        for (std::size_t j = 0; j < ways.size(); ++j)
+            means[j].add(double(estimate(map, ways[j], at).x));
+    }
+    return means;
+}
+
+/// One way to gather for each kernel.
+std::vector<Gather> each_kernel(float radius, std::size_t nearest = 0) {
+    std::vector<Gather> ways;
+    for (const Kernel kernel : kernels)
+        ways.push_back({.radius = radius, .nearest = nearest, .kernel = kernel});
+    return ways;
+}
+
+} // namespace
+
+TEST_CASE("photon_map: within a fixed radius every kernel finds the flux density") {
+    for (const Mean& mean : over_maps(1000, 500, each_kernel(0.25f), 11)) {
+        CHECK(std::abs(mean.sigmas(exact(0))) < 4.5);
+        CHECK(std::sqrt(mean.variance() / mean.count) <
+              0.01 * exact(0)); // sharp enough
+    }
+}
+
+TEST_CASE("photon_map: with the k nearest, too, for few and for many") {
+    for (const std::size_t k : {2u, 3u, 5u, 50u})
+        for (const Mean& mean : over_maps(1000, 500, each_kernel(0.9f, k), 12)) {
+            CAPTURE(k);
+            // Of k = 2 the variance is infinite: its standard error says little.
+            if (k == 2)
+                CHECK(mean.mean == doctest::Approx(exact(0)).epsilon(0.25));
+            else
+                CHECK(std::abs(mean.sigmas(exact(0))) < 4.5);
+        }
+}
+
+TEST_CASE("photon_map: also where the radius ends a search before k are found") {
+    // On the mean 9.8 photons lie within: often fewer than k, often more.
+    for (const std::size_t k : {5u, 10u, 14u})
+        for (const Mean& mean : over_maps(2000, 200, each_kernel(0.25f, k), 13)) {
+            CAPTURE(k);
+            CHECK(std::abs(mean.sigmas(exact(0))) < 4.5);
+        }
+}
+
+TEST_CASE("photon_map: the three channels are estimated apart") {
+    Numbers numbers{14};
+    std::array<Mean, 3> means;
+    for (int i = 0; i < 800; ++i) {
+        const Rgb found =
+            estimate(ljus::make_photon_map(rain(500, numbers)), {.radius = 0.3f});
+        for (int c = 0; c < 3; ++c) means[std::size_t(c)].add(double(found[c]));
+    }
+    for (int c = 0; c < 3; ++c)
+        CHECK(std::abs(means[std::size_t(c)].sigmas(exact(c))) < 4.5);
+}
+
+TEST_CASE(
+    "photon_map: the variance is that of counting, 1/(N r^2) times the kernel's") {
+    // Of N photons each lies in the disc with p = pi r^2 / 4; the mean squares of the
+    // kernels are those of kernel_test.cpp.
+    const double e = std::exp(-2.0);
+    const std::array squares{1.0, 1.5, (1 + e) / (1 - e), 4.0 / 3, 9.0 / 5};
+    constexpr int maps = 2500; // a variance is found within sqrt(2/maps): 2.8 %
+    struct Case {
+        int count;
+        float radius;
+    };
+    for (const Case& c : {Case{200, 0.2f}, Case{800, 0.2f}, Case{200, 0.4f}}) {
+        const auto means = over_maps(maps, c.count, each_kernel(c.radius), 15);
+        for (std::size_t i = 0; i < kernels.size(); ++i) {
+            CAPTURE(i);
+            CAPTURE(c.count);
+            CAPTURE(c.radius);
+            const double p = std::numbers::pi * double(c.radius) * double(c.radius) / 4;
+            const double expected =
+                exact(0) * exact(0) * (squares[i] / p - 1) / double(c.count);
+            // Few photons make long tails: five standard errors and a half more.
+            CHECK(means[i].variance() == doctest::Approx(expected).epsilon(0.16));
+        }
+    }
+}
+
+TEST_CASE("photon_map: at an edge the estimate reads one half, in a corner a quarter") {
+    for (const Kernel kernel : {Kernel::box, Kernel::epanechnikov}) {
+        const Gather gather{.radius = 0.3f, .kernel = kernel};
+        const Mean edge = over_maps(800, 500, {gather}, 21, {1, 0, 0})[0];
+        const Mean corner = over_maps(800, 500, {gather}, 22, {1, 1, 0})[0];
+        CHECK(std::abs(edge.sigmas(exact(0) / 2)) < 4.5);
+        CHECK(std::abs(corner.sigmas(exact(0) / 4)) < 4.5);
+    }
+}
+
+TEST_CASE("photon_map: an empty map is black, and so is a place without photons") {
+    CHECK(estimate(PhotonMap{}, {}) == Rgb{0});
+    CHECK(estimate(ljus::make_photon_map(std::vector<Photon>{}), {.nearest = 5}) ==
+          Rgb{0});
+    Numbers numbers{1};
+    const auto map = ljus::make_photon_map(rain(100, numbers));
+    CHECK(PhotonMap{}.empty());
+    CHECK_FALSE(map.empty());
+    CHECK(estimate(map, {.radius = 0.5f}, {5, 0, 0}) == Rgb{0});
+    CHECK(estimate(map, {.radius = 0.5f, .nearest = 8}, {5, 0, 0}) == Rgb{0});
+}
+
+TEST_CASE("photon_map: photons that all lie in one point give no NaN") {
+    std::vector<Photon> photons(20, Photon{.direction{0, 0, -1}, .flux{1, 1, 1}});
+    const auto map = ljus::make_photon_map(photons);
+    // At the point itself the k-th distance is 0: no area, no estimate.
+    CHECK(estimate(map, {.radius = 1, .nearest = 5}) == Rgb{0});
+    // With more room than photons, the radius that was asked for is the disc.
+    const double one = double(matt.albedo.x) / std::numbers::pi / std::numbers::pi;
+    CHECK(
+        double(estimate(map, {.radius = 1, .nearest = 21, .kernel = Kernel::box}).x) ==
+        doctest::Approx(20 * one));
+    CHECK(double(estimate(map, {.radius = 1, .kernel = Kernel::box}).x) ==
+          doctest::Approx(20 * one));
+    // Beside it, the k - 1 others lie on the border of the disc.
+    const Vec3 beside{0.5f, 0, 0};
+    CHECK(
+        double(estimate(map, {.radius = 1, .nearest = 5, .kernel = Kernel::box}, beside)
+                   .x) == doctest::Approx(4 * one / 0.25));
+    CHECK(estimate(map, {.radius = 1, .nearest = 5}, beside) == Rgb{0}); // Epanechnikov
+}
+
+TEST_CASE("photon_map: scenes of any size") {
+    Numbers numbers{31};
+    const auto photons = rain(2000, numbers);
+    for (const Kernel kernel : kernels)
+        for (const std::size_t k : {std::size_t(0), std::size_t(40)}) {
+            const Gather gather{.radius = 0.3f, .nearest = k, .kernel = kernel};
+            const Rgb expected = estimate(ljus::make_photon_map(photons), gather);
+            for (const float scale : {0x1p-50f, 0x1p-20f, 0x1p20f, 0x1p50f}) {
+                auto scaled = photons;
+                for (Photon& photon : scaled) {
+                    photon.position *= scale;
+                    photon.flux *= scale * scale; // the same flux density
+                }
+                Gather same = gather;
+                same.radius *= scale;
+                const Rgb found = estimate(ljus::make_photon_map(scaled), same);
+                for (int c = 0; c < 3; ++c)
+                    CHECK(found[c] == doctest::Approx(expected[c]).epsilon(1e-6));
+            }
+        }
+    // A radius whose square no float can hold, and photons that are black.
+    auto black = photons;
+    for (Photon& photon : black) {
+        photon.position *= 1e-30f;
+        photon.flux = Rgb{0};
+    }
+    CHECK(estimate(ljus::make_photon_map(black), {.radius = 1e-30f}) == Rgb{0});
+}
+
+TEST_CASE("photon_map: two million photons in one disc are all counted") {
+    // A sum in float is 2 % off.
+    std::vector<Photon> photons(2'000'000,
+                                Photon{.direction{0, 0, -1}, .flux{0.1f, 0, 0}});
+    Numbers numbers{32};
+    for (Photon& photon : photons)
+        photon.position = {float(numbers.unit()), float(numbers.unit()), 0};
+    const auto map = ljus::make_photon_map(photons);
+    const double expected = 2e6 * double(0.1f) * double(matt.albedo.x) /
+                            (std::numbers::pi * std::numbers::pi * 4);
+    CHECK(double(estimate(map, {.radius = 2, .kernel = Kernel::box}).x) ==
+          doctest::Approx(expected).epsilon(1e-6));
+}
+
+TEST_CASE("photon_map: photons of another wall are left out by the thickness") {
+    Numbers numbers{41};
+    const auto floor = rain(2000, numbers);
+    auto both = floor;
+    // A wall at x = 0.1 that stands on the floor, above 3 % of the radius.
+    for (int i = 0; i < 2000; ++i)
+        both.push_back({.position{0.1f, float(numbers.between(-1, 1)),
+                                  float(numbers.between(0.0301, 1))},
+                        .direction = glm::normalize(Vec3{1, 0, -1}),
+                        .flux{1, 1, 1}});
+    const Gather gather{.radius = 0.3f, .thickness = 0.1f};
+    const Rgb expected = estimate(ljus::make_photon_map(floor), gather);
+    const Rgb found = estimate(ljus::make_photon_map(both), gather);
+    for (int c = 0; c < 3; ++c)
+        CHECK(found[c] == doctest::Approx(expected[c]).epsilon(1e-6));
+    // A ball without a disc would count them.
+    Gather thick = gather;
+    thick.thickness = 1;
+    CHECK(estimate(ljus::make_photon_map(both), thick).x > 2 * expected.x);
+}
+
+TEST_CASE("photon_map: k nearest stays right beside a ceiling full of photons") {
+    // Photons of the ceiling count among the k, set the radius at times, and are left
+    // out of the sum: the mean must not care.
+    for (const Kernel kernel : {Kernel::box, Kernel::epanechnikov}) {
+        Numbers numbers{42};
+        Mean mean;
+        for (int i = 0; i < 1500; ++i) {
+            auto photons = rain(400, numbers);
+            const auto ceiling = rain(400, numbers, 0.05f);
+            photons.insert(photons.end(), ceiling.begin(), ceiling.end());
+            // Half of the photons of the ceiling lie within the disc's area.
+            mean.add(
+                double(estimate(ljus::make_photon_map(photons), {.radius = 0.9f,
+                                                                 .nearest = 20,
+                                                                 .kernel = kernel,
+                                                                 .thickness = 0.05f})
+                           .x));
+        }
+        CHECK(std::abs(mean.sigmas(exact(0))) < 4.5);
+    }
+}
+
+TEST_CASE("photon_map: photons of other kinds do not disturb the k nearest") {
+    Numbers numbers{51};
+    const auto light = rain(500, numbers);
+    const auto shadows = rain(3000, numbers, 0, PhotonKind::shadow, 10);
+    std::vector<Photon> mixed;
+    for (std::size_t i = 0; i < shadows.size(); ++i) {
+        mixed.push_back(shadows[i]);
+        if (i < light.size()) mixed.push_back(light[i]);
+    }
+    const auto only_light = [](PhotonKind kind) { return kind != PhotonKind::shadow; };
+    const auto map = ljus::make_photon_map(mixed);
+    const auto alone = ljus::make_photon_map(light);
+    for (const Kernel kernel : kernels)
+        for (const std::size_t k : {0u, 5u, 50u}) {
+            const Gather gather{.radius = 0.3f, .nearest = k, .kernel = kernel};
+            for (int i = 0; i < 50; ++i) {
+                const Vec3 at{float(numbers.between(-0.7, 0.7)),
+                              float(numbers.between(-0.7, 0.7)), 0};
+                std::uint64_t gathered = 0;
+                const Rgb found =
+                    ljus::estimate_radiance(map, floor_at(at), matt, Vec3{0, 0, 1},
+                                            gather, only_light, gathered);
+                std::uint64_t gathered_alone = 0;
+                const Rgb expected =
+                    ljus::estimate_radiance(alone, floor_at(at), matt, Vec3{0, 0, 1},
+                                            gather, everything, gathered_alone);
+                REQUIRE(gathered == gathered_alone);
+                for (int c = 0; c < 3; ++c)
+                    REQUIRE(found[c] == doctest::Approx(expected[c]).epsilon(1e-6));
+            }
+        }
+}
+
+TEST_CASE("photon_map: the k-th photon sets the radius and is left out of the sum") {
+    std::vector<Photon> photons;
+    for (const float x : {0.1f, 0.2f, 0.3f, 0.5f, 0.7f})
+        photons.push_back({.position{x, 0, 0},
+                           .direction{0, 0, -1},
+                           .flux = Rgb{float(photons.size() + 1)}});
+    const auto map = ljus::make_photon_map(photons);
+    const double f = double(matt.albedo.x) / std::numbers::pi;
+    for (std::size_t k = 2; k <= 5; ++k) {
+        std::uint64_t gathered = 0;
+        const Rgb found = ljus::estimate_radiance(
+            map, floor_at<float>({0, 0, 0}), matt, Vec3{0, 0, 1},
+            {.radius = 1, .nearest = k, .kernel = Kernel::box}, everything, gathered);
+        const double radius = double(photons[k - 1].position.x);
+        double sum = 0;
+        for (std::size_t i = 1; i < k; ++i) sum += double(i);
+        CHECK(gathered == k - 1);
+        CHECK(double(found.x) ==
+              doctest::Approx(f * sum / (std::numbers::pi * radius * radius)));
+    }
+}
+
+TEST_CASE("photon_map: light from below a matt surface is not seen above it") {
+    std::vector<Photon> photons(10, Photon{.direction{0, 0, 1}, .flux{1, 1, 1}});
+    CHECK(estimate(ljus::make_photon_map(photons), {}) == Rgb{0});
+}
+
+TEST_CASE("photon_map: records follow the order of the tree") {
+    Numbers numbers{61};
+    auto photons = rain(1000, numbers);
+    for (std::size_t i = 0; i < photons.size(); ++i) {
+        photons[i].light = static_cast<std::uint16_t>(i);
+        photons[i].kind = static_cast<PhotonKind>(i % 4);
+    }
+    const auto map = ljus::make_photon_map(photons);
+    REQUIRE(map.records.size() == 1000);
+    for (std::size_t i = 0; i < 1000; ++i) {
+        const Photon& photon = photons[map.records[i].light];
+        REQUIRE(map.tree.points()[i] == photon.position);
+        REQUIRE(map.records[i].direction == photon.direction);
+        REQUIRE(map.records[i].flux == photon.flux);
+        REQUIRE(map.records[i].kind == photon.kind);
+    }
+}
+
+TEST_CASE("photon_map: in double") {
+    std::vector<ljus::PhotonT<double>> photons;
+    Numbers numbers{71};
+    for (int i = 0; i < 4000; ++i)
+        photons.push_back(
+            {.position{1e6 + numbers.between(-1, 1), numbers.between(-1, 1), 0},
+             .direction{0, 0, -1},
+             .flux = ljus::RgbT<double>{4.0 / 4000}});
+    const auto map = ljus::make_photon_map(photons);
+    std::uint64_t gathered = 0;
+    const auto found = ljus::estimate_radiance(
+        map, floor_at<double>({1e6, 0, 0}),
+        ljus::LambertianT<double>{.albedo = ljus::RgbT<double>{1.0}},
+        ljus::Vec3T<double>{0, 0, 1}, {.radius = 0.5f}, everything, gathered);
+    CHECK(found.x * std::numbers::pi == doctest::Approx(1).epsilon(0.15));
+    CHECK(gathered > 500);
+}
+
+TEST_CASE("photon_map: data that are not finite are refused with a sentence") {
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    const auto refuse = [](Photon photon) {
+        CHECK_THROWS_AS((void)ljus::make_photon_map(std::vector<Photon>{photon}),
+                        std::invalid_argument);
+    };
+    refuse({.position{nan, 0, 0}});
+    refuse({.position{0, std::numeric_limits<float>::infinity(), 0}});
+    refuse({.direction{0, 0, nan}});
+    refuse({.flux{0, nan, 0}});
+    CHECK_THROWS_WITH(
+        (void)ljus::make_photon_map(std::vector<Photon>{Photon{.flux{0, nan, 0}}}),
+        "photon.flux is (0, NaN, 0); it must be finite in "
+        "every component.");
+}
+
+TEST_CASE("photon_map: a way to gather that gives no estimate is refused") {
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    constexpr float inf = std::numeric_limits<float>::infinity();
+    CHECK_NOTHROW(ljus::check(Gather{}));
+    CHECK_NOTHROW(ljus::check(Gather{.nearest = 2}));
+    CHECK_NOTHROW(ljus::check(Gather{.nearest = 512}));
+    for (const float bad : {0.0f, -1.0f, nan, inf}) {
+        CHECK_THROWS_AS(ljus::check(Gather{.radius = bad}), std::invalid_argument);
+        CHECK_THROWS_AS(ljus::check(Gather{.thickness = bad}), std::invalid_argument);
+    }
+    CHECK_THROWS_WITH(ljus::check(Gather{.radius = 0}),
+                      "gather.radius is 0; it must be finite and above 0.");
+    CHECK_THROWS_WITH(ljus::check(Gather{.radius = nan}),
+                      "gather.radius is NaN; it must be finite and above 0.");
+    for (const std::size_t bad : {std::size_t(1), std::size_t(513)})
+        CHECK_THROWS_AS(ljus::check(Gather{.nearest = bad}), std::invalid_argument);
+    CHECK_THROWS_WITH(
+        ljus::check(Gather{.nearest = 513}),
+        "gather.nearest is 513; it must be 0 for all within the radius, or "
+        "2 to 512 (one photon sets the radius).");
+}

@@ -1,0 +1,220 @@
+/// \file scene_test.cpp
+/// \brief What a scene takes, what it refuses, and how its things are found again.
+
+#include "ljus/scene/scene.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "ljus/materials/glass.hpp"
+#include "ljus/materials/lambertian.hpp"
+#include "ljus/materials/mirror.hpp"
+
+using namespace ljus;
+
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
+
+using Room =
+    Scene<Shapes<Sphere, Quad, Triangle>, Materials<Lambertian, Glass, Mirror>>;
+
+template <typename F>
+std::string refusal(F f) {
+    try {
+        f();
+    } catch (const std::invalid_argument& error) {
+        return error.what();
+    }
+    return "";
+}
+
+/// What a scene can add, as the compiler sees it.
+template <typename S, typename... Args>
+concept Takes = requires(S& scene, Args... args) {
+    scene.add(args...);
+};
+
+static_assert(Takes<Room, Sphere, MaterialId> && Takes<Room, Quad, MaterialId, Rgb> &&
+              Takes<Room, Triangle, MaterialId, Rgb, bool> && Takes<Room, Glass> &&
+              Takes<Room, PointLight>);
+static_assert(!Takes<Room, Sphere> && !Takes<Room, SphereT<double>, MaterialId> &&
+              !Takes<Room, LambertianT<double>> && !Takes<Room, int>);
+using Small = Scene<Shapes<Sphere>, Materials<Lambertian>>;
+static_assert(!Takes<Small, Quad, MaterialId> && !Takes<Small, Glass>);
+static_assert(each_once<> && each_once<int> && each_once<int, char> &&
+              !each_once<int, char, int> && !each_once<char, int, int>);
+
+} // namespace
+
+TEST_CASE("scene: what is added is found again, as its own type") {
+    Room room;
+    const MaterialId white = room.add(Lambertian{.albedo = Rgb{0.75f}});
+    const MaterialId clear = room.add(Glass{});
+    const MaterialId grey = room.add(Lambertian{.albedo = Rgb{0.25f}});
+    CHECK(white == MaterialId{0, 0});
+    CHECK(clear == MaterialId{1, 0});
+    CHECK(grey == MaterialId{0, 1});
+
+    const ObjectId ball = room.add(Sphere{.radius = 2}, clear);
+    const ObjectId floor = room.add(Quad{}, grey);
+    const ObjectId small = room.add(Sphere{.radius = 0.5f}, white);
+    const ObjectId face = room.add(Triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, white);
+    CHECK(ball == ObjectId{0, 0});
+    CHECK(floor == ObjectId{1, 0});
+    CHECK(small == ObjectId{0, 1});
+    CHECK(face == ObjectId{2, 0});
+    CHECK(room.size() == 4);
+    CHECK(Room{}.size() == 0);
+
+    CHECK(room.object(ball).material == clear);
+    CHECK(room.object(small).material == white);
+    CHECK(room.object(floor).material == grey);
+    const auto area_of = [&](ObjectId id) {
+        return room.visit_shape(id, [](const auto& shape) { return area(shape); });
+    };
+    CHECK(double(area_of(small)) == doctest::Approx(3.14159265));
+    CHECK(area_of(floor) == 1.0f);
+    CHECK(area_of(face) == 0.5f);
+    const auto kind_of = [&](MaterialId id) {
+        return room.visit_material(id, [](const auto& m) { return lobes(m); });
+    };
+    CHECK(kind_of(white) == Lobes::diffuse);
+    CHECK(kind_of(clear) == Lobes::specular);
+    room.visit_material(grey, [](const auto& m) {
+        using M = std::remove_cvref_t<decltype(m)>;
+        static_assert(Bsdf<M>);
+        if constexpr (std::is_same_v<M, Lambertian>)
+            CHECK(m.albedo == Rgb{0.25f});
+        else
+            CHECK(false);
+    });
+}
+
+TEST_CASE("scene: visitors may return references") {
+    Small scene;
+    const auto id = scene.add(Sphere{}, scene.add(Lambertian{}));
+    decltype(auto) shape = scene.visit_shape(
+        id, [](const auto& s) -> const auto& { return s; });
+    CHECK(&shape == std::get<0>(scene.shapes).data());
+}
+
+TEST_CASE("scene: lights are numbered as they come") {
+    Room room;
+    const auto black = room.add(Lambertian{.albedo = Rgb{0}});
+    room.add(Sphere{}, black);                 // no light
+    room.add(PointLight{.intensity = Rgb{0}}); // dark: no light either
+    const auto lamp = room.add(Quad{}, black, Rgb{0, 0, 5});
+    room.add(PointLight{.position{1, 2, 3}, .intensity = Rgb{7}});
+    room.add(Sphere{}, black);
+    const auto bulb = room.add(Sphere{}, black, Rgb{1}, true);
+    REQUIRE(room.lights.size() == 3);
+    CHECK(room.lights[0].object == lamp);
+    CHECK(room.lights[0].emission == Rgb{0, 0, 5});
+    CHECK(room.object(lamp).light == 0);
+    CHECK(room.object(lamp).emission == Rgb{0, 0, 5});
+    CHECK_FALSE(room.lights[1].object);
+    CHECK(room.lights[1].position == Vec3{1, 2, 3});
+    CHECK(room.lights[1].emission == Rgb{7});
+    CHECK(room.lights[2].object == bulb);
+    CHECK(room.object(bulb).light == 2);
+    CHECK(room.object(bulb).inside_out);
+    CHECK(is_black(room.object({0, 0}).emission));
+}
+
+namespace {
+
+/// A material that shines by itself.
+struct Glow {
+    using Scalar = float;
+    Rgb own{2, 0, 0};
+};
+Lobes lobes(const Glow&) {
+    return Lobes::none;
+}
+Rgb evaluate(const Glow&, const Vec3&, const Vec3&) {
+    return Rgb{0};
+}
+float pdf(const Glow&, const Vec3&, const Vec3&, Lobes) {
+    return 0;
+}
+std::optional<BsdfSample> sample(const Glow&, const Vec3&, const Vec3&, Transport,
+                                 Lobes) {
+    return std::nullopt;
+}
+void check(const Glow&) {}
+Rgb emission(const Glow& glow) {
+    return glow.own;
+}
+
+} // namespace
+
+TEST_CASE("scene: what a material emits is added to what the shape emits") {
+    Scene<Shapes<Sphere>, Materials<Glow, Lambertian>> scene;
+    const auto glow = scene.add(Glow{});
+    const auto alone = scene.add(Sphere{}, glow);
+    const auto both = scene.add(Sphere{}, glow, Rgb{1, 1, 0});
+    CHECK(scene.object(alone).emission == Rgb{2, 0, 0});
+    CHECK(scene.object(both).emission == Rgb{3, 1, 0});
+    CHECK(scene.lights.size() == 2);
+}
+
+TEST_CASE("scene: every bad input is one sentence with its name and value") {
+    Room room;
+    const auto white = room.add(Lambertian{});
+    const auto add = [&](auto... what) { return refusal([&] { room.add(what...); }); };
+    const std::size_t before = room.size();
+
+    CHECK(add(Sphere{.radius = 0}, white) ==
+          "sphere.radius is 0; it must be finite and above 0.");
+    CHECK(add(Sphere{.center{0, nan_value, 0}}, white) ==
+          "sphere.center is (0, NaN, 0); it must be finite in every component.");
+    CHECK(add(Quad{.edge_u{infinity, 0, 0}}, white) ==
+          "quad.edge_u is (infinity, 0, 0); it must be finite in every component.");
+    CHECK(add(Triangle{.v3{0, 0, -infinity}}, white) ==
+          "triangle.v3 is (0, 0, -infinity); it must be finite in every component.");
+    CHECK(add(Lambertian{.albedo{0.5f, 1.5f, 0}}) ==
+          "lambertian.albedo is (0.5, 1.5, 0); it must be within [0, 1] in every "
+          "channel.");
+    CHECK(add(Sphere{}, white, Rgb{0, -1, 0}) ==
+          "emission is (0, -1, 0); it must be finite and at least 0 in every channel.");
+    CHECK(add(Sphere{}, white, Rgb{nan_value}).find("emission is (NaN, NaN, NaN);") ==
+          0);
+    CHECK(add(PointLight{.position{0, infinity, 0}}) ==
+          "point light.position is (0, infinity, 0); it must be finite in every "
+          "component.");
+    CHECK(add(PointLight{.intensity{0, 0, -2}}) ==
+          "point light.intensity is (0, 0, -2); it must be finite and at least 0 in "
+          "every channel.");
+    CHECK(add(Sphere{}, MaterialId{0, 1}) ==
+          "the material's number is 1; it must be one that add() returned.");
+    CHECK(add(Sphere{}, MaterialId{1, 0}) == // no glass was added
+          "the material's number is 0; it must be one that add() returned.");
+    CHECK(add(Sphere{}, MaterialId{7, 0}) ==
+          "the material's type is 7; it must be one that add() returned.");
+
+    // A lamp has an area, and a flux that its precision can say.
+    CHECK(add(Quad{.edge_v{2, 0, 0}}, white, Rgb{1}) ==
+          "the area of a light is 0; it must be finite and above 0.");
+    CHECK(add(Triangle{}, white, Rgb{1}) ==
+          "the area of a light is 0; it must be finite and above 0.");
+    CHECK(add(Sphere{.radius = 1e25f}, white, Rgb{1}) ==
+          "the area of a light is infinity; it must be finite and above 0.");
+    CHECK(add(Sphere{.radius = 100}, white, Rgb{1e38f, 0, 0}) ==
+          "the flux of a light is (infinity, 0, 0); it must be finite and above 0.");
+    CHECK(add(Sphere{.radius = 1e-10f}, white, Rgb{1e-38f}) ==
+          "the flux of a light is (0, 0, 0); it must be finite and above 0.");
+    CHECK(add(PointLight{.intensity{1e38f, 1, 1}})
+              .find("the flux of a light is (infinity, 12.566") == 0);
+
+    // Nothing of that is in the scene now.
+    CHECK(room.size() == before);
+    CHECK(room.lights.empty());
+    CHECK(std::get<0>(room.materials).size() == 1);
+    for (const auto& objects : room.objects) CHECK(objects.empty());
+}

@@ -1,0 +1,176 @@
+/// \file shape_test.cpp
+/// \brief What a scene asks of a shape, for each shape of the house.
+
+#include "ljus/geometry/shape.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "support/numbers.hpp"
+
+using namespace ljus;
+using ljus_test::Numbers;
+
+static_assert(Shape<Sphere> && Shape<Triangle> && Shape<Quad>);
+static_assert(Shape<SphereT<double>> && Shape<TriangleT<double>> &&
+              Shape<QuadT<double>>);
+static_assert(!Shape<int> && !Shape<Vec3> && !Shape<Ray>);
+static_assert(std::is_same_v<ScalarOf<Sphere>, float> &&
+              std::is_same_v<ScalarOf<QuadT<double>>, double>);
+
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+
+} // namespace
+
+TEST_CASE("shape: every hit has a distance, a flat one also coordinates") {
+    CHECK(as_hit(2.5f).t == 2.5f);
+    CHECK(as_hit(2.5f).u == 0.0f);
+    const FlatHitT<float> flat{1, 0.25f, 0.5f};
+    CHECK(as_hit(flat).t == 1.0f);
+    CHECK(as_hit(flat).v == 0.5f);
+}
+
+TEST_CASE("shape: a hit point of a sphere is where the ray meets it") {
+    // Against the same in long double, relative to the way that t has to describe.
+    using L = glm::vec<3, long double>;
+    Numbers n;
+    int hits = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const double radius = n.power(-2, 2), distance = radius * n.power(0.1, 2);
+        const auto center = n.power(-2, 5) * n.direction();
+        if (radius < 1e-4 * glm::length(center)) continue;
+        const auto way = n.direction();
+        const Sphere ball{Vec3(center), float(radius)};
+        const Vec3 origin(center + distance * way);
+        const Vec3 aim(center + 0.9 * radius * n.direction());
+        const Ray ray{.origin = origin, .direction = glm::normalize(aim - origin)};
+        const auto t = intersect<double>(ray, ball);
+        if (!t) continue;
+        ++hits;
+        const SurfacePoint p = surface_point(ball, ray, as_hit(*t));
+
+        const L oc = L(ray.origin) - L(ball.center), d(ray.direction);
+        const long double a = glm::dot(d, d), b = -glm::dot(oc, d);
+        const L nearest = oc + b / a * d;
+        const long double rest =
+            (long double)(ball.radius) * (long double)(ball.radius) -
+            glm::dot(nearest, nearest);
+        const L truth = nearest - std::sqrt(rest / a) * d;
+        const long double off =
+            glm::length((long double)(ball.radius) * L(p.normal) - truth);
+        REQUIRE(off < 4e-7L * (long double)(distance + radius));
+        REQUIRE(std::abs(glm::length(p.normal) - 1) < 3e-7f);
+    }
+    CHECK(hits > 5000);
+}
+
+TEST_CASE("shape: a sphere too small for its distance still has a normal") {
+    for (const float far : {1.0f, 1e3f, 1e6f, 1e9f})
+        for (const float radius : {1e-30f, 1e-12f, 1e-6f, 1e-3f}) {
+            const Sphere grain{{far, far, -far}, radius};
+            const Ray ray{.direction = glm::normalize(grain.center)};
+            FlatHitT<float> hit{.t = glm::length(grain.center)};
+            if (const auto t = intersect<double>(ray, grain)) hit.t = *t;
+            const SurfacePoint p = surface_point(grain, ray, hit);
+            CHECK(is_finite(p.position));
+            CHECK(glm::length(p.normal) == doctest::Approx(1).epsilon(1e-5));
+            CHECK(is_finite(leave(p, -ray.direction)));
+        }
+    // The sum is exactly the centre: the normal faces the ray.
+    const Sphere grain{{4, 0, 0}, 1e-9f};
+    const Ray ray{.direction = {1, 0, 0}};
+    CHECK(surface_point(grain, ray, {.t = 4}).normal == Vec3{-1, 0, 0});
+}
+
+TEST_CASE("shape: a hit point of a flat shape comes from its coordinates") {
+    const Triangle t{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+    CHECK(surface_point(t, Ray{}, {.t = 9, .u = 0.25f, .v = 0.5f}).position ==
+          Vec3{1, 2, 0});
+    const Quad q{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+    CHECK(surface_point(q, Ray{}, {.t = 9, .u = 1, .v = 0.5f}).position ==
+          Vec3{4, 2, 0});
+    CHECK(surface_point(q, Ray{}, {.t = 9}).normal == Vec3{0, 0, 1});
+}
+
+TEST_CASE("shape: points of a sphere cover its area evenly") {
+    // Cells of equal area in z and longitude; a false alarm once in a million.
+    Numbers n;
+    const Sphere ball{{1, -2, 3}, 2};
+    std::array<int, 128> cells{};
+    for (int i = 0; i < 128000; ++i) {
+        const SurfacePoint p = sample_area(ball, n.square<float>());
+        const Vec3 way = (p.position - ball.center) / ball.radius;
+        REQUIRE(glm::distance(way, p.normal) < 1e-6f);
+        REQUIRE(std::abs(glm::length(way) - 1) < 1e-6f);
+        const float turn = std::atan2(way.y, way.x) / 6.2831855f + 0.5f;
+        const int row = std::clamp(int((way.z + 1) * 4), 0, 7);
+        const int column = std::clamp(int(turn * 16), 0, 15);
+        ++cells[static_cast<std::size_t>(row * 16 + column)];
+    }
+    CHECK(ljus_test::chi_square(cells) < ljus_test::chi_square_limit(127));
+}
+
+TEST_CASE("shape: the bounding sphere contains the shape") {
+    Numbers n;
+    for (int i = 0; i < 5000; ++i) {
+        const double size = n.power(-6, 6);
+        const auto vec = [&] { return Vec3(size * n.point(1)); };
+        const Sphere ball{vec(), float(size)};
+        const Triangle triangle{vec(), vec(), vec()};
+        const Quad quad{vec(), vec(), vec()};
+        const auto holds = [&](const Sphere& bound, const Vec3& p) {
+            return glm::distance(glm::dvec3(bound.center), glm::dvec3(p)) <=
+                   double(bound.radius) * (1 + 1e-5);
+        };
+        const Sphere of_triangle = bounding_sphere(triangle);
+        for (const Vec3& v : {triangle.v1, triangle.v2, triangle.v3})
+            REQUIRE(holds(of_triangle, v));
+        const Sphere of_quad = bounding_sphere(quad);
+        for (const float u : {0.0f, 1.0f})
+            for (const float v : {0.0f, 1.0f})
+                REQUIRE(holds(of_quad, point_at(quad, u, v).position));
+        REQUIRE(bounding_sphere(ball).center == ball.center);
+        REQUIRE(bounding_sphere(ball).radius == ball.radius);
+    }
+    // No larger than it has to be.
+    CHECK(bounding_sphere(Quad{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}).radius ==
+          doctest::Approx(std::sqrt(2.0)));
+    CHECK(bounding_sphere(
+              Triangle{{1, 0, 0}, {-0.5f, 0.8660254f, 0}, {-0.5f, -0.8660254f, 0}})
+              .radius == doctest::Approx(1));
+}
+
+TEST_CASE("shape: what no picture can be made of is refused by name") {
+    CHECK_NOTHROW(check(Triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+    CHECK_NOTHROW(check(Quad{}));
+    CHECK_NOTHROW(check(Triangle{})); // a mesh may hold some without an area
+    CHECK_THROWS_WITH_AS(
+        check(Triangle{.v2{0, not_a_number, 0}}),
+        "triangle.v2 is (0, NaN, 0); it must be finite in every component.",
+        std::invalid_argument);
+    CHECK_THROWS_WITH_AS(
+        check(Quad{.edge_v{infinity, 0, 0}}),
+        "quad.edge_v is (infinity, 0, 0); it must be finite in every component.",
+        std::invalid_argument);
+    for (const float bad : {not_a_number, infinity, -infinity})
+        for (int axis = 0; axis < 3; ++axis) {
+            for (Vec3 Triangle::*part : {&Triangle::v1, &Triangle::v2, &Triangle::v3}) {
+                Triangle t{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+                (t.*part)[axis] = bad;
+                CHECK_THROWS_AS(check(t), std::invalid_argument);
+            }
+            for (Vec3 Quad::*part : {&Quad::corner, &Quad::edge_u, &Quad::edge_v}) {
+                Quad q;
+                (q.*part)[axis] = bad;
+                CHECK_THROWS_AS(check(q), std::invalid_argument);
+            }
+        }
+}

@@ -1,0 +1,248 @@
+/// \file solid_angle_test.cpp
+/// \brief Points chosen for an observer: their densities against closed forms.
+///
+/// The mean of 1/pdf over the points that face the observer is the solid angle of the
+/// shape; a test of a mean gives a false alarm once in 1.7 million, of counts once in a
+/// million.
+
+#include "ljus/geometry/solid_angle.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "support/numbers.hpp"
+
+using namespace ljus;
+using ljus_test::Mean;
+using ljus_test::Numbers;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Van Oosterom and Strackee (1983).
+double solid_angle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+    return 2 * std::abs(std::atan2(glm::dot(a, glm::cross(b, c)),
+                                   la * lb * lc + glm::dot(a, b) * lc +
+                                       glm::dot(b, c) * la + glm::dot(c, a) * lb));
+}
+
+/// 2 pi (1 - cos), of a sphere from outside.
+long double cone_of(long double radius, long double distance) {
+    const long double sine = radius / distance;
+    return 2 * std::numbers::pi_v<long double> * sine * sine /
+           (1 + std::sqrt((1 - sine) * (1 + sine)));
+}
+
+/// 1/pdf over the sampled points that face the observer, or over all of them.
+template <typename S, typename T>
+Mean measured(const S& shape, const Vec3T<T>& from, int count, bool all = false) {
+    Numbers n;
+    Mean mean;
+    for (int i = 0; i < count; ++i) {
+        const SeenPointT<T> seen = sample_towards(shape, from, n.square<T>());
+        const bool faces = glm::dot(seen.point.position - from, seen.point.normal) < 0;
+        mean.add(faces || all ? 1.0 / double(seen.pdf) : 0.0);
+    }
+    return mean;
+}
+
+} // namespace
+
+TEST_CASE_TEMPLATE("solid angle: the cone of a sphere, near, far, tiny and huge", T,
+                   float, double) {
+    const T u = std::numeric_limits<T>::epsilon();
+    for (const double radius : {1e-6, 1e-3, 1.0, 1e3, 1e6})
+        for (const double ratio : {1.001, 1.1, 2.0, 10.0, 1e2, 1e4, 1e6}) {
+            CAPTURE(radius);
+            CAPTURE(ratio);
+            const SphereT<T> ball{{0, T(radius * ratio), 0}, T(radius)};
+            const ConeT<T> cone = cone_towards(ball, Vec3T<T>{0});
+            const auto truth = double(
+                cone_of((long double)(ball.radius), (long double)(ball.center.y)));
+            CHECK(double(cone.axis.y) == doctest::Approx(1).epsilon(double(u)));
+            CHECK(cone.axis.x == T(0));
+            const double allowed = double(u) * (ratio < 1.01 ? 100 : 8);
+            CHECK(2 * pi * double(cone.one_minus_cos) ==
+                  doctest::Approx(truth).epsilon(allowed));
+            // And so is the density of every point, for all of the cone.
+            Numbers n;
+            for (int i = 0; i < 50; ++i) {
+                const auto seen = sample_towards(ball, Vec3T<T>{0}, n.square<T>());
+                REQUIRE(double(seen.pdf) ==
+                        doctest::Approx(1 / truth).epsilon(allowed));
+            }
+        }
+}
+
+TEST_CASE("solid angle: from inside a sphere every direction leads to it") {
+    const Sphere room{{1, 2, 3}, 2};
+    for (const Vec3 from : {Vec3{1, 2, 3}, Vec3{2, 2, 3}, Vec3{1, 0.5f, 3}}) {
+        CHECK_FALSE(sees_cone(room, from));
+        CHECK(cone_towards(room, from).one_minus_cos == 2.0f);
+        CHECK(measured(room, from, 20000, true).agrees_with(4 * pi, 1e-5));
+    }
+    // Close to the wall the mean converges slowly, but to the same.
+    CHECK(measured(room, Vec3{1, 2, 1.1f}, 200000, true).agrees_with(4 * pi));
+}
+
+TEST_CASE("solid angle: a sphere just outside of which the observer stands") {
+    // As close as two millionths of the radius, samples are not wasted on points that
+    // the observer cannot see.
+    const Sphere ball{{0, 0, 0}, 1};
+    for (const float height : {3e-6f, 1e-5f, 1e-4f, 1e-3f, 0.1f}) {
+        CAPTURE(height);
+        const Vec3 from{0, 1 + height, 0};
+        const double truth = double(cone_of(1, (long double)(from.y)));
+        CHECK(measured(ball, from, 2000, true).agrees_with(truth, 1e-3));
+        CHECK(measured(ball, from, 2000).agrees_with(truth, 2e-2));
+    }
+    // On the surface itself the answer is a number or nothing, never a wrong light.
+    Numbers n;
+    for (int i = 0; i < 1000; ++i)
+        CHECK(sample_towards(ball, Vec3{0, 1, 0}, n.square<float>()).pdf >= 0);
+}
+
+TEST_CASE_TEMPLATE("solid angle: on the wall of a spherical room all of it is seen", T,
+                   float, double) {
+    // The hit point is rounded to one side or the other.
+    Numbers n;
+    for (const double offset : {0.0, 10.0, 1000.0}) {
+        const SphereT<T> room{Vec3T<T>(offset * n.point(1)), T(2)};
+        Mean light;
+        for (int i = 0; i < 40000; ++i) {
+            const auto from = sample_area(room, n.square<T>());
+            const auto seen = sample_towards(room, from.position, n.square<T>());
+            const Vec3T<T> way = seen.point.position - from.position;
+            // Both normals point inwards; L = 1 gives the irradiance pi.
+            const double cosine = -double(glm::dot(glm::normalize(way), from.normal));
+            if (glm::dot(way, seen.point.normal) > 0 && cosine > 0)
+                light.add(cosine / double(seen.pdf));
+            else
+                light.add(0);
+        }
+        CAPTURE(offset);
+        CHECK(light.agrees_with(pi, 1e-3));
+    }
+}
+
+TEST_CASE_TEMPLATE(
+    "solid angle: a point of a sphere faces the observer, on the surface", T, float,
+    double) {
+    Numbers n;
+    for (const double ratio : {1.001, 1.01, 1.5, 10.0, 1e3, 1e5})
+        for (const double offset : {0.0, 1.0, 100.0}) {
+            int averted = 0, off = 0;
+            for (int i = 0; i < 4000; ++i) {
+                const auto center = offset * n.point(1);
+                const auto from = Vec3T<T>(center + ratio * n.direction());
+                const SphereT<T> ball{Vec3T<T>(center), T(1)};
+                const auto seen = sample_towards(ball, from, n.square<T>());
+                const Vec3T<T> way = seen.point.position - from;
+                averted += !(glm::dot(way, seen.point.normal) < 0);
+                const double distance = glm::distance(glm::dvec3(seen.point.position),
+                                                      glm::dvec3(ball.center));
+                off += std::abs(distance - 1) > 1e-6 * (1 + offset);
+            }
+            CAPTURE(ratio);
+            CAPTURE(offset);
+            CHECK(averted <= 1); // exactly at the rim
+            CHECK(off == 0);
+        }
+}
+
+TEST_CASE("solid angle: directions fill the cone of a sphere evenly") {
+    for (const double distance : {1.02, 1.5, 10.0, 300.0}) {
+        const Sphere ball{{0, 0, 0}, 1};
+        const glm::dvec3 axis = glm::normalize(glm::dvec3{1, -2, 2});
+        const glm::dvec3 x = glm::normalize(glm::dvec3{2, 1, 0});
+        const glm::dvec3 y = glm::cross(axis, x);
+        const Vec3 from(-distance * axis);
+        const double range = double(cone_of(1, distance)) / (2 * pi);
+        Numbers n;
+        std::array<int, 100> cells{};
+        for (int i = 0; i < 100000; ++i) {
+            const SeenPointT<float> seen =
+                sample_towards(ball, from, n.square<float>());
+            const auto wi =
+                glm::normalize(glm::dvec3(seen.point.position) - glm::dvec3(from));
+            const double px = glm::dot(wi, x), py = glm::dot(wi, y);
+            const double sine2 = px * px + py * py;
+            const double down = sine2 / (1 + std::sqrt(1 - sine2)); // 1 - cos
+            const int row = std::clamp(int(down / range * 10), 0, 9);
+            const int column =
+                std::clamp(int((std::atan2(py, px) / (2 * pi) + 0.5) * 10), 0, 9);
+            ++cells[static_cast<std::size_t>(row * 10 + column)];
+        }
+        CAPTURE(distance);
+        CHECK(ljus_test::chi_square(cells) < ljus_test::chi_square_limit(99));
+    }
+}
+
+TEST_CASE("solid angle: triangles and quads, at any size and from both sides") {
+    Numbers n;
+    for (int k = 0; k < 12; ++k) {
+        const double size = std::pow(10.0, k % 5 * 3 - 6);
+        const auto vec = [&](double s) { return Vec3(size * s * n.point(1)); };
+        const Vec3 from = vec(1), corner = vec(1) + Vec3(size * 2.0 * n.direction());
+        const Quad quad{corner, vec(2), vec(2)};
+        const Triangle triangle{corner, corner + quad.edge_u, corner + quad.edge_v};
+        const glm::dvec3 o(from), v1(corner), e1(quad.edge_u), e2(quad.edge_v);
+        const double half = solid_angle(v1 - o, v1 + e1 - o, v1 + e2 - o);
+        const double other = solid_angle(v1 + e1 + e2 - o, v1 + e1 - o, v1 + e2 - o);
+        // One-sided as emission is, a flat shape is seen from one side only.
+        const bool seen = glm::dot(o - v1, glm::cross(e1, e2)) > 0;
+        CAPTURE(size);
+        CHECK(measured(triangle, from, 40000, true).agrees_with(half, 1e-4));
+        CHECK(measured(quad, from, 40000, true).agrees_with(half + other, 1e-4));
+        CHECK((measured(quad, from, 100).value() > 0) == seen);
+    }
+}
+
+TEST_CASE("solid angle: small and far, every point of a lamp has the lamp's density") {
+    // A lamp of area A at distance d, leaning by 60 degrees: A cos / d^2.
+    for (const float distance : {1e2f, 1e4f, 1e6f}) {
+        const Vec3 up{0, 0.5f, std::sqrt(0.75f)};
+        const Vec3 side{1, 0, 0}, across = glm::cross(up, side);
+        const Quad lamp{{0, distance, 0}, side, across};
+        Numbers n;
+        for (int i = 0; i < 100; ++i) {
+            const auto seen = sample_towards(lamp, Vec3{0}, n.square<float>());
+            CHECK(double(seen.pdf) ==
+                  doctest::Approx(double(distance) * distance * 2).epsilon(0.04));
+        }
+    }
+}
+
+TEST_CASE_TEMPLATE("solid angle: pdf_towards is the density of sample_towards", T,
+                   float, double) {
+    Numbers n;
+    for (int i = 0; i < 3000; ++i) {
+        const Vec3T<T> from(n.point(3));
+        const SphereT<T> ball{Vec3T<T>(n.point(3)), T(n.between(0.1, 3))};
+        const QuadT<T> quad{Vec3T<T>(n.point(3)), Vec3T<T>(n.point(3)),
+                            Vec3T<T>(n.point(3))};
+        const TriangleT<T> triangle{quad.corner, quad.edge_u, quad.edge_v};
+        const auto same = [&](const auto& shape) {
+            const auto seen = sample_towards(shape, from, n.square<T>());
+            return pdf_towards(shape, from, seen.point) == seen.pdf;
+        };
+        REQUIRE(same(ball));
+        REQUIRE(same(quad));
+        REQUIRE(same(triangle));
+    }
+}
+
+TEST_CASE("solid angle: a surface seen edge-on gives no light, not a wrong one") {
+    const Quad lamp{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    const auto seen = sample_towards(lamp, Vec3{3, 0.25f, 0}, Vec2{0.5f, 0.5f});
+    CHECK_FALSE(std::isfinite(seen.pdf));
+    const auto on_it = sample_towards(lamp, Vec3{0.5f, 0.5f, 0}, Vec2{0.5f, 0.5f});
+    CHECK_FALSE(std::isfinite(on_it.pdf));
+}

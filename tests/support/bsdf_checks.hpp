@@ -1,0 +1,197 @@
+#pragma once
+
+/// \file support/bsdf_checks.hpp
+/// \brief What must hold for every material, whatever it is.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "ljus/materials/bsdf.hpp"
+#include "support/draws.hpp"
+#include "support/statistics.hpp"
+
+namespace ljus_test {
+
+/// The share of light from everywhere that the parts with an f send to `wo`, by the
+/// midpoint rule in sin^2(theta) and phi: exact for a constant f.
+template <ljus::Bsdf M>
+ljus::RgbT<double> albedo_by_quadrature(const M& m,
+                                        const ljus::Vec3T<typename M::Scalar>& wo,
+                                        int n = 400) {
+    using T = typename M::Scalar;
+    ljus::RgbT<double> sum{0};
+    for (int i = 0; i < n; ++i) {
+        ljus::RgbT<double> row{0}; // a sum of sums loses less to rounding
+        for (int j = 0; j < n; ++j) {
+            const double sin2 = (i + 0.5) / n,
+                         phi = 2 * std::numbers::pi * (j + 0.5) / n;
+            const double s = std::sqrt(sin2), z = std::sqrt(1 - sin2);
+            const ljus::Vec3T<T> wi{T(s * std::cos(phi)), T(s * std::sin(phi)),
+                                    std::copysign(T(z), wo.z)};
+            row += ljus::RgbT<double>(evaluate(m, wo, wi));
+        }
+        sum += row;
+    }
+    return sum * (std::numbers::pi / n / n); // d(omega) cos = d(sin^2) d(phi)/2
+}
+
+/// The share that the deltas send to `wo`: the mean of their weights over a grid of u.z,
+/// which alone decides. Within a few 1/steps.
+template <ljus::Bsdf M>
+ljus::RgbT<double> specular_albedo(const M& m,
+                                   const ljus::Vec3T<typename M::Scalar>& wo,
+                                   ljus::Transport transport, int steps = 20000) {
+    using T = typename M::Scalar;
+    ljus::RgbT<double> sum{0};
+    for (int i = 0; i < steps; ++i) {
+        const ljus::Vec3T<T> u{T(0.3), T(0.6), T((i + 0.5) / steps)};
+        const auto s = sample(m, wo, u, transport);
+        if (s && s->specular) sum += ljus::RgbT<double>(s->weight);
+    }
+    return sum / double(steps);
+}
+
+/// Helmholtz: f does not change when its directions are exchanged.
+template <ljus::Bsdf M>
+void check_reciprocity(const M& m, double roundoffs = 4) {
+    using T = typename M::Scalar;
+    Draws draws{17};
+    for (int i = 0; i < 5000; ++i) {
+        const auto a = draws.direction<T>(), b = draws.direction<T>();
+        const auto ab = evaluate(m, a, b), ba = evaluate(m, b, a);
+        for (int c = 0; c < 3; ++c) {
+            REQUIRE(ab[c] >= 0);
+            REQUIRE(std::abs(ab[c] - ba[c]) <=
+                    T(roundoffs) * std::numeric_limits<T>::epsilon() * ab[c]);
+        }
+        if (!(a.z * b.z > 0)) REQUIRE(ljus::is_black(ab));
+    }
+}
+
+/// For one wo: sample() and pdf() tell the same story under `which` (chi-square, false
+/// alarm 3 in 10 million for each call), weight = f |cos|/pdf, directions are unit
+/// vectors, and no lobe appears that was not asked for.
+template <ljus::Bsdf M>
+void check_sampling(const M& m, const ljus::Vec3T<typename M::Scalar>& wo,
+                    ljus::Lobes which = ljus::Lobes::all, std::uint64_t seed = 1) {
+    using T = typename M::Scalar;
+    constexpr int rows = 10, columns = 12, fine = 16, count = 60000;
+    constexpr double dphi = 2 * std::numbers::pi / columns, dz = 2.0 / rows;
+    // The last cell is for deltas and for what is absorbed.
+    std::vector<double> counts(rows * columns + 1), expected(rows * columns + 1);
+    double dense = 0;
+    for (int row = 0; row < rows; ++row)
+        for (int column = 0; column < columns; ++column) {
+            double sum = 0;
+            for (int i = 0; i < fine * fine; ++i) {
+                const double z = -1 + dz * (row + (i / fine + 0.5) / fine);
+                const double phi = dphi * (column + (i % fine + 0.5) / fine);
+                const double r = std::sqrt((1 - z) * (1 + z));
+                const ljus::Vec3T<T> wi{T(r * std::cos(phi)), T(r * std::sin(phi)),
+                                        T(z)};
+                sum += double(pdf(m, wo, wi, which));
+            }
+            const double share = sum / (fine * fine) * dz * dphi;
+            expected[static_cast<std::size_t>(row * columns + column)] = share * count;
+            dense += share;
+        }
+    CHECK(dense <= 1 + 1e-5);
+    expected.back() = std::max(0.0, 1 - dense) * count;
+    if (expected.back() < 1) expected.back() = 0; // quadrature error
+
+    Draws draws{seed};
+    const T u = std::numeric_limits<T>::epsilon() / 2;
+    for (int i = 0; i < count; ++i) {
+        const auto s = sample(m, wo, draws.cube<T>(), ljus::Transport::flux, which);
+        if (!s || s->specular) counts.back() += 1;
+        if (!s) continue;
+        REQUIRE(std::abs(glm::length(s->wi) - 1) <= 4 * u);
+        REQUIRE(has(which, s->specular ? ljus::Lobes::specular : ljus::Lobes::diffuse));
+        REQUIRE(
+            has(lobes(m), s->specular ? ljus::Lobes::specular : ljus::Lobes::diffuse));
+        if (s->specular) {
+            REQUIRE(s->pdf == 0);
+            continue;
+        }
+        REQUIRE(s->pdf > 0);
+        REQUIRE(std::abs(s->pdf - pdf(m, wo, s->wi, which)) <= 8 * u * s->pdf);
+        const auto f = evaluate(m, wo, s->wi);
+        for (int c = 0; c < 3; ++c) {
+            const T weight = f[c] * std::abs(s->wi.z) / s->pdf;
+            REQUIRE(std::abs(s->weight[c] - weight) <= 32 * u * weight);
+        }
+        const double phi = std::atan2(double(s->wi.y), double(s->wi.x));
+        const int column = std::min(
+            static_cast<int>((phi < 0 ? phi + 2 * std::numbers::pi : phi) / dphi),
+            columns - 1);
+        const int row =
+            std::min(static_cast<int>((double(s->wi.z) + 1) / dz), rows - 1);
+        counts[static_cast<std::size_t>(row * columns + column)] += 1;
+    }
+    CHECK(chi_square_agrees(counts, expected, 5.0));
+}
+
+/// At every corner of the unit cube and for steep, flat and grazing wo: no NaN, no
+/// infinity, no negative number, unit vectors only, and nothing for wo on the surface.
+template <ljus::Bsdf M>
+void check_extremes(const M& m, double most_weight) {
+    using T = typename M::Scalar;
+    const T last = std::nextafter(T(1), T(0)), tiny = std::numeric_limits<T>::min();
+    const T grid[] = {T(0), std::numeric_limits<T>::denorm_min(), T(0.5), last};
+    for (const T z : {T(1), T(0.5), T(1e-3), T(1e-6), tiny}) {
+        for (const T side : {T(1), T(-1)}) {
+            const T r = std::sqrt((1 - z) * (1 + z));
+            for (const ljus::Vec3T<T> wo :
+                 {ljus::Vec3T<T>{r, 0, side * z}, ljus::Vec3T<T>{0, -r, side * z}})
+                for (const T x : grid)
+                    for (const T y : grid)
+                        for (const T w : grid) {
+                            const auto s = sample(m, wo, ljus::Vec3T<T>{x, y, w},
+                                                  ljus::Transport::flux);
+                            if (!s) continue;
+                            REQUIRE(std::abs(glm::length(s->wi) - 1) <=
+                                    2 * std::numeric_limits<T>::epsilon());
+                            REQUIRE(ljus::is_finite(s->weight));
+                            REQUIRE(std::isfinite(s->pdf));
+                            REQUIRE(s->pdf >= 0);
+                            for (int c = 0; c < 3; ++c) {
+                                REQUIRE(s->weight[c] >= 0);
+                                REQUIRE(double(s->weight[c]) <= most_weight);
+                            }
+                            REQUIRE(ljus::is_finite(evaluate(m, wo, s->wi)));
+                        }
+        }
+    }
+    const ljus::Vec3T<T> u{T(0.5), T(0.5), T(0.5)};
+    CHECK_FALSE(sample(m, ljus::Vec3T<T>{1, 0, 0}, u, ljus::Transport::radiance));
+    CHECK(
+        ljus::is_black(evaluate(m, ljus::Vec3T<T>{1, 0, 0}, ljus::Vec3T<T>{0, 0, 1})));
+    CHECK(pdf(m, ljus::Vec3T<T>{0, 0, 1}, ljus::Vec3T<T>{1, 0, 0}) == 0);
+    // With nothing to choose from there is nothing.
+    const ljus::Vec3T<T> up{0, 0, 1};
+    CHECK_FALSE(sample(m, up, u, ljus::Transport::flux, ljus::Lobes::none));
+    CHECK(pdf(m, up, up, ljus::Lobes::none) == 0);
+    CHECK(pdf(m, up, up, ljus::Lobes::specular) == 0);
+}
+
+/// The sentence with which check() refuses a material; empty if it does not.
+template <ljus::Bsdf M>
+std::string refusal(const M& m) {
+    try {
+        check(m);
+    } catch (const std::invalid_argument& error) {
+        return error.what();
+    }
+    return "";
+}
+
+} // namespace ljus_test
