@@ -139,9 +139,10 @@ void picture_of_photons(const examples::Options& options, long long count) {
 
 /// The roulette of the report's program: who survives is not divided by the probability.
 // [uncompensated]
-std::optional<Rgb> play_uncompensated(const Rgb& flux, const Rgb& weight, float u) {
+std::optional<Rgb> play_uncompensated(Rgb flux, Rgb weight, float u) {
     const Rgb reflected = flux * weight;
-    if (!(u < max_component(reflected) / max_component(flux))) return std::nullopt;
+    const float probability = max_component(reflected) / max_component(flux);
+    if (!(u < probability)) return std::nullopt;
     return reflected;
 }
 // [uncompensated]

@@ -118,7 +118,8 @@ TEST_CASE(
     // Known values for glass, from outside.
     const double table[][2] = {{0, 0.0400},  {45, 0.0502}, {60, 0.0892},
                                {75, 0.2531}, {85, 0.6133}, {89, 0.9037}};
-    for (const auto& [degrees, r] : table) {
+    for (const auto& row : table) {
+        const double degrees = row[0], r = row[1];
         CAPTURE(degrees);
         const double c = ljus_test::at_degrees<double>(degrees).z;
         CHECK(std::abs(fresnel(c, 1.0, 1.5) - r) < 2e-3);

@@ -147,7 +147,8 @@ TEST_CASE(
     const double table[][2] = {{0, 2 * 1.5 / (1.5 * 1.5 + 1)}, {60, 0.8362}};
     Draws draws;
     constexpr int count = 200000;
-    for (const auto& [degrees, expected] : table) {
+    for (const auto& row : table) {
+        const double degrees = row[0], expected = row[1];
         CAPTURE(degrees);
         int passed = 0;
         for (int i = 0; i < count; ++i) {

@@ -82,7 +82,8 @@ TEST_CASE(
     "oren_nayar: the albedo of white, as measured before and as integrated by hand") {
     const double table[][3] = {{0.5, 0, 0.785}, {0.5, 45, 0.851}, {0.5, 80, 0.929},
                                {1, 0, 0.624},   {1, 45, 0.707},   {1, 80, 0.805}};
-    for (const auto& [sigma, degrees, albedo] : table) {
+    for (const auto& row : table) {
+        const double sigma = row[0], degrees = row[1], albedo = row[2];
         CAPTURE(sigma);
         CAPTURE(degrees);
         const OrenNayarT<double> m{.albedo = ljus::RgbT<double>{1.0}, .sigma = sigma};

@@ -146,9 +146,9 @@ TEST_CASE("path log: each term of the photon mapper has the one owner of the tab
                                            std::regex("ES*L|ES*DL|ES*DS\\+L")));
             }
         }
-        for (const auto& [path, who] : owners) {
-            CAPTURE(path);
-            CHECK(who.size() == 1);
+        for (const auto& carried : owners) {
+            CAPTURE(carried.first);
+            CHECK(carried.second.size() == 1);
         }
         CHECK(terms["emission"] > 10); // by the mirror; no lamp is in view
         CHECK(terms["shadow ray"] > 2000);

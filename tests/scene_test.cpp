@@ -127,36 +127,36 @@ TEST_CASE("scene: lights are numbered as they come") {
     CHECK(is_black(room.object({0, 0}).emission));
 }
 
-namespace {
+namespace glowing {
 
 /// A material that shines by itself.
 struct Glow {
     using Scalar = float;
     Rgb own{2, 0, 0};
 };
-Lobes lobes(const Glow&) {
+inline Lobes lobes(const Glow&) {
     return Lobes::none;
 }
-Rgb evaluate(const Glow&, const Vec3&, const Vec3&) {
+inline Rgb evaluate(const Glow&, const Vec3&, const Vec3&) {
     return Rgb{0};
 }
-float pdf(const Glow&, const Vec3&, const Vec3&, Lobes) {
+inline float pdf(const Glow&, const Vec3&, const Vec3&, Lobes) {
     return 0;
 }
-std::optional<BsdfSample> sample(const Glow&, const Vec3&, const Vec3&, Transport,
-                                 Lobes) {
+inline std::optional<BsdfSample> sample(const Glow&, const Vec3&, const Vec3&,
+                                        Transport, Lobes) {
     return std::nullopt;
 }
-void check(const Glow&) {}
-Rgb emission(const Glow& glow) {
+inline void check(const Glow&) {}
+inline Rgb emission(const Glow& glow) {
     return glow.own;
 }
 
-} // namespace
+} // namespace glowing
 
 TEST_CASE("scene: what a material emits is added to what the shape emits") {
-    Scene<Shapes<Sphere>, Materials<Glow, Lambertian>> scene;
-    const auto glow = scene.add(Glow{});
+    Scene<Shapes<Sphere>, Materials<glowing::Glow, Lambertian>> scene;
+    const auto glow = scene.add(glowing::Glow{});
     const auto alone = scene.add(Sphere{}, glow);
     const auto both = scene.add(Sphere{}, glow, Rgb{1, 1, 0});
     CHECK(scene.object(alone).emission == Rgb{2, 0, 0});

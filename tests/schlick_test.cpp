@@ -50,7 +50,8 @@ TEST_CASE("schlick: the curve for glass that the report's program did not have")
 TEST_CASE("schlick: the largest error against Fresnel is as measured before") {
     const double table[][2] = {
         {1.15, 0.151}, {1.33, 0.060}, {1.47, 0.038}, {1.5, 0.036}, {2.42, 0.076}};
-    for (const auto& [n, error] : table) {
+    for (const auto& row : table) {
+        const double n = row[0], error = row[1];
         CAPTURE(n);
         const auto in = largest(
             1, n, [n](double c) { return ljus::schlick_dielectric(c, 1.0, n); });

@@ -55,7 +55,6 @@ TEST_CASE("stratified: rooks stand only where no grid is square enough") {
 
 TEST_CASE_TEMPLATE("stratified: of 1 to 1000 rays each has a cell of its own", T, float,
                    double) {
-    ljus_test::Numbers n;
     for (int rays = 1; rays <= 1000; ++rays) {
         const Strata s = strata_for(rays);
         std::set<int> cells;

@@ -40,8 +40,8 @@ template <std::floating_point T>
 /// A fixed distance (the report's program has four, from 0.0001 to 0.1) is too long for
 /// a small scene and too short far from the origin. Here the distance is twice the
 /// error of the point, along the normal, and 4 units in the last place of its largest
-/// coordinate for the rounding of the sum. A point of a wall through the origin may have
-/// no coordinate but 0: then the error in the wall's plane gives the scale.
+/// coordinate for the rounding of the sum. A point of a wall through the origin may
+/// have no coordinate but 0: then the error in the wall's plane gives the scale.
 ///
 /// \param point      A point of the surface, with its error.
 /// \param direction  Where the ray goes; its length does not matter.

@@ -126,8 +126,8 @@ template <typename Scene, std::floating_point T>
 /// \param choice   Of the scene's lights; at least one.
 /// \param targets  The objects; at least one.
 /// \param stream   Six numbers are drawn.
-/// \return The photon; nothing if its direction lies behind the light, or if all targets
-///         are points.
+/// \return The photon; nothing if its direction lies behind the light, or if all
+///         targets are points.
 /// \cost One cone a target.
 /// \report{Section 3.2.2.2} \cite jensen1996
 /// \erratum{The program behind the report does not correct for the density of the

@@ -63,20 +63,15 @@ template <typename... T>
     return {};
 }
 
-/// What one part adds to the lists, and to the scene.
+/// What one part adds to the lists; placed() shapes and point lights are parts.
 template <typename Part>
-struct PartOf; // of nothing else: make_scene() takes placed() shapes and point lights
+struct PartOf;
 
 /// \copydoc PartOf
 template <typename S, typename M>
 struct PartOf<Placed<S, M>> {
     using Shape = TypeList<S>;    ///< Its shape.
     using Material = TypeList<M>; ///< Its material.
-    /// Adds it to a scene that lists both.
-    template <typename Scene>
-    static void add(Scene& scene, const Placed<S, M>& part) {
-        scene.add(part.shape, scene.add(part.material), part.emission, part.inside_out);
-    }
 };
 
 /// \copydoc PartOf
@@ -84,12 +79,23 @@ template <typename T>
 struct PartOf<PointLightT<T>> {
     using Shape = TypeList<>;    ///< None.
     using Material = TypeList<>; ///< None.
-    /// Adds it to a scene.
-    template <typename Scene>
-    static void add(Scene& scene, const PointLightT<T>& light) {
-        scene.add(light);
-    }
 };
+
+/// Adds a part to a scene that lists its types.
+/// \param scene  The scene.
+/// \param part   A placed() shape.
+template <typename Scene, typename S, typename M>
+void add_part(Scene& scene, const Placed<S, M>& part) {
+    scene.add(part.shape, scene.add(part.material), part.emission, part.inside_out);
+}
+
+/// Adds a point light to a scene.
+/// \param scene  The scene.
+/// \param light  The light.
+template <typename Scene, typename T>
+void add_part(Scene& scene, const PointLightT<T>& light) {
+    scene.add(light);
+}
 
 /// What make_scene() takes: placed() shapes and point lights.
 template <typename Part>
@@ -120,7 +126,7 @@ template <ScenePart... Part>
 requires(PlacedPart<Part> || ...) [[nodiscard]] auto make_scene(const Part&... parts) {
     auto scene = scene_of((TypeList<>{} + ... + typename PartOf<Part>::Shape{}),
                           (TypeList<>{} + ... + typename PartOf<Part>::Material{}));
-    (PartOf<Part>::add(scene, parts), ...);
+    (add_part(scene, parts), ...);
     return scene;
 }
 // [make_scene]

@@ -28,6 +28,7 @@ struct Materials {};
 /// Whether no type is listed twice.
 template <typename... T>
 inline constexpr bool each_once = true;
+/// The first is not among the rest, and neither is any of them listed twice.
 template <typename First, typename... T>
 inline constexpr bool each_once<First, T...> =
     !(std::is_same_v<First, T> || ...) && each_once<T...>;

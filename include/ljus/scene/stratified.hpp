@@ -71,8 +71,8 @@ struct Strata {
 /// \param ray     Its number, in [0, rays).
 /// \param key     Of the pixel; decides which rooks stand where.
 /// \param u       Where in its cell: point of the unit square.
-/// \return Point of the unit square, uniform over all rays and keys; rounding may put it
-///         onto the far border of its cell, and so onto 1.
+/// \return Point of the unit square, uniform over all rays and keys; rounding may put
+///         it onto the far border of its cell, and so onto 1.
 /// \report{Section 3.2}
 // [stratified]
 template <std::floating_point T>
