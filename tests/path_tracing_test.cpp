@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <initializer_list>
+#include <limits>
 #include <numbers>
 
 #include "ljus/materials/glass.hpp"
@@ -99,7 +100,12 @@ TEST_CASE_TEMPLATE("path tracing: in a furnace every path of a given length brin
                 CAPTURE(albedo);
                 CAPTURE(depth);
                 CAPTURE(shadow_rays);
-                const double rounding = sizeof(T) == 4 ? 2e-4 : 1e-11;
+                // Two points at distance d have the cosines d/2R, rounded to some units
+                // of R/d each: a relative error of u (2R/d)^2 and the nearest of the N
+                // pairs of points of such a check has (2R/d)^2 = N, at most 6000. With
+                // a factor of 3 for the steps of the arithmetic: 18000 u.
+                const double rounding =
+                    9000 * double(std::numeric_limits<T>::epsilon());
                 double worst = 0;
                 Counts counts;
                 for (std::uint64_t path = 0; path < 200; ++path) {
