@@ -27,6 +27,7 @@ template <typename T>
 ///
 /// \f[ R(\theta) = R_0 + (1 - R_0)(1 - \cos\theta)^5 \f]
 ///
+/// by Schlick (1994) \cite schlick1994.
 /// \param r0         Reflectance at normal incidence, in [0, 1]; see schlick_r0().
 /// \param cos_theta  Cosine between ray and normal in the thinner medium, in [0, 1].
 /// \return The reflectance, from r0 to exactly 1 at grazing incidence.
