@@ -329,3 +329,60 @@ TEST_CASE("photon mapping: a matt ball embedded in glass in a furnace") {
     CHECK(std::abs(apart(seen, right)) < 3);
     CHECK(seen.error() < 0.01 * right);
 }
+
+TEST_CASE("photon mapping: lamps and matt balls within clear and coloured glass") {
+    // As path tracing, within 3 standard errors: six means.
+    enum class Within { ball_lamp, quad_lamp, matt_ball };
+    for (const Within within :
+         {Within::ball_lamp, Within::quad_lamp, Within::matt_ball})
+        for (const float alpha : {0.0f, 1.5f}) {
+            Room room;
+            const auto white = room.add(Lambertian{.albedo = Rgb{0.5f}});
+            const auto black = room.add(Lambertian{.albedo = Rgb{0}});
+            const auto glass = room.add(Glass{.absorption = Rgb{alpha}});
+            room.add(Quad{.corner{-2, 0, -2}, .edge_u{0, 0, 4}, .edge_v{4, 0, 0}},
+                     white);
+            room.add(Sphere{.center{0, 1, 0}, .radius = 0.8f}, glass);
+            const Sphere inner{.center{0, 1.1f, 0}, .radius = 0.3f};
+            if (within == Within::ball_lamp) {
+                room.add(inner, black, Rgb{5});
+            } else if (within == Within::quad_lamp) {
+                room.add(Quad{.corner{-0.2f, 1.1f, -0.2f},
+                              .edge_u{0.4f, 0, 0},
+                              .edge_v{0, 0, 0.4f}},
+                         black, Rgb{5});
+            } else {
+                room.add(inner, white);
+                room.add(Sphere{.center{1.3f, 2.2f, 0}, .radius = 0.4f}, black, Rgb{5});
+            }
+            // Onto the floor, or into the glass from above.
+            const auto ray = [&](RandomStream& stream) {
+                const Vec2 u = 2.0f * next_2d<float>(stream) - Vec2{1};
+                if (within == Within::matt_ball)
+                    return Ray{.origin{0.2f, 3, 0.1f},
+                               .direction = glm::normalize(
+                                   Vec3{0.15f * u.x - 0.1f, -1, 0.15f * u.y})};
+                return Ray{.origin{1.8f * u.x, 0.01f, 1.8f * u.y},
+                           .direction{0, -1, 0}};
+            };
+            const Mean traced = mean_radiance(make_path_tracer(room), 200000, 1, ray);
+            Mean mapped;
+            for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+                PhotonMapping settings;
+                settings.caustics = {.photons = 10000, .seed = seed, .threads = 1};
+                // The cap of the ball under a disc of radius r is r^2 / 2R high, 0.17 r.
+                settings.gather_caustics = {.radius = 0.1f, .thickness = 0.2f};
+                const auto maps = make_photon_maps(room, settings);
+                const PhotonMapper<Room> mapper{room, maps, settings};
+                mapped.add(mean_radiance(mapper, 10000, seed, ray).mean);
+            }
+            CAPTURE(static_cast<int>(within));
+            CAPTURE(alpha);
+            CAPTURE(traced.mean);
+            CAPTURE(traced.error());
+            CAPTURE(mapped.mean);
+            CAPTURE(mapped.error());
+            CHECK(std::abs(apart(mapped, traced)) < 3);
+            CHECK(std::hypot(mapped.error(), traced.error()) < 0.02 * traced.mean);
+        }
+}

@@ -28,3 +28,9 @@ ljus_break_it(NAME photon-mapping-shadow HEADER render/photon_mapping.hpp
     FROM "return kind != PhotonKind::shadow;"
     TO   "return kind != PhotonKind::caustic;"
     CASES "photon mapping: the general map*")
+
+# A lamp within coloured glass shines as if the glass were clear.
+ljus_break_it(NAME photon-mapping-start HEADER photons/tracing.hpp TEST photon_mapping
+    FROM "bounce == 1 && wo.z < T(0)"
+    TO   "false"
+    CASES "photon mapping: lamps and matt balls*")

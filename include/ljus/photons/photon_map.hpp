@@ -70,7 +70,8 @@ struct Gather {
     std::size_t nearest = 0;              ///< k within the radius; 0: all within it.
     Kernel kernel = Kernel::epanechnikov; ///< The weight by distance.
     float thickness = 0.1f; ///< Half the height of the disc over its radius: photons of
-                            ///< another wall lie outside.
+                            ///< another wall lie outside; on a ball of radius R, those
+                            ///< farther than 2R times this do too, and are lost.
 };
 
 /// Refuses a way to gather that gives no estimate.

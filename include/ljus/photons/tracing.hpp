@@ -131,6 +131,10 @@ void trace(const Scene& scene, PhotonLaw law, FlightT<T> flight,
             return;
         }
         const SurfaceT<T> surface = surface_at(scene, flight.ray, *hit);
+        const Vec3T<T> wo = to_local(surface.frame, -flight.ray.direction);
+        if (bounce == 1 && wo.z < T(0)) // its light is within the glass
+            medium = scene.visit_material(surface.object.material,
+                                          [](const auto& m) { return absorption(m); });
         const RgbT<T> arrived = flight.flux * transmittance(medium, hit->at.t);
         audit.absorbed += RgbT<double>(flight.flux) - RgbT<double>(arrived);
         if (bounce == 1 && !caustics && pass.shadow_photons)
@@ -148,7 +152,6 @@ void trace(const Scene& scene, PhotonLaw law, FlightT<T> flight,
                     out.push_back({surface.point.position, flight.ray.direction,
                                    flight.flux, flight.light, kind});
 
-                const Vec3T<T> wo = to_local(surface.frame, -flight.ray.direction);
                 const Vec3T<T> u = next_3d<T>(stream);
                 const auto scattered = sample(material, wo, u, Transport::flux,
                                               caustics ? Lobes::specular : Lobes::all);
