@@ -3,6 +3,7 @@
 /// \file ljus/geometry/pair_triangles.hpp
 /// \brief Two triangles that are one parallelogram, found again.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>

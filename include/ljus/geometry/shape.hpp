@@ -88,14 +88,14 @@ template <std::floating_point T>
 [[nodiscard]] SphereT<T> bounding_sphere(const TriangleT<T>& triangle) noexcept {
     const Vec3T<T> center = (triangle.v1 + triangle.v2 + triangle.v3) / T(3);
     return {.center = center,
-            .radius = std::max({glm::distance(center, triangle.v1),
-                                glm::distance(center, triangle.v2),
-                                glm::distance(center, triangle.v3)})};
+            .radius = max_component(Vec3T<T>{glm::distance(center, triangle.v1),
+                                             glm::distance(center, triangle.v2),
+                                             glm::distance(center, triangle.v3)})};
 }
 template <std::floating_point T>
 [[nodiscard]] SphereT<T> bounding_sphere(const QuadT<T>& quad) noexcept {
     return {.center = quad.corner + (quad.edge_u + quad.edge_v) / T(2),
-            .radius = std::max(glm::length(quad.edge_u + quad.edge_v),
+            .radius = glm::max(glm::length(quad.edge_u + quad.edge_v),
                                glm::length(quad.edge_u - quad.edge_v)) /
                       T(2)};
 }

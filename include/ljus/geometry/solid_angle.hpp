@@ -114,7 +114,7 @@ template <std::floating_point T>
     const T distance = glm::distance(sphere.center, from);
     const T sine2 = local.x * local.x + local.y * local.y;
     const T half_chord2 = sphere.radius * sphere.radius - distance * distance * sine2;
-    const T t = distance * local.z - std::sqrt(std::max(T(0), half_chord2));
+    const T t = distance * local.z - std::sqrt(glm::max(T(0), half_chord2));
     const RayT<T> ray{.origin = from, .direction = direction};
     return {.point = surface_point(sphere, ray, {.t = t}),
             .pdf = pdf_uniform_cone(cone.one_minus_cos)};

@@ -3,7 +3,6 @@
 /// \file ljus/geometry/surface.hpp
 /// \brief A point of a surface, how well it is known, and how a ray leaves it.
 
-#include <algorithm>
 #include <limits>
 
 #include "ljus/geometry/ray.hpp"
@@ -53,7 +52,7 @@ template <std::floating_point T>
                              const Vec3T<T>& direction) noexcept {
     const Vec3T<T>& n = point.normal;
     const T scale = max_component(glm::abs(point.position) + point.error);
-    const T last_place = std::max(scale * std::numeric_limits<T>::epsilon(),
+    const T last_place = glm::max(scale * std::numeric_limits<T>::epsilon(),
                                   std::numeric_limits<T>::min());
     const T distance = T(2) * glm::dot(glm::abs(n), point.error) + T(4) * last_place;
     return point.position + std::copysign(distance, glm::dot(direction, n)) * n;

@@ -3,7 +3,6 @@
 /// \file ljus/geometry/triangle.hpp
 /// \brief The triangle, and where a ray meets it (Moeller and Trumbore).
 
-#include <algorithm>
 #include <limits>
 #include <optional>
 

@@ -3,6 +3,7 @@
 /// \file ljus/photons/tracing.hpp
 /// \brief How a photon goes through a scene, and where it leaves its mark.
 
+#include <algorithm>
 #include <vector>
 
 #include "ljus/optics/absorption.hpp"

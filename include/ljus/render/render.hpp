@@ -3,6 +3,7 @@
 /// \file ljus/render/render.hpp
 /// \brief The pixel loop.
 
+#include <algorithm>
 #include <optional>
 
 #include "ljus/image/image.hpp"

@@ -3,6 +3,8 @@
 /// \file ljus/render/shading.hpp
 /// \brief What every renderer does at a hit.
 
+#include <algorithm>
+
 #include "ljus/math/random.hpp"
 #include "ljus/optics/absorption.hpp"
 #include "ljus/scene/query.hpp"
