@@ -31,9 +31,9 @@ template <typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<FlatHitT<T>> intersect(const RayT<T>& ray,
                                                    const QuadT<T>& quad) noexcept {
     using C = ComputeT<Compute, T>;
-    return moller_trumbore<C>(
-        ray, Vec3T<C>{quad.corner}, Vec3T<C>{quad.edge_u}, Vec3T<C>{quad.edge_v},
-        [](C u, C v) { return u >= C(0) && v >= C(0) && u <= C(1) && v <= C(1); });
+    return moller_trumbore<C>(ray, Vec3T<C>{quad.corner}, Vec3T<C>{quad.edge_u},
+                              Vec3T<C>{quad.edge_v},
+                              [](C, C v) { return v >= C(0) && v <= C(1); });
 }
 
 /// \f$ E_1 \times E_2 \f$, in double, as for a triangle.

@@ -50,8 +50,8 @@ struct FlatHitT {
 /// \param v1      A corner.
 /// \param e1      The edge along which u runs.
 /// \param e2      The edge along which v runs.
-/// \param inside  Whether (u, v) lies in the shape, which is part of 0 <= u <= 1; false
-///                for NaN.
+/// \param inside  Whether (u, v), of which 0 <= u <= 1 is known, lies in the shape;
+///                false for NaN.
 /// \return Distance and coordinates; nothing for a miss or a non-finite input.
 /// \cost One division, 25 multiplications, and 6 more for t \cite moller1997.
 /// \report{Section 3.1.5}
@@ -97,9 +97,9 @@ template <typename Compute = void, std::floating_point T>
 intersect(const RayT<T>& ray, const TriangleT<T>& triangle) noexcept {
     using C = ComputeT<Compute, T>;
     const Vec3T<C> v1{triangle.v1};
-    return moller_trumbore<C>(
-        ray, v1, Vec3T<C>{triangle.v2} - v1, Vec3T<C>{triangle.v3} - v1,
-        [](C u, C v) { return u >= C(0) && v >= C(0) && u + v <= C(1); });
+    return moller_trumbore<C>(ray, v1, Vec3T<C>{triangle.v2} - v1,
+                              Vec3T<C>{triangle.v3} - v1,
+                              [](C u, C v) { return v >= C(0) && u + v <= C(1); });
 }
 // [intersect]
 
