@@ -346,24 +346,25 @@ TEST_CASE("kd_tree: each range is split in the middle, by one of the axes") {
         CAPTURE(set.name);
         const KdTree tree{std::span<const Vec3>(set.points)};
         const auto& p = tree.points();
-        // Halves that differ by one point at most: the depth is that of a balanced
-        // tree, whatever the points.
+        // Halves that differ by one point at most, down to leaves of 16: the depth is
+        // that of a balanced tree, whatever the points.
         const auto split = [&](auto self, std::size_t first, std::size_t last) -> int {
-            if (first >= last) return 0;
+            if (last - first <= 16) return 0;
             const std::size_t middle = first + (last - first) / 2;
             bool by_an_axis = false;
             for (int axis = 0; axis < 3; ++axis) {
-                bool fits = true;
-                for (std::size_t i = first; i < last; ++i)
-                    fits = fits && (i < middle ? p[i][axis] <= p[middle][axis]
-                                               : p[i][axis] >= p[middle][axis]);
-                by_an_axis = by_an_axis || fits;
+                float low_end = p[first][axis];
+                float high_start = p[middle][axis];
+                for (std::size_t i = first; i < middle; ++i)
+                    low_end = std::max(low_end, p[i][axis]);
+                for (std::size_t i = middle; i < last; ++i)
+                    high_start = std::min(high_start, p[i][axis]);
+                by_an_axis = by_an_axis || low_end <= high_start;
             }
             REQUIRE(by_an_axis);
-            return 1 +
-                   std::max(self(self, first, middle), self(self, middle + 1, last));
+            return 1 + std::max(self(self, first, middle), self(self, middle, last));
         };
-        CHECK(split(split, 0, p.size()) == 10); // 2^9 <= 777 < 2^10
+        CHECK(split(split, 0, p.size()) == 6); // 2^5 * 16 < 777 <= 2^6 * 16
     }
 }
 
@@ -393,15 +394,19 @@ TEST_CASE("kd_tree: no set of points makes a search slow") {
     }
 }
 
-TEST_CASE("kd_tree: one way down is as long as the depth of a balanced tree") {
+TEST_CASE("kd_tree: a search far from all points ends at once") {
     for (const auto& set : point_sets<float>(100000, 1, 0)) {
         const KdTree tree{std::span<const Vec3>(set.points)};
-        int steps = 0;
+        int points = 0;
+        int boxes = 0;
         tree.walk(
-            Vec3{100, 0, 0}, [&](auto, double) { ++steps; },
-            [](double) { return false; });
-        CHECK(steps <= 17); // 2^16 <= 100000 < 2^17
-        CHECK(steps >= 16);
+            Vec3{100, 0, 0}, [&](auto, double) { ++points; },
+            [&](double distance2) {
+                ++boxes;
+                return distance2 <= 1;
+            });
+        CHECK(points == 0);
+        CHECK(boxes == 1);
     }
 }
 

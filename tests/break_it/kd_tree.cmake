@@ -4,11 +4,16 @@ ljus_break_it(NAME kd-tree-cube HEADER photons/kd_tree.hpp TEST kd_tree
     TO   "std::max({offset.x * offset.x, offset.y * offset.y, offset.z * offset.z})"
     CASES "kd_tree: the ball is closed*")
 
-# The tree of the textbook compares while it walks: points equal to the root's coordinate
-# are on one side only, it believes. They are on both.
+# Where two halves touch, the centre is in both, and equal points lie on either side.
 ljus_break_it(NAME kd-tree-equal-keys HEADER photons/kd_tree.hpp TEST kd_tree
-    FROM "if (!reaches("
-    TO   "if (from_plane == 0 || !reaches("
+    FROM "if (reaches(to_high))"
+    TO   "if ((to_high > 0 || !low_first) && reaches(to_high))"
+    CASES "kd_tree: every search*")
+
+# A box without its far end.
+ljus_break_it(NAME kd-tree-box HEADER photons/kd_tree.hpp TEST kd_tree
+    FROM "box.high = glm::max(box.high, points[order_[i]]);"
+    TO   ""
     CASES "kd_tree: every search*")
 
 # An open ball in the walk, a closed one at the point: points on the border are found on
@@ -32,8 +37,8 @@ ljus_break_it(NAME kd-tree-ties HEADER photons/kd_tree.hpp TEST kd_tree
 
 # Differences in float: near the border of the ball they decide wrongly.
 ljus_break_it(NAME kd-tree-float HEADER photons/kd_tree.hpp TEST kd_tree
-    FROM "glm::dvec3(center) - glm::dvec3(points_[middle])"
-    TO   "glm::dvec3(center - points_[middle])"
+    FROM "center - glm::dvec3(points_[i])"
+    TO   "glm::dvec3(Vec3T<T>(center) - points_[i])"
     CASES "kd_tree: every search*")
 
 # A square forgets the sign.

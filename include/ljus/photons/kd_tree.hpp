@@ -56,8 +56,9 @@ struct Nearest {
     }
 };
 
-/// A balanced k-d tree \cite bentley1975 without a single pointer: the middle of each
-/// range of the array is its root, the halves on either side are its subtrees.
+/// A balanced k-d tree \cite bentley1975 without a single pointer: each range of the
+/// array is halved at the median of its longest side, down to leaves of a few points.
+/// Each range knows its box, so that a search far from all photons ends at once.
 ///
 /// The tree keeps the positions; what belongs to them is the caller's, put into the
 /// tree's order with order(). Searches are const, take no memory, and may run on any
@@ -71,7 +72,8 @@ public:
     /// Builds the tree.
     /// \param points  Any points, equal ones too; below 2^32.
     /// \throws std::invalid_argument  if a point is not finite.
-    /// \cost O(n log n), whatever the points; 17 bytes a point in float.
+    /// \cost O(n log n), whatever the points; 16 bytes a point in float, and 3 to 12
+    ///       for the boxes.
     explicit KdTreeT(std::span<const Vec3T<T>> points);
 
     /// Where the points came from: order()[i] is the number of the i-th point of the
@@ -134,33 +136,56 @@ public:
     }
     // [nearest]
 
-    /// The way that every search takes, and that a search of your own can take: down
-    /// the side where the centre lies, then the root, then the other side.
+    /// The way that every search takes, and that a search of your own can take: of the
+    /// two halves of a range the nearer one first.
     /// \param center   Where the search is.
     /// \param offer    Called as offer(index, distance2) with each point on the way.
-    /// \param reaches  Called as reaches(distance2) before the other side, with the
-    ///                 squared distance to the plane between: no point there is nearer.
-    ///                 False leaves them out.
+    /// \param reaches  Called as reaches(distance2) with the squared distance to the box
+    ///                 of a range: no point in it is nearer. False leaves it out.
     template <typename Offer, typename Reaches>
     void walk(const Vec3T<T>& center, Offer&& offer, Reaches&& reaches) const {
-        descend(0, points_.size(), center, offer, reaches);
+        const glm::dvec3 c(center);
+        if (!points_.empty() && reaches(distance2(boxes_[0], c)))
+            descend(0, 0, points_.size(), c, offer, reaches);
     }
 
 private:
+    /// Where the points of a range lie.
+    struct Box {
+        Vec3T<T> low{T(0)};
+        Vec3T<T> high{T(0)};
+    };
+
+    // A range of so many points is searched one by one.
+    static constexpr std::size_t leaf_size = 16;
+
+    // Rounded as the distances of points are: a point is never nearer than its box.
+    static double distance2(const Box& box, const glm::dvec3& center) noexcept {
+        double sum = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double below = double(box.low[axis]) - center[axis];
+            const double above = center[axis] - double(box.high[axis]);
+            const double outside = std::max(std::max(below, above), 0.0);
+            sum += outside * outside;
+        }
+        return sum;
+    }
+
     template <typename Offer, typename Reaches>
-    void descend(std::size_t first, std::size_t last, const Vec3T<T>& center,
-                 Offer& offer, Reaches& reaches) const;
-    void build(std::span<const Vec3T<T>> points, std::size_t first, std::size_t last);
+    void descend(std::size_t node, std::size_t first, std::size_t last,
+                 const glm::dvec3& center, Offer& offer, Reaches& reaches) const;
+    void build(std::span<const Vec3T<T>> points, std::size_t node, std::size_t first,
+               std::size_t last);
 
     std::vector<Vec3T<T>> points_;
     std::vector<std::uint32_t> order_;
-    std::vector<std::uint8_t> axis_; // by which coordinate each root splits its range
+    std::vector<Box> boxes_; // of range i; its halves are 2i + 1 and 2i + 2
 };
 using KdTree = KdTreeT<float>; ///< KdTreeT in float.
 
 // [build]
 template <std::floating_point T>
-KdTreeT<T>::KdTreeT(std::span<const Vec3T<T>> points) : axis_(points.size()) {
+KdTreeT<T>::KdTreeT(std::span<const Vec3T<T>> points) {
     require(points.size() <= std::numeric_limits<std::uint32_t>::max(),
             "the number of points in a k-d tree", static_cast<long long>(points.size()),
             "below 2^32");
@@ -169,28 +194,27 @@ KdTreeT<T>::KdTreeT(std::span<const Vec3T<T>> points) : axis_(points.size()) {
         require_finite("a point of the k-d tree", point);
         order_.push_back(static_cast<std::uint32_t>(order_.size()));
     }
-    build(points, 0, points.size());
+    if (!points.empty()) build(points, 0, 0, points.size());
     points_.reserve(points.size());
     for (const std::uint32_t index : order_) points_.push_back(points[index]);
 }
 
 template <std::floating_point T>
-void KdTreeT<T>::build(std::span<const Vec3T<T>> points, std::size_t first,
-                       std::size_t last) {
-    if (first >= last) return;
-
-    // Split along the longest side of the range's box.
-    Vec3T<T> low = points[order_[first]];
-    Vec3T<T> high = low;
+void KdTreeT<T>::build(std::span<const Vec3T<T>> points, std::size_t node,
+                       std::size_t first, std::size_t last) {
+    Box box{points[order_[first]], points[order_[first]]};
     for (std::size_t i = first; i < last; ++i) {
-        low = glm::min(low, points[order_[i]]);
-        high = glm::max(high, points[order_[i]]);
+        box.low = glm::min(box.low, points[order_[i]]);
+        box.high = glm::max(box.high, points[order_[i]]);
     }
-    const Vec3T<T> size = high / T(2) - low / T(2); // halves: no overflow
+    if (boxes_.size() <= node) boxes_.resize(node + 1);
+    boxes_[node] = box;
+    if (last - first <= leaf_size) return;
+
+    const Vec3T<T> size = box.high / T(2) - box.low / T(2); // halves: no overflow
     const int axis = size.x >= size.y && size.x >= size.z ? 0
                      : size.y >= size.z                   ? 1
                                                           : 2;
-
     // The median goes to the middle; ties are split by the point's number.
     const std::size_t middle = first + (last - first) / 2;
     const auto begin = order_.begin();
@@ -202,39 +226,35 @@ void KdTreeT<T>::build(std::span<const Vec3T<T>> points, std::size_t first,
                          const T y = points[b][axis];
                          return x < y || (x == y && a < b);
                      });
-    axis_[middle] = static_cast<std::uint8_t>(axis);
-    build(points, first, middle);
-    build(points, middle + 1, last);
+    build(points, 2 * node + 1, first, middle);
+    build(points, 2 * node + 2, middle, last);
 }
 // [build]
 
 // [walk]
 template <std::floating_point T>
 template <typename Offer, typename Reaches>
-void KdTreeT<T>::descend(std::size_t first, std::size_t last, const Vec3T<T>& center,
-                         Offer& offer, Reaches& reaches) const {
-    if (first >= last) return;
+void KdTreeT<T>::descend(std::size_t node, std::size_t first, std::size_t last,
+                         const glm::dvec3& center, Offer& offer,
+                         Reaches& reaches) const {
+    if (last - first <= leaf_size) {
+        for (std::size_t i = first; i < last; ++i) {
+            const glm::dvec3 offset = center - glm::dvec3(points_[i]);
+            offer(static_cast<std::uint32_t>(i), glm::dot(offset, offset));
+        }
+        return;
+    }
     const std::size_t middle = first + (last - first) / 2;
-    const int axis = axis_[middle];
-    const double from_plane = double(center[axis]) - double(points_[middle][axis]);
+    const double to_low = distance2(boxes_[2 * node + 1], center);
+    const double to_high = distance2(boxes_[2 * node + 2], center);
 
-    // Equal coordinates lie on both sides of the plane: which one is first is a matter
-    // of speed, whether the other is left out is for its distance to say.
-    const bool low_first = from_plane < 0;
-    if (low_first)
-        descend(first, middle, center, offer, reaches);
-    else
-        descend(middle + 1, last, center, offer, reaches);
-
-    const glm::dvec3 offset = glm::dvec3(center) - glm::dvec3(points_[middle]);
-    offer(static_cast<std::uint32_t>(middle), glm::dot(offset, offset));
-
-    // Squares are compared, rounded as those of the points are.
-    if (!reaches(from_plane * from_plane)) return;
-    if (low_first)
-        descend(middle + 1, last, center, offer, reaches);
-    else
-        descend(first, middle, center, offer, reaches);
+    // The nearer half first: what it finds may bring the other one out of reach.
+    const bool low_first = to_low <= to_high;
+    if (low_first && reaches(to_low))
+        descend(2 * node + 1, first, middle, center, offer, reaches);
+    if (reaches(to_high)) descend(2 * node + 2, middle, last, center, offer, reaches);
+    if (!low_first && reaches(to_low))
+        descend(2 * node + 1, first, middle, center, offer, reaches);
 }
 // [walk]
 
