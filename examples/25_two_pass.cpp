@@ -1,4 +1,5 @@
 // figures: fig-1 fig-15
+// takes --only
 // smoke: --quality draft --width 24 --height 24 --rays 1 --photons 1000
 /// \file 25_two_pass.cpp
 /// \brief Chapter 25: the report's renderer, whole. Figures 1 and 15.
@@ -186,6 +187,8 @@ int main(int argc, char** argv) {
         PhotonMapping settings;
         double radius = 0.1;
         line.about("Figures 1 and 15 of the report: its renderer, whole.");
+        std::string only;
+        line.add("--only", only, "Nothing but this figure", {"fig-1", "fig-15"});
         line.add("--photons", settings.caustics.photons,
                  "Photons aimed at mirrors and glass", 0, 1'000'000'000);
         line.add("--radius", radius, "Of the caustic estimate, scene units", 1e-6, 1e6);
@@ -202,8 +205,10 @@ int main(int argc, char** argv) {
         const auto room = ljus::final_room();
         if (!options.quiet)
             std::printf("%s", to_text(survey(room.scene, settings)).c_str());
-        figure("fig-1", room, settings, options);
-        figure("fig-15", ljus::all_materials_room(), settings, options);
+        if (only != "fig-15") figure("fig-1", room, settings, options);
+        if (only != "fig-1")
+            figure("fig-15", ljus::all_materials_room(), settings, options);
+        if (!only.empty()) return 0;
         parts(room, settings, options);
         trade(room, settings, options);
         return 0;
