@@ -81,6 +81,42 @@ make_photon_mapper(const Scene& scene, const PhotonMapsT<typename Scene::Scalar>
     return {scene, maps, settings};
 }
 
+/// The light that a diffuse surface sends back along a camera path, but for what comes
+/// by its indirect ray: shadow rays and the caustics map; or, where an indirect ray has
+/// ended on it, the two maps.
+/// \param mapper    The scene, the maps, the limits.
+/// \param at        The surface.
+/// \param material  What it is made of.
+/// \param gather    Whether the general map answers for all that is not a caustic.
+/// \param stream    The numbers of the path.
+/// \param counts    Counts rays and photons.
+/// \param add       Called as add(owner, letters, radiance) with each term.
+/// \report{Sections 3.2.3 and 3.2.6}
+// [light_at]
+template <typename Scene, std::floating_point T, typename Material, typename Add>
+void light_at(const PhotonMapper<Scene>& mapper, const ShadingT<T>& at,
+              const Material& material, bool gather, RandomStream& stream,
+              Counts& counts, Add& add) {
+    const PhotonMapping& settings = mapper.settings;
+    const auto ask = [&](const PhotonMapT<T>& map, const Gather& how) {
+        const auto light = [](PhotonKind kind) { return kind != PhotonKind::shadow; };
+        ++counts.map_queries;
+        return estimate_radiance(map, at.surface, material, at.wo, how, light,
+                                 counts.map_photons);
+    };
+    if (gather)
+        add("general map", "DL|D..DL",
+            ask(mapper.maps.general, settings.gather_general));
+    else
+        add("shadow ray", "DL",
+            light_of_all(mapper.scene, at, material, settings.shadow_rays, stream,
+                         counts));
+    if (!mapper.maps.caustics.empty())
+        add("caustics map", "DS+L",
+            ask(mapper.maps.caustics, settings.gather_caustics));
+}
+// [light_at]
+
 /// The radiance that one camera path finds with the help of the photon maps.
 ///
 /// At each diffuse surface: one shadow ray to each light, the caustics map, and one
@@ -92,17 +128,14 @@ make_photon_mapper(const Scene& scene, const PhotonMapsT<typename Scene::Scalar>
 /// \param counts  Counts rays and photons.
 /// \param log     Told of each vertex and each term.
 /// \return Radiance, W/(m^2 sr); biased by the radius of the estimates, and by the
-/// depth
-///         where one is set.
+///         depth where one is set.
 /// \report{Sections 3.2.3, 3.2.4 and 3.2.6}
 /// \erratum{In the report's program an indirect ray that met a lamp added it again,
-/// though
-///          the shadow ray had counted it.}
+///          though the shadow ray had counted it.}
 // [radiance]
 template <typename Scene, std::floating_point T, typename Log = NoLog>
 [[nodiscard]] RgbT<T> radiance(const PhotonMapper<Scene>& mapper, RayT<T> ray,
                                RandomStream& stream, Counts& counts, Log&& log = {}) {
-    const Scene& scene = mapper.scene;
     const PhotonMapping& settings = mapper.settings;
     RgbT<T> sum{T(0)};
     RgbT<T> throughput{T(1)};
@@ -116,57 +149,36 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
 
     for (int depth = 1; depth <= settings.max_depth; ++depth) {
         start_bounce(stream, static_cast<std::uint64_t>(depth));
-        const auto hit = closest_hit(scene, ray);
+        const auto hit = closest_hit(mapper.scene, ray);
         if (!hit) break;
-        const ShadingT<T> at = shading(scene, ray, *hit, medium);
+        const ShadingT<T> at = shading(mapper.scene, ray, *hit, medium);
         throughput *= transmittance(medium, hit->at.t);
         if (at.shines() && !met_diffuse)
             add("emission", "L", at.surface.object.emission);
 
         const bool gather = met_diffuse && settings.indirect == IndirectLight::map;
-        const bool goes_on =
-            scene.visit_material(at.surface.object.material, [&](const auto& material) {
-                const auto from_map = [&](const PhotonMapT<T>& map, const Gather& how,
-                                          auto wanted) {
-                    ++counts.map_queries;
-                    return estimate_radiance(map, at.surface, material, at.wo, how,
-                                             wanted, counts.map_photons);
-                };
-                if (has(lobes(material), Lobes::diffuse)) {
-                    if (gather) {
-                        add("general map", "DL|D..DL",
-                            from_map(mapper.maps.general, settings.gather_general,
-                                     [](PhotonKind kind) {
-                                         return kind != PhotonKind::shadow;
-                                     }));
-                    } else {
-                        add("shadow ray", "DL",
-                            light_of_all(scene, at, material, settings.shadow_rays,
-                                         stream, counts));
-                    }
-                    if (!mapper.maps.caustics.empty())
-                        add("caustics map", "DS+L",
-                            from_map(mapper.maps.caustics, settings.gather_caustics,
-                                     [](PhotonKind) { return true; }));
-                }
-                if (depth == settings.max_depth) return false;
+        const auto at_material = [&](const auto& material) {
+            if (has(lobes(material), Lobes::diffuse))
+                light_at(mapper, at, material, gather, stream, counts, add);
+            if (depth == settings.max_depth) return false;
 
-                // Go on by one branch; after gathering, by mirrors and glass only.
-                const bool no_indirect =
-                    gather || settings.indirect == IndirectLight::none;
-                const auto next =
-                    sample(material, at.wo, next_3d<T>(stream), Transport::radiance,
-                           no_indirect ? Lobes::specular : Lobes::all);
-                if (!next) return false;
-                throughput *= next->weight;
-                met_diffuse = met_diffuse || !next->specular;
-                log.vertex(next->specular ? 'S' : 'D', at.surface.point.position,
-                           throughput, next->pdf);
-                medium = medium_beyond(medium, material, at.wo, next->wi);
-                ray = ray_from(at.surface.point, to_world(at.surface.frame, next->wi));
-                return true;
-            });
-        if (!goes_on || is_black(throughput)) break;
+            // Go on by one branch; after gathering, by mirrors and glass only.
+            const bool no_indirect = gather || settings.indirect == IndirectLight::none;
+            const auto next =
+                sample(material, at.wo, next_3d<T>(stream), Transport::radiance,
+                       no_indirect ? Lobes::specular : Lobes::all);
+            if (!next) return false;
+            throughput *= next->weight;
+            met_diffuse = met_diffuse || !next->specular;
+            log.vertex(next->specular ? 'S' : 'D', at.surface.point.position,
+                       throughput, next->pdf);
+            medium = medium_beyond(medium, material, at.wo, next->wi);
+            ray = ray_from(at.surface.point, to_world(at.surface.frame, next->wi));
+            return true;
+        };
+        if (!mapper.scene.visit_material(at.surface.object.material, at_material))
+            break;
+        if (is_black(throughput)) break;
         if (depth >= settings.roulette_depth &&
             !survives(throughput, next_1d<T>(stream)))
             break;
