@@ -140,8 +140,8 @@ public:
     /// two halves of a range the nearer one first.
     /// \param center   Where the search is.
     /// \param offer    Called as offer(index, distance2) with each point on the way.
-    /// \param reaches  Called as reaches(distance2) with the squared distance to the box
-    ///                 of a range: no point in it is nearer. False leaves it out.
+    /// \param reaches  Called as reaches(distance2) with the squared distance to a
+    ///                 range's box: no point in it is nearer. False leaves it out.
     template <typename Offer, typename Reaches>
     void walk(const Vec3T<T>& center, Offer&& offer, Reaches&& reaches) const {
         const glm::dvec3 c(center);
