@@ -195,7 +195,7 @@ int main(int argc, char** argv) {
         line.add("--depth", settings.max_depth, "Surfaces on a camera path", 1,
                  1000000);
         const examples::Options options =
-            line.parse({.draft{.width = 120, .height = 120, .rays = 4},
+            line.parse({.draft{.width = 200, .height = 200, .rays = 16},
                         .report{.width = 400, .height = 400, .rays = 64},
                         .reference{.width = 500, .height = 500, .rays = 800}});
         settings.gather_caustics.radius = static_cast<float>(radius);
