@@ -1,3 +1,4 @@
+// long: 16 pictures of each of 30 rooms, a minute and a half
 #include <doctest/doctest.h>
 
 #include <algorithm>
