@@ -27,8 +27,7 @@ namespace ljus {
 /// power of two above the largest channel \cite ward1991.
 /// \param c  Every channel at least 0 and below 1.69e38.
 /// \return R, G, B, E; zeros below 2.9e-39. Decoded, a channel is off by at most 1/256
-/// of
-///         the largest one, without a preferred direction.
+///         of the largest one, without a preferred direction.
 // [to_rgbe]
 [[nodiscard]] inline std::array<unsigned char, 4>
 to_rgbe(const RgbT<double>& c) noexcept {

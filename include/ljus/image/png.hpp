@@ -71,8 +71,7 @@ struct PngOptions {
 /// \param options  Exposure.
 /// \return The file, 8 bits a channel, sRGB.
 /// \throws std::invalid_argument  for an image without pixels or an exposure that is
-/// not
-///         finite.
+///         not finite.
 template <std::floating_point T>
 [[nodiscard]] Bytes encode_png(const ImageT<T>& image, const PngOptions& options = {}) {
 #ifdef LJUS_HAS_STB

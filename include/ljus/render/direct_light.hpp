@@ -21,14 +21,13 @@ namespace ljus {
 /// \param material  What it is made of.
 /// \param u         Point of the unit square: which point of the light.
 /// \param weigh     Called with the sample, the direction in the surface's frame, and
-/// its
-///                  cosine; returns the factor of multiple importance sampling, or 1.
+///                  its cosine; returns the factor of multiple importance sampling, or
+///                  1.
 /// \param counts    Counts the ray; none is cast where the surface cannot reflect.
 /// \return Radiance towards wo.
 /// \report{Section 3.2.3}
 /// \erratum{The report's program divides the sum over the lights by their number, so
-/// that
-///          a second lamp dims the first.}
+///          that a second lamp dims the first.}
 // [direct_light]
 template <typename Scene, std::floating_point T, typename Material, typename Weigh>
 [[nodiscard]] RgbT<T> direct_light(const Scene& scene, const LightT<T>& light,

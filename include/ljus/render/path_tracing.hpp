@@ -55,9 +55,9 @@ template <std::floating_point T>
 /// The density with which the tracer's shadow rays from a surface choose a point of a
 /// lamp.
 /// \param tracer  The tracer.
-/// \param from  The surface that the shadow rays leave.
-/// \param hit  The point of the lamp.
-/// \param at  The same, as a surface.
+/// \param from    The surface that the shadow rays leave.
+/// \param hit     The point of the lamp.
+/// \param at      The same, as a surface.
 /// \return Per steradian.
 template <typename Scene, std::floating_point T>
 [[nodiscard]] T pdf_of_light(const PathTracer<Scene>& tracer, const Vec3T<T>& from,

@@ -72,8 +72,7 @@ template <typename Renderer, std::floating_point T, typename Log = NoLog>
 /// \param camera    The camera.
 /// \param picture   Size, rays, seed, threads.
 /// \return The picture, the same for any number of threads. A sample that is not finite
-/// is
-///         left out and counted.
+///         is left out and counted.
 /// \throws std::invalid_argument  if the size or the number of rays is below 1.
 // [render]
 template <typename Renderer, std::floating_point T>

@@ -58,8 +58,7 @@ struct LightSampleT {
 /// \param from   The lit point.
 /// \param u      Point of the unit square.
 /// \return The sample; nothing if the light does not shine in this direction: emission
-/// is
-///         one-sided, along the normal.
+///         is one-sided, along the normal.
 /// \report{Section 3.2.3}
 /// \erratum{The program behind the report leaves out the light's area and the inverse
 ///          square: a wall ten times as far was lit as brightly.}
