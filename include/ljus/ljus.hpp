@@ -3,6 +3,11 @@
 /// \file ljus/ljus.hpp
 /// \brief Everything, but the headers that need a package of their own (load_json.hpp).
 
+#include "ljus/geometry/field_on_ray.hpp"
+#include "ljus/geometry/isosurface.hpp"
+#include "ljus/geometry/metaball_line.hpp"
+#include "ljus/geometry/metaball_quartic.hpp"
+#include "ljus/geometry/metaballs.hpp"
 #include "ljus/geometry/pair_triangles.hpp"
 #include "ljus/geometry/quad.hpp"
 #include "ljus/geometry/ray.hpp"
@@ -28,6 +33,8 @@
 #include "ljus/materials/oren_nayar.hpp"
 #include "ljus/math/frame.hpp"
 #include "ljus/math/lanes.hpp"
+#include "ljus/math/polynomial.hpp"
+#include "ljus/math/quartic_formula.hpp"
 #include "ljus/math/random.hpp"
 #include "ljus/math/require.hpp"
 #include "ljus/math/sampling.hpp"
