@@ -204,7 +204,7 @@ TEST_CASE("polynomial: no root is lost, none is invented, and they come in order
                     worst_residual, worst_error, lost_by_formula);
         INFO(names[f]);
         CHECK(bad == 0);
-        CHECK(worst_residual <= 3);
+        CHECK(worst_residual <= 1);
         if (family == cubic) CHECK(worst_error < 1e-7);
     }
 }

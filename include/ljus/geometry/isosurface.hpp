@@ -72,7 +72,8 @@ template <typename Solver = SphereTracing, std::floating_point T, LipschitzField
     const LipschitzLine<Field> line{surface.field, wide, glm::length(wide.direction),
                                     inside->enter, inside->leave};
     const auto t = first_meeting(solver, line, double(ray.t_min), double(ray.t_max));
-    return t ? std::optional<T>(static_cast<T>(*t)) : std::nullopt;
+    if (!t || !(*t <= std::numeric_limits<T>::max())) return std::nullopt;
+    return static_cast<T>(*t);
 }
 
 /// A hit of a field, put back onto the surface: one Newton step along the gradient, no

@@ -104,7 +104,8 @@ template <typename Solver = QuarticPieces, std::floating_point T>
         if (const auto met = strand(ray, blob)) strands.add(*met);
     const auto line = line_of(strands, C(balls.level));
     const auto t = first_meeting(solver, line, C(ray.t_min), C(ray.t_max));
-    return t ? std::optional<T>(static_cast<T>(*t)) : std::nullopt;
+    if (!t || !(*t <= std::numeric_limits<T>::max())) return std::nullopt;
+    return static_cast<T>(*t);
 }
 // [intersect]
 
