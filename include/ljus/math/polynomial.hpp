@@ -88,23 +88,22 @@ template <std::floating_point T, std::size_t N>
 /// \param p   The polynomial.
 /// \param a   Where p has the one sign, or is zero.
 /// \param b   Where it has the other; a < b.
-/// \return The root, to half a unit of roundoff of 1 where p is steep.
+/// \return The root, to a unit of roundoff of 1 where p is steep.
 /// \cost At most 2 steps for each bit of T, then the middle of what is left.
 // [root_between]
 template <std::floating_point T, std::size_t N>
 [[nodiscard]] T root_between(const BernsteinT<T, N>& p, T a, T b) noexcept {
-    constexpr T unit = std::numeric_limits<T>::epsilon() / T(4);
+    constexpr T unit = std::numeric_limits<T>::epsilon() / T(2);
     const BernsteinT<T, N - 1> slope = derivative(p);
     const bool rises = value_at(p, a) < T(0) || value_at(p, b) > T(0);
     T u = a + (b - a) / T(2), last = b - a;
     for (int step = 0; step < 2 * std::numeric_limits<T>::digits; ++step) {
         const T value = value_at(p, u);
-        if (value == T(0)) return u;
         ((value < T(0)) == rises ? a : b) = u;
         const T newton = u - value / value_at(slope, u);
         const bool shorter = std::abs(newton - u) <= last / T(2);
         const T next =
-            a < newton && newton < b && shorter ? newton : a + (b - a) / T(2);
+            a <= newton && newton <= b && shorter ? newton : a + (b - a) / T(2);
         last = std::abs(next - u);
         u = next;
         if (!(last > unit)) break;
