@@ -3,6 +3,9 @@
 /// \file ljus/ljus.hpp
 /// \brief Everything, but the headers that need a package of their own (load_json.hpp).
 
+#include "ljus/geometry/box.hpp"
+#include "ljus/geometry/bvh.hpp"
+#include "ljus/geometry/bvh_build.hpp"
 #include "ljus/geometry/pair_triangles.hpp"
 #include "ljus/geometry/quad.hpp"
 #include "ljus/geometry/ray.hpp"
