@@ -61,6 +61,7 @@
 #include "ljus/scene/camera.hpp"
 #include "ljus/scene/cornell_box.hpp"
 #include "ljus/scene/furnaces.hpp"
+#include "ljus/scene/indexed_scene.hpp"
 #include "ljus/scene/light.hpp"
 #include "ljus/scene/light_choice.hpp"
 #include "ljus/scene/make_scene.hpp"

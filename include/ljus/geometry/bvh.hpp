@@ -31,14 +31,16 @@ struct NearestHitT {
 
     /// Takes a hit, if it is nearer, and shortens the ray to it: but for one unit in the
     /// last place, because a thing at the same t, computed in double, may seem farther.
-    void offer(const FlatHitT<T>& hit, std::uint32_t of, RayT<T>& ray) noexcept {
-        if (found && !(hit.t < at.t || (hit.t == at.t && of < number))) return;
+    /// \return Whether it was nearer.
+    bool offer(const FlatHitT<T>& hit, std::uint32_t of, RayT<T>& ray) noexcept {
+        if (found && !(hit.t < at.t || (hit.t == at.t && of < number))) return false;
         at = hit;
         number = of;
         found = true;
         const T beyond = hit.t + hit.t * std::numeric_limits<T>::epsilon() +
                          std::numeric_limits<T>::denorm_min();
         ray.t_max = beyond < ray.t_max ? beyond : ray.t_max;
+        return true;
     }
 };
 // [nearest]
