@@ -3,6 +3,9 @@
 /// \file ljus/ljus.hpp
 /// \brief Everything, but the headers that need a package of their own (load_json.hpp).
 
+#include "ljus/geometry/box.hpp"
+#include "ljus/geometry/bvh.hpp"
+#include "ljus/geometry/bvh_build.hpp"
 #include "ljus/geometry/pair_triangles.hpp"
 #include "ljus/geometry/quad.hpp"
 #include "ljus/geometry/ray.hpp"
@@ -60,6 +63,7 @@
 #include "ljus/scene/camera.hpp"
 #include "ljus/scene/cornell_box.hpp"
 #include "ljus/scene/furnaces.hpp"
+#include "ljus/scene/indexed_scene.hpp"
 #include "ljus/scene/light.hpp"
 #include "ljus/scene/light_choice.hpp"
 #include "ljus/scene/make_scene.hpp"
