@@ -33,6 +33,18 @@ ljus_break_it(NAME photon-map-thickness HEADER photons/photon_map.hpp TEST photo
     TO   ""
     CASES "photon_map: photons of another wall*")
 
+# The next wall of a corner, and the other side of a thin wall.
+ljus_break_it(NAME photon-map-turned HEADER photons/photon_map.hpp TEST photon_map
+    FROM "&& !turned_away(photon.normal, surface.point.normal)"
+    TO   ""
+    CASES "photon_map: the other wall*")
+
+# A disc so flat that a ball of twice its radius loses the rim.
+ljus_break_it(NAME photon-map-flat HEADER photons/photon_map.hpp TEST photon_map
+    FROM "float thickness = 0.5f;"
+    TO   "float thickness = 0.1f;"
+    CASES "photon_map: on a ball as small*")
+
 # The k nearest of all kinds, of which shadow photons are then left out.
 ljus_break_it(NAME photon-map-kinds HEADER photons/photon_map.hpp TEST photon_map
     FROM "found, counts)"

@@ -25,6 +25,7 @@ struct PhotonRecordT {
     RgbT<T> flux{T(0)};                   ///< W.
     std::uint16_t light = 0;              ///< The number of its light.
     PhotonKind kind = PhotonKind::direct; ///< What has happened to it.
+    SmallNormal normal{0};                ///< Of the surface that it met.
 };
 
 /// Photons, ordered for searching. The general map and the caustics map differ in what
@@ -56,8 +57,8 @@ template <std::floating_point T>
     PhotonMapT<T> map{.tree = KdTreeT<T>(positions), .records = {}};
     map.records.reserve(photons.size());
     for (const std::uint32_t i : map.tree.order())
-        map.records.push_back(
-            {photons[i].direction, photons[i].flux, photons[i].light, photons[i].kind});
+        map.records.push_back({photons[i].direction, photons[i].flux, photons[i].light,
+                               photons[i].kind, photons[i].normal});
     return map;
 }
 
@@ -69,9 +70,9 @@ struct Gather {
     float radius = 0.1f;                  ///< In scene units, above 0.
     std::size_t nearest = 0;              ///< k within the radius; 0: all within it.
     Kernel kernel = Kernel::epanechnikov; ///< The weight by distance.
-    float thickness = 0.1f; ///< Half the height of the disc over its radius: photons of
-                            ///< another wall lie outside; on a ball of radius R, those
-                            ///< farther than 2R times this do too, and are lost.
+    float thickness = 0.5f; ///< Half the height of the disc over its radius: photons of
+                            ///< a parallel wall lie outside. With 0.5 the disc holds
+                            ///< all that a ball no smaller than it has within it.
 };
 
 /// Refuses a way to gather that gives no estimate.
@@ -94,8 +95,11 @@ inline void check(const Gather& gather) {
 /// would be too bright by k/(k-1). Fewer than k within the radius are summed over the
 /// whole disc, and the mean stays right.
 ///
-/// At a surface's edge half of the disc lies beside it, in a corner three quarters, and
-/// the estimate reads 1/2 and 1/4 of what it should.
+/// Only photons of the same surface count: those whose surface is not turned_away(), in
+/// a disc of the thickness. On a ball the cap within r of a point of it has the area
+/// \f$ \pi r^2 \f$, as a plane has, so that nothing is lost on a ball of radius r or
+/// more. At a surface's edge half of the disc lies beside it, in a corner three quarters,
+/// and the estimate reads 1/2 and 1/4 of what it should.
 ///
 /// \param map       The photons.
 /// \param surface   Where they are gathered.
@@ -121,7 +125,6 @@ estimate_radiance(const PhotonMapT<T>& map, const SurfaceT<T>& surface,
     RgbT<double> sum{0}; // many small terms: a float would lose the last of them
     const auto add = [&](std::uint32_t i, double distance2) {
         const PhotonRecordT<T>& photon = map.records[i];
-        // Photons of another wall lie outside of the disc.
         const double height = glm::dot(glm::dvec3(map.tree.points()[i]) - glm::dvec3(x),
                                        glm::dvec3(surface.point.normal));
         const double limit = double(gather.thickness);
@@ -132,7 +135,10 @@ estimate_radiance(const PhotonMapT<T>& map, const SurfaceT<T>& surface,
         sum += RgbT<double>(weight * evaluate(material, wo, wi) * photon.flux);
         ++gathered;
     };
-    const auto counts = [&](std::uint32_t i) { return wanted(map.records[i].kind); };
+    const auto counts = [&](std::uint32_t i) {
+        const PhotonRecordT<T>& photon = map.records[i];
+        return wanted(photon.kind) && !turned_away(photon.normal, surface.point.normal);
+    };
     if (gather.nearest == 0) {
         map.tree.visit_within(x, T(gather.radius),
                               [&](std::uint32_t i, double distance2) {
