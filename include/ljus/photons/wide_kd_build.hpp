@@ -87,7 +87,8 @@ public:
 
     // [wide build]
     void build(std::span<const Vec3T<T>> points, int threads) {
-        constexpr long long piece = 1 << 16;
+        constexpr long long piece = 1 << 14;
+        if (shape_.points < 2 * piece) threads = 1; // not worth waking them
         const auto total = static_cast<long long>(points.size());
         parallel_blocks(block_count(total, piece),
                         [&](long long block) {
