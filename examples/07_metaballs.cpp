@@ -62,14 +62,14 @@ auto merging(float distance, bool with_glass) {
                   glass);
     scene.add(Quad{.corner{-9, -0.9f, 3}, .edge_u{18, 0, 0}, .edge_v{0, 0, -12}}, grey);
     scene.add(Quad{.corner{-9, -0.9f, -7}, .edge_u{18, 0, 0}, .edge_v{0, 12, 0}}, grey);
-    scene.add(Sphere{.center{-2.5f, 4.5f, -1.5f}, .radius = 0.4f}, grey, Rgb{55});
+    scene.add(Sphere{.center{-2.5f, 4.5f, -1.5f}, .radius = 0.4f}, grey, Rgb{90});
     return scene;
 }
 // [scene]
 
-ljus::Camera camera() {
+ljus::Camera camera(float degrees) {
     return look_at(ljus::View{
-        .position{0, 0.9f, 1}, .target{0, -0.1f, -3.6f}, .vfov_degrees = 30});
+        .position{0, 0.9f, 1}, .target{0, -0.2f, -3.6f}, .vfov_degrees = degrees});
 }
 
 /// The strip: one picture a distance, by path tracing; and one with glass, by photons.
@@ -79,7 +79,7 @@ void pictures(const examples::Options& options) {
     for (const int hundredths : {200, 170, 145, 120, 80}) {
         const auto scene = merging(float(hundredths) / 100, false);
         const auto tracer = make_path_tracer(scene);
-        save_png(render(tracer, camera(), picture).image,
+        save_png(render(tracer, camera(30), picture).image,
                  options.path("metaballs-" + std::to_string(hundredths) + ".png"));
         examples::stop_if_asked();
     }
@@ -89,7 +89,7 @@ void pictures(const examples::Options& options) {
     const auto scene = merging(1.2f, true);
     const auto maps = make_photon_maps(scene, settings);
     const auto mapper = make_photon_mapper(scene, maps, settings);
-    save_png(render(mapper, camera(), picture).image,
+    save_png(render(mapper, camera(38), picture).image,
              options.path("metaballs-glass.png"));
     examples::stop_if_asked();
 }
@@ -97,7 +97,7 @@ void pictures(const examples::Options& options) {
 // --- The solvers ------------------------------------------------------------------
 
 enum Way : std::size_t { pieces, radicals, bisection, tracing, way_count };
-constexpr const char* way_names[] = {"quartic, pieces", "quartic, radicals",
+constexpr const char* way_names[] = {"pieces of the quartic", "radicals",
                                      "interval bisection", "sphere tracing"};
 
 /// The first hit, NaN for a miss.
