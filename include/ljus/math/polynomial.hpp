@@ -129,8 +129,8 @@ struct RootsT {
 ///
 /// Between two neighbouring roots of its derivative a polynomial is monotone: there it
 /// has one root if the signs at the ends differ, and none else. The derivative's roots
-/// are found in the same way, down to degree 1. No division by a leading coefficient:
-/// it may be tiny or 0.
+/// are found in the same way, down to degree 1 \cite yuksel2022. No division by a leading
+/// coefficient: it may be tiny or 0.
 ///
 /// \param p          The polynomial. Data that are not finite have no roots.
 /// \param tolerance  What its coefficients may be wrong by; a value at an extremum or an
