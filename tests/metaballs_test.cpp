@@ -255,6 +255,9 @@ TEST_CASE("metaballs: the bounding sphere holds every hit, and is tight for one 
     }
     CHECK(bounding_sphere(Metaballs{.blobs{{.weight = 0.1f}}}).radius ==
           0); // no surface
+    // Ten weak blobs in one place, none of which reaches the level alone.
+    const Metaballs weak{.blobs = std::vector(10, Blob{.weight = 0.1f})};
+    CHECK(double(bounding_sphere(weak).radius) >= sphere_radius(1, 1, 0.25));
 }
 
 TEST_CASE_TEMPLATE("metaballs: a hit lies on the surface, its normal is the gradient",

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/geometry/field_on_ray.hpp
-/// \brief Where a function of t with known bounds first gets to 0: two solvers that look
-/// for it, sphere tracing and interval bisection.
+/// \brief Where a function of t with known bounds first gets to 0: two solvers that
+/// look for it, sphere tracing and interval bisection.
 
 #include <array>
 #include <cmath>
@@ -50,14 +50,14 @@ struct SphereTracing {
     int most_steps = 2000;   ///< Then it gives up: a miss.
 };
 
-/// Solver: halves the ray until each part either cannot hold the surface or surely holds
-/// one crossing \cite mitchell1990.
+/// Solver: halves the ray until each part either cannot hold the surface or surely
+/// holds one crossing \cite mitchell1990.
 struct Bisection {
     int most_parts = 4096; ///< Then it gives up: a miss.
 };
 
-/// Where a ray first meets f = 0, by sphere tracing: |f| divided by the largest slope is
-/// a distance in which f cannot get to 0.
+/// Where a ray first meets f = 0, by sphere tracing: |f| divided by the largest slope
+/// is a distance in which f cannot get to 0.
 /// \param solver  Tolerance and limit.
 /// \param line    The field on the ray.
 /// \param t_min   First t that counts.
@@ -97,19 +97,20 @@ template <std::floating_point T, FieldOnRay<T> Line>
 /// Where a ray first meets f = 0, by interval bisection.
 ///
 /// A part [a, b] of the ray is dropped if all its values have the sign of the start; if
-/// not and the slope has one sign, the values at the ends decide; else it is halved, the
-/// nearer half first. The values are bounded by what the field says and by the mean value
-/// form f(m) + f'([a, b]) (b - a)/2.
+/// not and the slope has one sign, the values at the ends decide; else it is halved,
+/// the nearer half first. The values are bounded by what the field says and by the mean
+/// value form f(m) + f'([a, b]) (b - a)/2.
 /// \param solver  The limit.
 /// \param line    The field on the ray.
 /// \param t_min   First t that counts.
 /// \param t_max   Last t that counts.
-/// \return The first t at which f has changed its sign, to the last place; nothing for a
-///         miss, for NaN, and when the parts run out. A surface that is touched and not
-///         crossed is met if f is not below 0 at the ends of a part as short as two units
-///         in the last place.
-/// \cost Some 10 to 100 ranges, more where value and slope nearly vanish together. A field
-///       without slope() needs about 1/sqrt(depth) of them where a ray dips in by depth.
+/// \return The first t at which f has changed its sign, to the last place; nothing for
+///         a miss, for NaN, and when the parts run out. A surface that is touched and
+///         not crossed is met if f is not below 0 at the ends of a part as short as two
+///         units in the last place.
+/// \cost Some 10 to 100 ranges, more where value and slope nearly vanish together. A
+///       field without slope() needs about 1/sqrt(depth) of them where a ray dips in by
+///       depth.
 // [bisection]
 template <std::floating_point T, FieldOnRay<T> Line>
 [[nodiscard]] std::optional<T> first_meeting(const Bisection& solver, const Line& line,

@@ -18,8 +18,8 @@ namespace ljus {
 /// \addtogroup isosurface
 /// \{
 
-/// What an isosurface asks of a field: its value and gradient at a point, in double, and
-/// a bound of the gradient's length.
+/// What an isosurface asks of a field: its value and gradient at a point, in double,
+/// and a bound of the gradient's length.
 template <typename F>
 concept LipschitzField = requires(const F& field, Vec3T<double> x) {
     { field.value(x) } -> std::same_as<double>;
@@ -28,6 +28,7 @@ concept LipschitzField = requires(const F& field, Vec3T<double> x) {
 };
 
 /// The surface of any field, within a ball.
+/// \report{Section 2.1}
 template <std::floating_point T, LipschitzField Field>
 struct IsosurfaceT {
     Field field{};       ///< Above 0 inside, below 0 outside.

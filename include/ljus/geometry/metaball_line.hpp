@@ -118,7 +118,8 @@ struct MetaballLineT {
         }
         return sum;
     }
-    /// A bound of |df/dt| on this ray: each strand is a blob of its own, one-dimensional.
+    /// A bound of |df/dt| on this ray: each strand is a blob of its own,
+    /// one-dimensional.
     [[nodiscard]] C steepest() const noexcept {
         C sum = C(0);
         for (const auto& b : strands)

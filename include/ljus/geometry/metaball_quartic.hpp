@@ -18,8 +18,9 @@ namespace ljus {
 /// \{
 
 /// Solver: in each span between two borders of blobs the field is a quartic; its first
-/// change of sign is that of first_change(). The places nearest to a centre split spans,
-/// too: a blob rises before and falls behind, so that most spans change at most once.
+/// change of sign is that of first_change(). The places nearest to a centre split
+/// spans, too: a blob rises before and falls behind, so that most spans change at most
+/// once.
 struct QuarticPieces {};
 
 /// Solver: the same quartics by the formula, quartic_formula(). For the lesson.
@@ -78,6 +79,7 @@ template <std::floating_point C>
 }
 
 /// Where a ray first meets metaballs, span by span.
+/// \report{Section 2.1}
 /// \param solver  QuarticPieces or Radicals.
 /// \param line    The field on the ray.
 /// \param t_min   First t that counts.

@@ -71,8 +71,8 @@ template <std::floating_point T>
 /// \param shape  The shape.
 /// \param from   The observer.
 /// \param u      Point of the unit square.
-/// \return The point and its density per steradian of the observer: 0 for a shape without
-///         an area, which is no light.
+/// \return The point and its density per steradian of the observer: 0 for a shape
+///         without an area, which is no light.
 template <Shape S, std::floating_point T>
 [[nodiscard]] SeenPointT<T> sample_towards(const S& shape, const Vec3T<T>& from,
                                            const Vec2T<T>& u) noexcept {

@@ -129,12 +129,12 @@ struct RootsT {
 ///
 /// Between two neighbouring roots of its derivative a polynomial is monotone: there it
 /// has one root if the signs at the ends differ, and none else. The derivative's roots
-/// are found in the same way, down to degree 1 \cite yuksel2022. No division by a leading
-/// coefficient: it may be tiny or 0.
+/// are found in the same way, down to degree 1 \cite yuksel2022. No division by a
+/// leading coefficient: it may be tiny or 0.
 ///
 /// \param p          The polynomial. Data that are not finite have no roots.
-/// \param tolerance  What its coefficients may be wrong by; a value at an extremum or an
-///                   end that is no larger counts as a root, so that none is lost.
+/// \param tolerance  What its coefficients may be wrong by; a value at an extremum or
+///                   an end that is no larger counts as a root, so that none is lost.
 /// \return Ascending. Each is the exact root of a polynomial that differs from p by at
 ///         most 2 `tolerance` on [0, 1]; each exact root of p has one of them within
 ///         reach of such a change. A root of multiplicity m comes 1 to m times.

@@ -27,11 +27,12 @@ struct QuarticRootsT {
     [[nodiscard]] const T* end() const noexcept { return at.data() + count; }
 };
 
-/// The real roots of c[0] + c[1] x + ... + c[4] x^4 by radicals (Ferrari 1545): kept for
-/// the lesson, not for use; roots() of a BernsteinT holds where this does not.
+/// The real roots of c[0] + c[1] x + ... + c[4] x^4 by radicals (Ferrari 1545): kept
+/// for the lesson, not for use; roots() of a BernsteinT holds where this does not.
 ///
-/// The quartic becomes \f$ y^4 + p y^2 + q y + r = 0 \f$ with \f$ x = y - b/4 \f$; with a
-/// root z of the resolvent \f$ z^3 - \frac p2 z^2 - r z + \frac{pr}{2} - \frac{q^2}{8}
+/// The quartic becomes \f$ y^4 + p y^2 + q y + r = 0 \f$ with \f$ x = y - b/4 \f$; with
+/// a root z of the resolvent \f$ z^3 - \frac p2 z^2 - r z + \frac{pr}{2} -
+/// \frac{q^2}{8}
 /// \f$ it is the difference of two squares, and so two quadratics. Each step subtracts
 /// what may be nearly equal, and asks of rounded numbers whether they are below zero.
 ///
