@@ -5,6 +5,8 @@
 
 #include <cstdint>
 
+#include <glm/geometric.hpp>
+
 #include "ljus/math/vector.hpp"
 
 namespace ljus {
@@ -33,6 +35,18 @@ struct PhotonT {
     PhotonKind kind = PhotonKind::direct; ///< What has happened to it.
 };
 using Photon = PhotonT<float>; ///< PhotonT in float: 40 bytes.
+
+/// The side of a surface that a photon has come to.
+/// \param direction  The way the photon travels.
+/// \param normal     Of the surface.
+/// \return +1 if it is the side that the normal points to, -1 if it is the other.
+// [photon_side]
+template <std::floating_point T>
+[[nodiscard]] int photon_side(const Vec3T<T>& direction,
+                              const Vec3T<T>& normal) noexcept {
+    return glm::dot(direction, normal) < T(0) ? 1 : -1;
+}
+// [photon_side]
 
 /// Where the emitted flux of a photon pass has gone; in W, added in double.
 ///
