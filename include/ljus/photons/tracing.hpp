@@ -10,6 +10,7 @@
 #include "ljus/parallel.hpp"
 #include "ljus/photons/emission.hpp"
 #include "ljus/photons/photon.hpp"
+#include "ljus/scene/indexed_scene.hpp"
 
 namespace ljus {
 
@@ -97,7 +98,8 @@ void trace_shadow(const Scene& scene, const FlightT<T>& flight,
             });
         if (diffuse)
             out.push_back({surface.point.position, ray.direction, flight.flux,
-                           flight.light, PhotonKind::shadow});
+                           flight.light, PhotonKind::shadow,
+                           small_normal(surface.point.normal)});
         ray = ray_from(surface.point, ray.direction);
     }
 }
@@ -163,7 +165,8 @@ void trace(const Scene& scene, PhotonLaw law, FlightT<T> flight,
                 const bool owned = (kind == PhotonKind::caustic) == caustics;
                 if (has(lobes(material), Lobes::diffuse) && owned)
                     out.push_back({surface.point.position, flight.ray.direction,
-                                   flight.flux, flight.light, kind});
+                                   flight.flux, flight.light, kind,
+                                   small_normal(surface.point.normal)});
 
                 const Vec3T<T> u = next_3d<T>(stream);
                 const auto scattered = sample(material, wo, u, Transport::flux,
@@ -211,6 +214,7 @@ trace_photons(const Scene& scene, PhotonLaw law, const PhotonPass& pass) {
             static_cast<long long>(pass.max_bounces), "at least 1");
 
     const bool caustics = law == PhotonLaw::caustics;
+    const IndexedT<Scene> indexed(scene);
     const LightChoice choice = light_choice(scene.lights);
     const auto targets = caustics ? specular_objects(scene) : std::vector<ObjectId>{};
     TracedPhotonsT<T> result{.emitted = pass.photons};
@@ -241,7 +245,8 @@ trace_photons(const Scene& scene, PhotonLaw law, const PhotonPass& pass) {
                 flight = emit(scene, choice, stream);
             }
             flight.flux /= static_cast<T>(pass.photons);
-            trace(scene, law, flight, target, pass, stream, block.photons, block.audit);
+            trace(indexed, law, flight, target, pass, stream, block.photons,
+                  block.audit);
         }
     };
     result.complete = parallel_blocks(
