@@ -69,13 +69,12 @@ template <std::floating_point T>
 
 /// Stores shadow photons on the matt surfaces behind the first one that a photon meets.
 ///
-/// A surface is one thing, its two sides are two: what a side does not get is the light
-/// whose cosine with *that side's* normal is positive. A ray that goes straight on comes
-/// to exactly one side of each surface, the one that it meets, and the cosine is positive
-/// there, wherever the surface's own normal points. So nothing is asked of the normal, as
-/// nothing is asked of it for a direct photon; whoever reads the map asks photon_side().
-/// Direct and shadow photons together are then, on each side, all the light that would
-/// come if nothing stood in its way.
+/// A surface has two sides, and what a side does not get is the light whose cosine with
+/// *that side's* normal is positive. A ray that goes straight on comes to one side of
+/// each surface, and the cosine is positive there, wherever the surface's own normal
+/// points. So nothing is asked of the normal, as nothing is asked of it for a direct
+/// photon; whoever reads the map asks photon_side(). Direct and shadow photons together
+/// are then, on each side, all the light that would come if nothing stood in its way.
 /// \param scene   The scene.
 /// \param flight  The photon as it left its light.
 /// \param first   The first surface it met.

@@ -26,8 +26,9 @@ struct DotLook {
     float brightness = 0.8f; ///< Of its tip; dots that overlap add up.
 };
 
-/// A drawing to put photons on: what each pixel sees, without any light; its own colour,
-/// darker where it is seen at a low angle. Mirrors and glass are grey, lamps are white.
+/// A drawing to put photons on: the own colour of what each pixel sees, without any
+/// light, darker where it is seen at a low angle. Mirrors and glass are grey, lamps
+/// bright.
 /// \param scene   The scene.
 /// \param camera  The camera.
 /// \param width   Of the picture, in pixels.
