@@ -72,8 +72,8 @@ template <std::floating_point T>
     return largest > T(0) ? photon.flux / largest : RgbT<T>{T(0)};
 }
 
-/// Where a camera sees a photon: nothing may stand in front of it, glass neither, and it
-/// has to lie on the side of its surface that faces the camera. What hides a photon is
+/// Where a camera sees a photon: nothing may stand in front of it, glass neither, and
+/// it has to lie on the side of its surface that faces the camera. What hides a photon is
 /// nearer by more than a thousandth of the way.
 /// \param scene   The scene of the photon.
 /// \param camera  The camera.
