@@ -39,6 +39,37 @@ template <std::floating_point T>
 }
 // [at]
 
+/// \name What a test prepares
+/// A loop over many shapes is told its test once, as one template argument: a precision,
+/// or the name of a test.
+///
+///     const auto prepared = prepare<Test>(ray);
+///     for (const Triangle& triangle : mesh) intersect<Test>(ray, triangle, prepared);
+/// \{
+
+/// A test that prepares nothing.
+struct Unprepared {};
+
+/// What a test computes once for a ray and then uses for every shape: nothing, in
+/// general; prepare<Watertight>() is another.
+template <typename Test = void, std::floating_point T>
+[[nodiscard]] constexpr Unprepared prepare(const RayT<T>&) noexcept {
+    return {};
+}
+
+/// Where a ray meets a shape whose test has no use for what was prepared.
+/// \tparam Test  As for intersect(ray, shape).
+/// \param ray    The ray.
+/// \param shape  The shape.
+/// \return What intersect(ray, shape) returns.
+template <typename Test = void, std::floating_point T, typename Shape,
+          typename Prepared>
+[[nodiscard]] constexpr auto intersect(const RayT<T>& ray, const Shape& shape,
+                                       const Prepared&) noexcept {
+    return intersect<Test>(ray, shape);
+}
+/// \}
+
 /// \}
 
 } // namespace ljus
