@@ -10,14 +10,17 @@
 namespace ljus {
 
 /// \defgroup ray Rays
-/// \brief Section 3.1.1: the ray.
+/// \brief Section 3.1.1: the ray. Chapter: \ref ch_ray.
 /// \{
 
 /// The part of a line from `t_min` to `t_max`.
 ///
 /// The report allows every t >= 0, so that a ray which leaves a surface may hit that
 /// surface again at t = 0: see leave() for the origin that avoids it.
+/// A NaN or an infinity in a ray, a direction of zero, a t_min beyond t_max: such a ray
+/// meets nothing.
 /// \report{Definition 3.1}
+// [ray]
 template <std::floating_point T>
 struct RayT {
     Vec3T<T> origin{T(0)};                        ///< O, in scene units.
@@ -26,6 +29,7 @@ struct RayT {
     T t_max = std::numeric_limits<T>::infinity(); ///< Last t that counts.
 };
 using Ray = RayT<float>; ///< RayT in float.
+// [ray]
 
 /// The point of a ray at distance t, in units of the direction's length.
 /// \param ray  The ray.

@@ -13,7 +13,7 @@
 namespace ljus {
 
 /// \defgroup triangle Triangles
-/// \brief Section 3.1.5: the ray-triangle intersection.
+/// \brief Section 3.1.5: the ray-triangle intersection. Chapter: \ref ch_triangle.
 /// \{
 
 /// Three vertices; seen from the side where they turn counter-clockwise, the normal
