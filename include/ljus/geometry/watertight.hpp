@@ -35,8 +35,8 @@ struct ShearT {
 
 /// The shear that turns a ray into the z axis.
 /// \tparam Test  Watertight.
-/// \param ray    A ray. A direction of zero, NaN or infinity gives NaN or an sz of 0: no
-///               hit.
+/// \param ray    A ray. A direction of zero, NaN or infinity gives NaN or an sz of 0,
+///               and no hit.
 /// \return Axes and factors.
 // [prepare]
 template <std::same_as<Watertight> Test, std::floating_point T>
