@@ -41,7 +41,7 @@ struct FlatHitT {
 ///
 /// Their numerators are sums of products with at most 8 roundings on the way, none
 /// larger than \f$ |D|\,|E|\,|T| \f$ with \f$ |X| = |X_x| + |X_y| + |X_z| \f$; u + v
-/// has both. Where that is no small part of the shape, nothing is known, and nothing gained.
+/// has both. Where that is no small part of the shape, nothing is known.
 /// \param d        D.
 /// \param to       T.
 /// \param e1       \f$E_1\f$.
