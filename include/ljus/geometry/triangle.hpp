@@ -3,6 +3,7 @@
 /// \file ljus/geometry/triangle.hpp
 /// \brief The triangle, and where a ray meets it (Moeller and Trumbore).
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 
@@ -33,6 +34,7 @@ struct FlatHitT {
     T t = T(0); ///< Distance, in units of the direction's length.
     T u = T(0); ///< Coordinate along the first edge.
     T v = T(0); ///< Coordinate along the second edge.
+    std::uint32_t part = 0; ///< Which triangle of a mesh; 0 for other shapes.
 };
 
 /// Solves \f$ O + tD = V_1 + uE_1 + vE_2 \f$ by Cramer's rule.
