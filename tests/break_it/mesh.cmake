@@ -6,8 +6,8 @@ ljus_break_it(NAME mesh-part HEADER geometry/mesh.hpp TEST mesh
 
 # The corners the other way round: inside is outside.
 ljus_break_it(NAME mesh-winding HEADER geometry/mesh_data.hpp TEST mesh
-    FROM "{data.positions[corner[0]], data.positions[corner[1]],\n            data.positions[corner[2]]}"
-    TO   "{data.positions[corner[0]], data.positions[corner[2]],\n            data.positions[corner[1]]}"
+    FROM "return {data.positions[corner[0]], data.positions[corner[1]],"
+    TO   "return {data.positions[corner[1]], data.positions[corner[0]],"
     CASES "mesh: finer triangles*")
 
 # The second and the third corner change places in the normal only.
