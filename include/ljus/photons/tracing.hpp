@@ -88,7 +88,8 @@ void trace_shadow(const Scene& scene, const FlightT<T>& flight,
             });
         if (faces_light && diffuse)
             out.push_back({surface.point.position, ray.direction, flight.flux,
-                           flight.light, PhotonKind::shadow});
+                           flight.light, PhotonKind::shadow,
+                           small_normal(surface.point.normal)});
         ray = ray_from(surface.point, ray.direction);
     }
 }
@@ -154,7 +155,8 @@ void trace(const Scene& scene, PhotonLaw law, FlightT<T> flight,
                 const T landing = landing_factor(surface, wo, flight.ray.direction);
                 if (has(lobes(material), Lobes::diffuse) && owned && landing > T(0))
                     out.push_back({surface.point.position, flight.ray.direction,
-                                   landing * flight.flux, flight.light, kind});
+                                   landing * flight.flux, flight.light, kind,
+                                   small_normal(surface.point.normal)});
 
                 const Vec3T<T> u = next_3d<T>(stream);
                 const bool only_specular = caustics || surface.turned;

@@ -91,6 +91,7 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
     const PathTracing& limits = tracer.settings;
     RgbT<T> sum{T(0)};
     RgbT<T> throughput{T(1)};
+    T squeeze = T(1); // what of the throughput is no loss, see survives()
     RgbT<T> medium{T(0)};
     T bsdf_pdf = T(0);   // of the direction the path came in, 0: a delta
     Vec3T<T> from{T(0)}; // the surface it came from
@@ -143,6 +144,7 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
                 // left a share of, and to nothing else.
                 if (depth == limits.max_depth && next->specular) return false;
                 throughput *= next->weight;
+                squeeze *= next->squeeze;
                 bsdf_pdf = next->pdf;
                 from = at.surface.point.position;
                 log.vertex(next->specular ? 'S' : 'D', from, throughput, next->pdf);
@@ -151,7 +153,8 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
                 return true;
             });
         if (!goes_on || is_black(throughput)) break;
-        if (depth >= limits.roulette_depth && !survives(throughput, next_1d<T>(stream)))
+        if (depth >= limits.roulette_depth &&
+            !survives(throughput, squeeze, next_1d<T>(stream)))
             break;
         ++counts.bounce_rays;
     }

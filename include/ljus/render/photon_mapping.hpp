@@ -141,6 +141,7 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
     const PhotonMapping& settings = mapper.settings;
     RgbT<T> sum{T(0)};
     RgbT<T> throughput{T(1)};
+    T squeeze = T(1); // what of the throughput is no loss, see survives()
     RgbT<T> medium{T(0)};
     bool met_diffuse = false;
     log.begin();
@@ -172,6 +173,7 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
             if (!scattered) return false;
             const auto* next = &scattered->sample;
             throughput *= next->weight;
+            squeeze *= next->squeeze;
             met_diffuse = met_diffuse || !next->specular;
             log.vertex(next->specular ? 'S' : 'D', at.surface.point.position,
                        throughput, next->pdf);
@@ -183,7 +185,7 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
             break;
         if (is_black(throughput)) break;
         if (depth >= settings.roulette_depth &&
-            !survives(throughput, next_1d<T>(stream)))
+            !survives(throughput, squeeze, next_1d<T>(stream)))
             break;
         ++counts.bounce_rays;
     }
