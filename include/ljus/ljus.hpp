@@ -36,6 +36,7 @@
 #include "ljus/materials/oren_nayar.hpp"
 #include "ljus/math/frame.hpp"
 #include "ljus/math/lanes.hpp"
+#include "ljus/math/naive_hemisphere.hpp"
 #include "ljus/math/random.hpp"
 #include "ljus/math/require.hpp"
 #include "ljus/math/sampling.hpp"
