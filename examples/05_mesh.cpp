@@ -65,8 +65,9 @@ void flat_and_smooth(const examples::Options& options) {
     const MeshData ring = torus(Vec3{0.9f, 0.35f, 0.1f}, 0.75f, 0.34f, 24, 12);
     for (const bool smooth_normals : {false, true}) {
         Room room = floor_and_lamp();
-        const auto sky = room.add(Lambertian{.albedo = Rgb{0}});
-        room.add(Sphere{.center{0, 0, 0}, .radius = 20}, sky, Rgb{0.25f}, true);
+        const auto black = room.add(Lambertian{.albedo = Rgb{0}});
+        room.add(Quad{.corner{1, 3.5f, 5}, .edge_u{2, 0, 1}, .edge_v{0, 1.5f, -0.5f}},
+                 black, Rgb{2.5f});
         const auto clay = room.add(Lambertian{.albedo{0.75f, 0.42f, 0.25f}});
         const auto blue = room.add(Lambertian{.albedo{0.25f, 0.4f, 0.7f}});
         room.add(Mesh(smooth_normals ? ball : without_normals(ball)), clay);
@@ -139,7 +140,7 @@ std::vector<Photon> glass_photons(const Room& room, long long count, bool factor
 void caustic_pictures(const examples::Options& options, const Sizes& sizes) {
     const Camera camera = look_at(
         {.position{0.6f, 2.6f, 4.6f}, .target{0.3f, 0.6f, 0}, .vfov_degrees = 34});
-    const Room room = glass_room(icosphere(glass_ball, 1));
+    const Room room = glass_room(icosphere(glass_ball, 0));
     const Room fine = glass_room(icosphere(glass_ball, 6));
     PhotonMapping settings;
     settings.indirect = IndirectLight::none;
