@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "ljus/geometry/solid_angle.hpp"
+#include "ljus/geometry/watertight.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"
 #include "ljus/scene/make_scene.hpp"
@@ -93,6 +94,7 @@ TEST_CASE("mesh: hits are those of its triangles, one by one") {
          {soup(300, 1), icosphere(unit_ball, 3), torus(Vec3{0}, 0.7f, 0.2f, 20, 10)}) {
         check_hits<void>(data, 1, {0, 0, 0});
         check_hits<double>(data, 1, {0, 0, 0});
+        check_hits<Watertight>(data, 1, {0, 0, 0});
     }
 }
 

@@ -85,7 +85,7 @@ private:
 using Mesh = MeshT<float>; ///< MeshT in float.
 
 /// Where a ray first meets a mesh: what asking all its triangles in turn would find.
-/// \tparam Compute  The precision of the arithmetic, as for one triangle.
+/// \tparam Compute  The precision of the arithmetic, or Watertight: as for one triangle.
 /// \param ray   Hits count in [t_min, t_max].
 /// \param mesh  The mesh.
 /// \return The nearest hit, `part` the triangle, the first one on a tie.
@@ -96,9 +96,10 @@ template <typename Compute = void, std::floating_point T>
                                                    const MeshT<T>& mesh) {
     NearestHitT<T> nearest;
     const auto& order = mesh.tree().order();
+    const auto prepared = prepare<Compute>(ray);
     mesh.tree().closest(ray, [&](std::uint32_t place, RayT<T>& rest) {
         const std::uint32_t part = order[place];
-        if (const auto hit = intersect<Compute>(rest, mesh.triangle(part)))
+        if (const auto hit = intersect<Compute>(rest, mesh.triangle(part), prepared))
             nearest.offer(*hit, part, rest);
     });
     if (!nearest.found) return std::nullopt;
