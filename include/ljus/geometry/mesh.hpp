@@ -27,8 +27,8 @@ public:
     ///               never hit.
     /// \param build  How the tree is built: with a step as dear as two triangles it has
     ///               a third fewer nodes than with one, and is as fast.
-    /// \throws std::invalid_argument  naming the number and the value: a mesh without an
-    ///         area, a vertex that is not there, a coordinate that is not finite.
+    /// \throws std::invalid_argument  naming the number and the value: a mesh without
+    ///         an area, a vertex that is not there, a coordinate that is not finite.
     /// \cost O(n log n).
     explicit MeshT(MeshDataT<T> data, const BvhBuild& build = {.node_cost = 2})
         : data_(std::move(data)) {
@@ -85,7 +85,8 @@ private:
 using Mesh = MeshT<float>; ///< MeshT in float.
 
 /// Where a ray first meets a mesh: what asking all its triangles in turn would find.
-/// \tparam Compute  The precision of the arithmetic, or Watertight: as for one triangle.
+/// \tparam Compute  The precision of the arithmetic, or Watertight: as for one
+/// triangle.
 /// \param ray   Hits count in [t_min, t_max].
 /// \param mesh  The mesh.
 /// \return The nearest hit, `part` the triangle, the first one on a tie.

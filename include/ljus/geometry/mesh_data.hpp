@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/geometry/mesh_data.hpp
-/// \brief What a mesh is made of: vertices and triangles, from a file or from a formula.
+/// \brief What a mesh is made of: vertices and triangles, from a file or from a
+/// formula.
 
 #include <algorithm>
 #include <array>
@@ -71,10 +72,10 @@ void check(const MeshDataT<T>& data) {
                             std::to_string(data.positions.size()));
 }
 
-/// Gives each vertex the mean of its triangles' normals, weighted by their angles there,
-/// so that it does not matter how a flat part is cut into triangles \cite thurmer1998.
-/// Vertices at different numbers stay different, even at the same point: so edges are
-/// kept sharp.
+/// Gives each vertex the mean of its triangles' normals, weighted by their angles
+/// there, so that it does not matter how a flat part is cut into triangles
+/// \cite thurmer1998. Vertices at different numbers stay different, even at the same
+/// point: so edges are kept sharp.
 /// \param data  The data; the old normals are forgotten. A vertex without a triangle
 ///              that has an area gets (0, 0, 0), which counts as no normal.
 /// \cost O(n).
@@ -108,8 +109,8 @@ void smooth(MeshDataT<T>& data) {
 /// \name Meshes from formulas
 /// \{
 
-/// A sphere of triangles: an icosahedron, each triangle cut in four again and again, its
-/// vertices on the sphere, with the sphere's normals.
+/// A sphere of triangles: an icosahedron, each triangle cut in four again and again,
+/// its vertices on the sphere, with the sphere's normals.
 /// \param sphere  The sphere; check() holds for it.
 /// \param cuts    How often, 0 to 10: 20 * 4^cuts triangles.
 /// \return The data.

@@ -20,8 +20,8 @@ namespace ljus {
 /// one after another \cite meisters1975. What is not flat is seen along the sum of its
 /// areas; what crosses itself is cut somehow, into as many triangles.
 /// \param corners  In order, counter-clockwise.
-/// \return Three numbers of corners a triangle, n - 2 of them; none for fewer than three
-///         corners, or a polygon without an area.
+/// \return Three numbers of corners a triangle, n - 2 of them; none for fewer than
+///         three corners, or a polygon without an area.
 /// \cost O(n^2), at worst O(n^3).
 // [cut_polygon]
 [[nodiscard]] inline std::vector<std::array<std::uint32_t, 3>>

@@ -264,8 +264,8 @@ void read_object(const JsonField& field,
 /// Reads a scene from the text of a scene file.
 /// \param source  The text.
 /// \param file    What messages call it: the name of the file.
-/// \param load_meshes  Called as load_meshes(path, scale, normals) for each mesh; returns
-///         a vector of meshes.
+/// \param load_meshes  Called as load_meshes(path, scale, normals) for each mesh;
+///         returns a vector of meshes.
 /// \return The scene. Two triangles that are one parallelogram have become one quad.
 /// \throws std::runtime_error  with one sentence that names the file, the path of the
 ///         field, its value and what would be right: "scene.json: objects[3].radius is

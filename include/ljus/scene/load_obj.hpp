@@ -41,17 +41,17 @@ struct LoadedObjT {
 };
 using LoadedObj = LoadedObjT<float>; ///< LoadedObjT in float.
 
-/// Reads meshes from the text of an OBJ file. Faces of one material, wherever they stand,
-/// are one mesh; those of more than three corners are cut by cut_polygon().
+/// Reads meshes from the text of an OBJ file. Faces of one material, wherever they
+/// stand, are one mesh; those of more than three corners are cut by cut_polygon().
 /// \param text      The text.
 /// \param file      What messages call it: its name; material files are looked for
 ///                  beside it.
 /// \param settings  Scale and normals.
-/// \return The meshes, and what is wrong with the file: what cannot be used is left out,
-///         and counted.
+/// \return The meshes, and what is wrong with the file: what cannot be used is left
+///         out, and counted.
 /// \throws std::runtime_error  with one sentence, if no face can be used, or if a mesh
-///         cannot be made: "box.obj: there is no face that can be used; the first trouble:
-///         line 7: 12 faces name a vertex or a normal that is not there; ..."
+///         cannot be made: "box.obj: there is no face that can be used; the first
+///         trouble: line 7: 12 faces name a vertex or a normal that is not there; ..."
 /// \throws std::invalid_argument  for a scale that is not finite and above 0.
 template <std::floating_point T = float>
 [[nodiscard]] LoadedObjT<T> read_obj(std::string text, const std::string& file,
@@ -153,8 +153,8 @@ void add_obj(Scene& scene, const LoadedObjT<T>& loaded, MaterialId material,
         scene.add(part.mesh, material, radiance);
 }
 
-/// Reads the meshes of a scene file: load_json("scene.json", ObjMeshes{}). They are made
-/// of what the scene file says; the colours of the mesh file are not used.
+/// Reads the meshes of a scene file: load_json("scene.json", ObjMeshes{}). They are
+/// made of what the scene file says; the colours of the mesh file are not used.
 template <std::floating_point T>
 struct ObjMeshesT {
     std::string* report = nullptr; ///< Takes what is wrong, a line a trouble.

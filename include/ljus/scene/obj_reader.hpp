@@ -35,8 +35,8 @@ struct ObjSettings {
     ObjNormals normals = ObjNormals::file; ///< Which normals.
 };
 
-/// What a material file says of a material; numbers as in the file, clamped to what they
-/// may be.
+/// What a material file says of a material; numbers as in the file, clamped to what
+/// they may be.
 struct ObjMaterial {
     std::string name{};      ///< Empty for faces without a material.
     glm::dvec3 diffuse{0.5}; ///< Kd, in [0, 1].

@@ -93,8 +93,8 @@ struct SurfaceT {
 /// The surface at a hit.
 ///
 /// The geometric normal decides on which side a direction is. A ray that comes from
-/// different sides of the two normals finds the frame around the geometric one: so the z
-/// of its way back always tells the side, and no surface is seen from behind.
+/// different sides of the two normals finds the frame around the geometric one: so the
+/// z of its way back always tells the side, and no surface is seen from behind.
 /// \param scene  The scene.
 /// \param ray    The ray that hit.
 /// \param hit    What closest_hit() returned.

@@ -15,13 +15,13 @@ namespace ljus {
 /// The geometric normal decides the side of every direction, the shading normal turns
 /// the frame of the material. Where they disagree about a direction:
 ///
-/// | direction                        | rule                                           |
-/// |----------------------------------|------------------------------------------------|
-/// | a camera path comes from         | the frame is around the geometric normal       |
-/// | a photon comes from              | the same; diffuse parts absorb it              |
-/// | of a shadow ray, a photon's mark | no light                                       |
-/// | sampled, of a mirror or of glass | sampled again, around the geometric normal     |
-/// | sampled, of any other part       | the path ends                                  |
+/// | direction                        | rule                                         |
+/// |----------------------------------|----------------------------------------------|
+/// | a camera path comes from         | the frame is around the geometric normal     |
+/// | a photon comes from              | the same; diffuse parts absorb it            |
+/// | of a shadow ray, a photon's mark | no light                                     |
+/// | sampled, of a mirror or of glass | sampled again, around the geometric normal   |
+/// | sampled, of any other part       | the path ends                                |
 /// \{
 
 /// Whether a direction lies on the same side of a surface by both its normals.
@@ -36,8 +36,8 @@ template <std::floating_point T>
     return (side > T(0) && local.z > T(0)) || (side < T(0) && local.z < T(0));
 }
 
-/// What a photon's flux counts for where it lands: the flux is that of the triangle, but
-/// the material reflects what the shading normal's cosine says.
+/// What a photon's flux counts for where it lands: the flux is that of the triangle,
+/// but the material reflects what the shading normal's cosine says.
 /// \param surface    The surface.
 /// \param wo         To where the photon came from, in the surface's frame.
 /// \param direction  The photon's direction of travel.
