@@ -23,6 +23,9 @@
 #include "ljus/render/photon_dots.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/scene/load_json.hpp"
+#ifdef LJUS_HAS_TINYOBJLOADER
+#include "ljus/scene/load_obj.hpp"
+#endif
 
 namespace {
 
@@ -272,7 +275,13 @@ void body(examples::CommandLine& line) {
     line.add("--plan", request.plan, "Print what would run and why, no picture");
     const examples::Options options = line.parse();
 
+#ifdef LJUS_HAS_TINYOBJLOADER
+    std::string troubles;
+    const LoadedScene loaded = load_json(request.scene, ObjMeshes{&troubles});
+    if (!options.quiet) std::fputs(troubles.c_str(), stderr);
+#else
     const LoadedScene loaded = load_json(request.scene);
+#endif
     const Picture picture{.width = line.given("--width") ? options.width : loaded.width,
                           .height =
                               line.given("--height") ? options.height : loaded.height,

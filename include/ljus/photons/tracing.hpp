@@ -11,6 +11,7 @@
 #include "ljus/photons/emission.hpp"
 #include "ljus/photons/photon.hpp"
 #include "ljus/scene/indexed_scene.hpp"
+#include "ljus/scene/scatter.hpp"
 
 namespace ljus {
 
@@ -162,18 +163,21 @@ void trace(const Scene& scene, PhotonLaw law, FlightT<T> flight,
                                         : met_specular ? PhotonKind::caustic
                                                        : PhotonKind::direct;
                 const bool owned = (kind == PhotonKind::caustic) == caustics;
-                if (has(lobes(material), Lobes::diffuse) && owned)
+                const T landing = landing_factor(surface, wo, flight.ray.direction);
+                if (has(lobes(material), Lobes::diffuse) && owned && landing > T(0))
                     out.push_back({surface.point.position, flight.ray.direction,
-                                   flight.flux, flight.light, kind,
+                                   landing * flight.flux, flight.light, kind,
                                    small_normal(surface.point.normal)});
 
                 const Vec3T<T> u = next_3d<T>(stream);
-                const auto scattered = sample(material, wo, u, Transport::flux,
-                                              caustics ? Lobes::specular : Lobes::all);
-                if (!scattered) {
+                const bool only_specular = caustics || surface.turned;
+                const auto next = scatter(surface, material, wo, u, Transport::flux,
+                                          only_specular ? Lobes::specular : Lobes::all);
+                if (!next) {
                     audit.absorbed += RgbT<double>(flight.flux);
                     return false;
                 }
+                const auto* scattered = &next->sample;
                 const auto survivor = play_roulette(flight.flux, scattered->weight,
                                                     next_1d<T>(stream), audit);
                 if (!survivor) return false;
@@ -181,8 +185,7 @@ void trace(const Scene& scene, PhotonLaw law, FlightT<T> flight,
                 (scattered->specular ? met_specular : met_diffuse) = true;
                 if (!same_side(wo, scattered->wi))
                     medium = scattered->wi.z < T(0) ? absorption(material) : RgbT<T>{};
-                flight.ray =
-                    ray_from(surface.point, to_world(surface.frame, scattered->wi));
+                flight.ray = ray_from(surface.point, next->wi);
                 return true;
             });
         if (!goes_on) return;
