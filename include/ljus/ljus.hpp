@@ -66,6 +66,7 @@
 #include "ljus/photons/kernel.hpp"
 #include "ljus/photons/lane_estimate.hpp"
 #include "ljus/photons/lane_select.hpp"
+#include "ljus/photons/map_file.hpp"
 #include "ljus/photons/neighbor.hpp"
 #include "ljus/photons/photon.hpp"
 #include "ljus/photons/photon_map.hpp"
