@@ -71,9 +71,8 @@ void figures(const examples::Options& options, long long count) {
     const double emitted = traced.audit.emitted.y;
 
     examples::Table table{.name = "general-census",
-                          .columns = {"photons", "stored", "a photon emitted",
-                                      "in the picture", "power, W", "of the emitted",
-                                      "of the large lamp", "of the small lamp",
+                          .columns = {"photons", "stored", "in the picture", "power, W",
+                                      "of the emitted", "large + small lamp, W",
                                       "inside of objects"},
                           .rows = {}};
     const std::array figure{std::pair{PhotonKind::indirect, "general-indirect.png"},
@@ -91,11 +90,10 @@ void figures(const examples::Options& options, long long count) {
         }
         const PhotonCount& of_kind = found[kind];
         table.rows.push_back(
-            {name_of(kind), std::to_string(of_kind.photons),
-             examples::text(double(of_kind.photons) / double(count), "%.2f"),
-             std::to_string(seen), examples::text(of_kind.flux.y, "%.1f"),
+            {name_of(kind), std::to_string(of_kind.photons), std::to_string(seen),
+             examples::text(of_kind.flux.y, "%.1f"),
              examples::text(of_kind.flux.y / emitted, "%.3f"),
-             examples::text(lamp[0], "%.1f W"), examples::text(lamp[1], "%.1f W"),
+             examples::text(lamp[0], "%.1f + ") + examples::text(lamp[1], "%.1f"),
              std::to_string(behind)});
     }
     save(options, table);
