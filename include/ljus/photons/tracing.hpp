@@ -11,6 +11,7 @@
 #include "ljus/photons/emission.hpp"
 #include "ljus/photons/photon.hpp"
 #include "ljus/scene/indexed_scene.hpp"
+#include "ljus/scene/scatter.hpp"
 
 namespace ljus {
 
@@ -67,31 +68,42 @@ template <std::floating_point T>
 }
 // [roulette]
 
-/// Stores shadow photons on the surfaces that a first hit hides from the light: those
-/// behind it that face the light.
+/// Stores shadow photons on the matt surfaces behind the first one that a photon meets.
+///
+/// A surface has two sides, and what a side does not get is the light whose cosine with
+/// *that side's* normal is positive. A ray that goes straight on comes to one side of
+/// each surface, and the cosine is positive there, wherever the surface's own normal
+/// points. So nothing is asked of the normal, as nothing is asked of it for a direct
+/// photon; whoever reads the map asks photon_side(). Direct and shadow photons together
+/// are then, on each side, all the light that would come if nothing stood in its way.
 /// \param scene   The scene.
 /// \param flight  The photon as it left its light.
 /// \param first   The first surface it met.
 /// \param out     Takes the photons.
+/// \cost One search for the closest surface for each surface behind the first, and one
+///       more; it ends after 1000.
 /// \report{Section 3.2.2.1} \cite jensen1995
+// [trace_shadow]
 template <typename Scene, std::floating_point T>
 void trace_shadow(const Scene& scene, const FlightT<T>& flight,
                   const SurfacePointT<T>& first, std::vector<PhotonT<T>>& out) {
     RayT<T> ray = ray_from(first, flight.ray.direction);
-    while (const auto hit = closest_hit(scene, ray)) {
+    for (int surfaces = 0; surfaces < 1000; ++surfaces) {
+        const auto hit = closest_hit(scene, ray);
+        if (!hit) return;
         const SurfaceT<T> surface = surface_at(scene, ray, *hit);
-        const bool faces_light = glm::dot(surface.point.normal, ray.direction) < T(0);
         const bool diffuse =
             scene.visit_material(surface.object.material, [](const auto& m) {
                 return has(lobes(m), Lobes::diffuse);
             });
-        if (faces_light && diffuse)
+        if (diffuse)
             out.push_back({surface.point.position, ray.direction, flight.flux,
                            flight.light, PhotonKind::shadow,
                            small_normal(surface.point.normal)});
         ray = ray_from(surface.point, ray.direction);
     }
 }
+// [trace_shadow]
 
 /// What a photon does at a surface.
 enum class PhotonLaw : std::uint8_t {
@@ -151,18 +163,21 @@ void trace(const Scene& scene, PhotonLaw law, FlightT<T> flight,
                                         : met_specular ? PhotonKind::caustic
                                                        : PhotonKind::direct;
                 const bool owned = (kind == PhotonKind::caustic) == caustics;
-                if (has(lobes(material), Lobes::diffuse) && owned)
+                const T landing = landing_factor(surface, wo, flight.ray.direction);
+                if (has(lobes(material), Lobes::diffuse) && owned && landing > T(0))
                     out.push_back({surface.point.position, flight.ray.direction,
-                                   flight.flux, flight.light, kind,
+                                   landing * flight.flux, flight.light, kind,
                                    small_normal(surface.point.normal)});
 
                 const Vec3T<T> u = next_3d<T>(stream);
-                const auto scattered = sample(material, wo, u, Transport::flux,
-                                              caustics ? Lobes::specular : Lobes::all);
-                if (!scattered) {
+                const bool only_specular = caustics || surface.turned;
+                const auto next = scatter(surface, material, wo, u, Transport::flux,
+                                          only_specular ? Lobes::specular : Lobes::all);
+                if (!next) {
                     audit.absorbed += RgbT<double>(flight.flux);
                     return false;
                 }
+                const auto* scattered = &next->sample;
                 const auto survivor = play_roulette(flight.flux, scattered->weight,
                                                     next_1d<T>(stream), audit);
                 if (!survivor) return false;
@@ -170,8 +185,7 @@ void trace(const Scene& scene, PhotonLaw law, FlightT<T> flight,
                 (scattered->specular ? met_specular : met_diffuse) = true;
                 if (!same_side(wo, scattered->wi))
                     medium = scattered->wi.z < T(0) ? absorption(material) : RgbT<T>{};
-                flight.ray =
-                    ray_from(surface.point, to_world(surface.frame, scattered->wi));
+                flight.ray = ray_from(surface.point, next->wi);
                 return true;
             });
         if (!goes_on) return;
