@@ -247,7 +247,7 @@ void costs(const examples::Options& options, const Sizes& sizes) {
 #ifdef LJUS_HAS_TINYOBJLOADER
         std::string file;
         const auto line = [&](const char* word, const Vec3& v) {
-            file += word + examples::text(double(v.x), " %.9g") +
+            file += std::string(word) + examples::text(double(v.x), " %.9g") +
                     examples::text(double(v.y), " %.9g") +
                     examples::text(double(v.z), " %.9g") + "\n";
         };
@@ -257,7 +257,7 @@ void costs(const examples::Options& options, const Sizes& sizes) {
             file += "f";
             for (const std::uint32_t i : corners) {
                 const std::string number = std::to_string(i + 1);
-                file += " " + number + "//" + number;
+                file += std::string(" ") + number + "//" + number;
             }
             file += "\n";
         }

@@ -36,13 +36,16 @@ f 4 1 5 8
 std::string obj_text(const MeshData& data) {
     std::string text;
     for (const Vec3& p : data.positions)
-        text += "v " + to_text(p.x) + " " + to_text(p.y) + " " + to_text(p.z) + "\n";
+        text += std::string("v ") + to_text(p.x) + " " + to_text(p.y) + " " +
+                to_text(p.z) + "\n";
     for (const Vec3& n : data.normals)
-        text += "vn " + to_text(n.x) + " " + to_text(n.y) + " " + to_text(n.z) + "\n";
+        text += std::string("vn ") + to_text(n.x) + " " + to_text(n.y) + " " +
+                to_text(n.z) + "\n";
     for (const auto& t : data.triangles) {
         text += "f";
         for (const std::uint32_t i : t)
-            text += " " + std::to_string(i + 1) + "//" + std::to_string(i + 1);
+            text +=
+                std::string(" ") + std::to_string(i + 1) + "//" + std::to_string(i + 1);
         text += "\n";
     }
     return text;
@@ -140,8 +143,9 @@ TEST_CASE("load_obj: polygons are cut along their own shape") {
     std::string face = "f";
     for (int i = 0; i < 1000; ++i) {
         const double a = 2 * std::numbers::pi * i / 1000;
-        circle += "v " + to_text(std::cos(a)) + " " + to_text(std::sin(a)) + " 0\n";
-        face += " " + std::to_string(i + 1);
+        circle += std::string("v ") + to_text(std::cos(a)) + " " +
+                  to_text(std::sin(a)) + " 0\n";
+        face += std::string(" ") + std::to_string(i + 1);
     }
     const auto disc = read_obj(circle + face, "x");
     CHECK(area(disc.parts[0].mesh) == doctest::Approx(std::numbers::pi).epsilon(1e-4));
