@@ -33,6 +33,7 @@
 #include "ljus/materials/oren_nayar.hpp"
 #include "ljus/math/frame.hpp"
 #include "ljus/math/lanes.hpp"
+#include "ljus/math/low_discrepancy.hpp"
 #include "ljus/math/random.hpp"
 #include "ljus/math/require.hpp"
 #include "ljus/math/sampling.hpp"
