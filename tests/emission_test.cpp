@@ -5,7 +5,7 @@
 /// Counts are held against chi-square, which gives a false alarm once in a million; means
 /// within 4.5 standard errors, once in 150 000.
 
-#include "ljus/photons/emission.hpp"
+#include "ljus/photons/aiming.hpp"
 
 #include <doctest/doctest.h>
 
@@ -17,6 +17,7 @@
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
+#include "ljus/scene/query.hpp"
 #include "support/photon_samples.hpp"
 
 using namespace ljus;
