@@ -6,8 +6,8 @@ ljus_break_it(NAME photon-mapping-n2 HEADER materials/glass.hpp TEST photon_mapp
 
 # Flux that enters glass as if it were radiance.
 ljus_break_it(NAME photon-mapping-flux HEADER photons/photon_path.hpp TEST photon_mapping
-    FROM "sample(material, wo, u, Transport::flux, parts)"
-    TO   "sample(material, wo, u, Transport::radiance, parts)"
+    FROM "scatter(surface, material, wo, u, Transport::flux,"
+    TO   "scatter(surface, material, wo, u, Transport::radiance,"
     CASES "photon mapping: a matt ball embedded*")
 
 # A cosine in the estimate, which the arriving flux holds already.

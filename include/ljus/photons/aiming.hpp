@@ -77,8 +77,10 @@ template <typename Scene, std::floating_point T>
         if (cone.one_minus_cos == T(2) || !aims_at_area(shape))
             return AimT<T>{cone, false, cone.one_minus_cos};
         const Vec3T<T> way = bound.center - from.position;
-        const T size =
-            area(shape) * std::numbers::inv_pi_v<T> / (T(2) * glm::dot(way, way));
+        T size = T(0);
+        if constexpr (HasArea<std::remove_cvref_t<decltype(shape)>>)
+            size =
+                area(shape) * std::numbers::inv_pi_v<T> / (T(2) * glm::dot(way, way));
         return AimT<T>{cone, true, std::min(size, cone.one_minus_cos)};
     });
 }

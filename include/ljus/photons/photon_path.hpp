@@ -11,6 +11,7 @@
 #include "ljus/photons/emission.hpp"
 #include "ljus/photons/photon_pass.hpp"
 #include "ljus/scene/query.hpp"
+#include "ljus/scene/scatter.hpp"
 
 namespace ljus {
 
@@ -46,31 +47,42 @@ template <std::floating_point T>
 }
 // [roulette]
 
-/// Stores shadow photons on the surfaces that a first hit hides from the light: those
-/// behind it that face the light.
+/// Stores shadow photons on the matt surfaces behind the first one that a photon meets.
+///
+/// A surface has two sides, and what a side does not get is the light whose cosine with
+/// *that side's* normal is positive. A ray that goes straight on comes to one side of
+/// each surface, and the cosine is positive there, wherever the surface's own normal
+/// points. So nothing is asked of the normal, as nothing is asked of it for a direct
+/// photon; whoever reads the map asks photon_side(). Direct and shadow photons together
+/// are then, on each side, all the light that would come if nothing stood in its way.
 /// \param scene   The scene.
 /// \param flight  The photon as it left its light.
 /// \param first   The first surface it met.
 /// \param out     Takes the photons.
+/// \cost One search for the closest surface for each surface behind the first, and one
+///       more; it ends after 1000.
 /// \report{Section 3.2.2.1} \cite jensen1995
+// [trace_shadow]
 template <typename Scene, std::floating_point T>
 void trace_shadow(const Scene& scene, const FlightT<T>& flight,
                   const SurfacePointT<T>& first, std::vector<PhotonT<T>>& out) {
     RayT<T> ray = ray_from(first, flight.ray.direction);
-    while (const auto hit = closest_hit(scene, ray)) {
+    for (int surfaces = 0; surfaces < 1000; ++surfaces) {
+        const auto hit = closest_hit(scene, ray);
+        if (!hit) return;
         const SurfaceT<T> surface = surface_at(scene, ray, *hit);
-        const bool faces_light = glm::dot(surface.point.normal, ray.direction) < T(0);
         const bool diffuse =
             scene.visit_material(surface.object.material, [](const auto& m) {
                 return has(lobes(m), Lobes::diffuse);
             });
-        if (faces_light && diffuse)
+        if (diffuse)
             out.push_back({surface.point.position, ray.direction, flight.flux,
                            flight.light, PhotonKind::shadow,
                            small_normal(surface.point.normal)});
         ray = ray_from(surface.point, ray.direction);
     }
 }
+// [trace_shadow]
 
 /// A photon on its way, and what it has met.
 template <std::floating_point T>
@@ -119,7 +131,10 @@ void mark(const TravellerT<T>& photon, const SurfaceT<T>& surface,
     const bool owned = (kind == PhotonKind::caustic) == caustics;
     if (!owned || !has(lobes(material), Lobes::diffuse)) return;
     const FlightT<T>& flight = photon.flight;
-    out.push_back({surface.point.position, flight.ray.direction, flight.flux,
+    const Vec3T<T> wo = to_local(surface.frame, -flight.ray.direction);
+    const T landing = landing_factor(surface, wo, flight.ray.direction);
+    if (!(landing > T(0))) return;
+    out.push_back({surface.point.position, flight.ray.direction, landing * flight.flux,
                    flight.light, kind, small_normal(surface.point.normal)});
 }
 // [mark]
@@ -132,32 +147,34 @@ void mark(const TravellerT<T>& photon, const SurfaceT<T>& surface,
 /// \param stream    Four numbers are drawn.
 /// \param audit     Takes what was absorbed, and what roulette moved.
 /// \return Whether it goes on.
-// [scatter]
+// [send_on]
 template <std::floating_point T, typename Material, typename Stream>
-[[nodiscard]] bool scatter(TravellerT<T>& photon, const SurfaceT<T>& surface,
+[[nodiscard]] bool send_on(TravellerT<T>& photon, const SurfaceT<T>& surface,
                            const Material& material, PhotonLaw law, Stream& stream,
                            FluxAudit& audit) {
     FlightT<T>& flight = photon.flight;
     const Vec3T<T> wo = to_local(surface.frame, -flight.ray.direction);
     const Vec3T<T> u = next_3d<T>(stream);
-    const Lobes parts = law == PhotonLaw::caustics ? Lobes::specular : Lobes::all;
-    const auto scattered = sample(material, wo, u, Transport::flux, parts);
-    if (!scattered) {
+    const bool only_specular = law == PhotonLaw::caustics || surface.turned;
+    const auto next = scatter(surface, material, wo, u, Transport::flux,
+                              only_specular ? Lobes::specular : Lobes::all);
+    if (!next) {
         audit.absorbed += RgbT<double>(flight.flux);
         return false;
     }
+    const auto& scattered = next->sample;
     const auto survivor =
-        play_roulette(flight.flux, scattered->weight, next_1d<T>(stream), audit);
+        play_roulette(flight.flux, scattered.weight, next_1d<T>(stream), audit);
     if (!survivor) return false;
 
     flight.flux = *survivor;
-    (scattered->specular ? photon.met_specular : photon.met_diffuse) = true;
-    if (!same_side(wo, scattered->wi))
-        photon.medium = scattered->wi.z < T(0) ? absorption(material) : RgbT<T>{};
-    flight.ray = ray_from(surface.point, to_world(surface.frame, scattered->wi));
+    (scattered.specular ? photon.met_specular : photon.met_diffuse) = true;
+    if (!same_side(wo, scattered.wi))
+        photon.medium = scattered.wi.z < T(0) ? absorption(material) : RgbT<T>{};
+    flight.ray = ray_from(surface.point, next->wi);
     return true;
 }
-// [scatter]
+// [send_on]
 
 /// Follows one photon and stores it at every diffuse surface that its law owns.
 ///
@@ -203,7 +220,7 @@ void trace(const Scene& scene, PhotonLaw law, const FlightT<T>& flight,
 
         const auto at_material = [&](const auto& material) {
             mark(photon, surface, material, law, out);
-            return scatter(photon, surface, material, law, stream, audit);
+            return send_on(photon, surface, material, law, stream, audit);
         };
         if (!scene.visit_material(made_of, at_material)) return;
     }

@@ -169,17 +169,18 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
 
             // Go on by one branch; after gathering, by mirrors and glass only.
             const bool no_indirect = gather || settings.indirect == IndirectLight::none;
-            const auto next =
-                sample(material, at.wo, next_3d<T>(stream), Transport::radiance,
-                       no_indirect ? Lobes::specular : Lobes::all);
-            if (!next) return false;
+            const auto scattered = scatter(at.surface, material, at.wo,
+                                           next_3d<T>(stream), Transport::radiance,
+                                           no_indirect ? Lobes::specular : Lobes::all);
+            if (!scattered) return false;
+            const auto* next = &scattered->sample;
             throughput *= next->weight;
             squeeze *= next->squeeze;
             met_diffuse = met_diffuse || !next->specular;
             log.vertex(next->specular ? 'S' : 'D', at.surface.point.position,
                        throughput, next->pdf);
             medium = medium_beyond(medium, material, at.wo, next->wi);
-            ray = ray_from(at.surface.point, to_world(at.surface.frame, next->wi));
+            ray = ray_from(at.surface.point, scattered->wi);
             return true;
         };
         if (!mapper.scene.visit_material(at.surface.object.material, at_material))

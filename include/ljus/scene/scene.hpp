@@ -102,7 +102,10 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
         auto& array = std::get<std::vector<G>>(shapes);
         const ObjectId id{type_of<G, FirstShape, S...>(),
                           static_cast<std::uint32_t>(array.size())};
-        if (!is_black(radiance)) {
+        if constexpr (!HasArea<G>)
+            require(is_black(radiance), "the radiance of a shape of unknown area",
+                    radiance, "black: it can be lit, but cannot be a light");
+        else if (!is_black(radiance)) {
             require_positive("the area of a light", area(shape));
             const RgbT<Scalar> flux = diffuse_flux(radiance, area(shape));
             require_flux(flux);
