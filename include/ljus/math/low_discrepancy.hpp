@@ -71,7 +71,7 @@ inline constexpr SobolTable sobol_table = make_sobol_table();
 /// One coordinate of one of Sobol's points \cite sobol1967.
 /// \param index      Which point.
 /// \param dimension  Which coordinate, below sobol_dimensions.
-/// \return The coordinate times 2^32. The first 2^m points are a (t,m,s)-net: with t = 0
+/// \return The coordinate times 2^32. The first 2^m points are a (t,m,s)-net: t is 0
 ///         in each dimension alone and in dimensions 0 and 1 together.
 /// \cost One exclusive or a bit of the index that is set.
 // [sobol]

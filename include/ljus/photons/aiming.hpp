@@ -122,8 +122,8 @@ choose_target(const std::vector<ObjectId>& targets, SizeOf size_of, T u_target) 
 }
 // [choose_target]
 
-/// How much of its flux a light's point sends around a direction, per steradian; with it
-/// aimed photons are paid for.
+/// How much of its flux a light's point sends around a direction, per steradian; aimed
+/// photons are paid for with it.
 /// \param light      The light, no sun.
 /// \param point      The point of it.
 /// \param direction  Unit, away from it.

@@ -54,8 +54,8 @@ template <std::floating_point T>
 // [sun_ray]
 
 /// The way of a photon that leaves a light, with the density of what the light sends:
-/// uniform over an object's area and with cos / pi in direction; uniform over the sphere
-/// from a point; as the intensity from a spot; and from a sun side by side, uniform over
+/// uniform over an object's area and with cos / pi in direction; uniform over the
+/// sphere from a point; as the intensity from a spot; and from a sun side by side, over
 /// the disc that the sphere around the scene throws as its shadow.
 /// \param scene        The scene.
 /// \param light        One of its lights.

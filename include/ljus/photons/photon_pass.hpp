@@ -79,8 +79,8 @@ inline constexpr long long photon_block = 512;
 /// Paths that are traced before the memory for all of them is foretold.
 inline constexpr long long pilot_paths = 4 * photon_block;
 
-/// The memory that a pass will take: twice what it stores, because the blocks are joined
-/// when all are there, and the blocks themselves.
+/// The memory that a pass will take: twice what it stores, because the blocks are
+/// joined when all are there, and the blocks themselves.
 /// \param photons  Paths in all.
 /// \param mean     Photons stored a path, as seen so far.
 /// \return Bytes.
