@@ -162,6 +162,9 @@ PhotonMapsT<float> photon_pass(const LoadedScene& loaded, PhotonMapping settings
     (caustics ? settings.caustics : settings.general).progress = bar;
     auto maps = make_photon_maps(loaded.scene, settings);
     examples::stop_if_asked();
+    if (!maps.remarks.empty())
+        std::fprintf(stderr, "%s: %s", caustics ? "caustics map" : "general map",
+                     maps.remarks.c_str());
     if (quiet) return maps;
     std::printf("  %-16s %8.2f s  %lld photons emitted; kept:",
                 caustics ? "caustics map" : "general map", watch.seconds(),

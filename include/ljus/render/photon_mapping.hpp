@@ -33,6 +33,7 @@ struct PhotonMapsT {
     FluxAudit caustics_audit; ///< Where the flux of the caustics pass went.
     FluxAudit general_audit;  ///< Where the flux of the general pass went.
     bool complete = true;     ///< False if the progress callback stopped the pass.
+    std::string remarks{};    ///< Why a pass gave up, if one did: lines.
 };
 
 /// Runs the first pass: the maps that the plan asks for, and no others.
@@ -52,6 +53,7 @@ make_photon_maps(const Scene& scene, const PhotonMapping& settings = {}) {
         map = make_photon_map(traced.photons);
         audit = traced.audit;
         maps.complete = maps.complete && traced.complete;
+        if (!traced.remark.empty()) maps.remarks += traced.remark + "\n";
     };
     if (plan.caustics_map.on)
         run(PhotonLaw::caustics, settings.caustics, maps.caustics, maps.caustics_audit);
