@@ -131,6 +131,17 @@ requires std::floating_point<typename M::Scalar>
     return RgbT<typename M::Scalar>{0};
 }
 
+/// The material of a place, for every material that is the same everywhere: itself. See
+/// Textured.
+/// \param m  The material.
+/// \return m.
+template <typename M>
+requires std::floating_point<typename M::Scalar>
+[[nodiscard]] constexpr const M&
+material_at(const M& m, const Vec3T<typename M::Scalar>&) noexcept {
+    return m;
+}
+
 /// Whether a material has specular parts only, so that shadow rays and photon maps have
 /// nothing to ask there.
 /// \param m  The material.

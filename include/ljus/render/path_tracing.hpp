@@ -116,7 +116,7 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
         if (depth > limits.max_depth) break;
 
         const bool goes_on =
-            scene.visit_material(at.surface.object.material, [&](const auto& material) {
+            visit_material_of(scene, at.surface, [&](const auto& material) {
                 if (has(lobes(material), Lobes::diffuse) && limits.sample_lights &&
                     !scene.lights.empty()) {
                     const auto chosen = choose_light(tracer.lights, next_1d<T>(stream));

@@ -183,8 +183,7 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
             ray = ray_from(at.surface.point, scattered->wi);
             return true;
         };
-        if (!mapper.scene.visit_material(at.surface.object.material, at_material))
-            break;
+        if (!visit_material_of(mapper.scene, at.surface, at_material)) break;
         if (is_black(throughput)) break;
         if (depth >= settings.roulette_depth &&
             !survives(throughput, squeeze, next_1d<T>(stream)))

@@ -127,6 +127,21 @@ template <typename Scene, std::floating_point T>
 }
 // [surface_at]
 
+/// Calls f(material) with what a surface is made of where the ray met it: where
+/// visit_material() knows the material, this knows its place as well, for textures.
+/// \param scene    The scene.
+/// \param surface  Of surface_at().
+/// \param f        Called with the material, as its own type.
+// [visit_material_of]
+template <typename Scene, std::floating_point T, typename F>
+decltype(auto) visit_material_of(const Scene& scene, const SurfaceT<T>& surface,
+                                 F&& f) {
+    return scene.visit_material(surface.object.material, [&](const auto& material) {
+        return f(material_at(material, surface.point.position));
+    });
+}
+// [visit_material_of]
+
 /// \}
 
 } // namespace ljus
