@@ -1,0 +1,106 @@
+#pragma once
+
+/// \file ljus/materials/textured.hpp
+/// \brief Any material with a colour, its colour from a texture.
+
+#include "ljus/materials/bsdf.hpp"
+#include "ljus/materials/texture.hpp"
+
+namespace ljus {
+
+/// \defgroup textured Textured materials
+/// \brief A material that becomes another one at each place.
+///
+/// Renderers ask material_at(): a plain material answers with itself, a textured one
+/// with its base in the colour of the place. So no plain material knows of textures,
+/// and a scene without them is the same program as before.
+/// \{
+
+/// A material whose colour is multiplied by a texture's.
+template <Bsdf Base, typename Texture>
+struct Textured {
+    using Scalar = typename Base::Scalar; ///< The precision of its numbers.
+    Base base{};       ///< White, if the texture's colour shall stay.
+    Texture texture{}; ///< In [0, 1] everywhere.
+};
+
+/// A material in another colour; its `albedo`, `reflectance`, `tint` or `color` is it.
+/// \param base   The material.
+/// \param color  What its colour is multiplied by.
+/// \return The same material in the new colour.
+template <Bsdf Base>
+[[nodiscard]] constexpr Base
+colored(Base base, const RgbT<typename Base::Scalar>& color) noexcept {
+    if constexpr (requires { base.albedo *= color; })
+        base.albedo *= color;
+    else if constexpr (requires { base.reflectance *= color; })
+        base.reflectance *= color;
+    else if constexpr (requires { base.tint *= color; })
+        base.tint *= color;
+    else
+        base.color *= color;
+    return base;
+}
+
+/// The material of a place: the base in the texture's colour.
+/// \param textured  The material.
+/// \param place     In scene units.
+/// \return A base material.
+/// \cost color_at() of the texture.
+// [material_at]
+template <typename Base, typename Texture>
+[[nodiscard]] Base material_at(const Textured<Base, Texture>& textured,
+                               const Vec3T<typename Base::Scalar>& place) noexcept {
+    return colored(textured.base, color_at(textured.texture, place));
+}
+// [material_at]
+
+/// \name What the base says
+/// What a renderer asks of no place in particular: lobes() and absorption() to plan its
+/// passes, emission() when a shape is added. The other three are those of the base, in
+/// the base's colour.
+/// \{
+template <typename Base, typename Texture>
+[[nodiscard]] constexpr Lobes lobes(const Textured<Base, Texture>& m) noexcept {
+    return lobes(m.base);
+}
+template <typename Base, typename Texture>
+[[nodiscard]] constexpr RgbT<typename Base::Scalar>
+absorption(const Textured<Base, Texture>& m) noexcept {
+    return absorption(m.base);
+}
+template <typename Base, typename Texture>
+[[nodiscard]] constexpr RgbT<typename Base::Scalar>
+emission(const Textured<Base, Texture>& m) noexcept {
+    return emission(m.base);
+}
+template <typename Base, typename Texture, std::floating_point T>
+[[nodiscard]] RgbT<T> evaluate(const Textured<Base, Texture>& m, const Vec3T<T>& wo,
+                               const Vec3T<T>& wi) noexcept {
+    return evaluate(m.base, wo, wi);
+}
+template <typename Base, typename Texture, std::floating_point T>
+[[nodiscard]] T pdf(const Textured<Base, Texture>& m, const Vec3T<T>& wo,
+                    const Vec3T<T>& wi, Lobes which = Lobes::all) noexcept {
+    return pdf(m.base, wo, wi, which);
+}
+template <typename Base, typename Texture, std::floating_point T>
+[[nodiscard]] std::optional<BsdfSampleT<T>>
+sample(const Textured<Base, Texture>& m, const Vec3T<T>& wo, const Vec3T<T>& u,
+       Transport transport, Lobes which = Lobes::all) noexcept {
+    return sample(m.base, wo, u, transport, which);
+}
+/// \}
+
+/// Refuses what the base or the texture refuses.
+/// \param textured  The material.
+/// \throws std::invalid_argument naming the member.
+template <typename Base, typename Texture>
+void check(const Textured<Base, Texture>& textured) {
+    check(textured.base);
+    check(textured.texture);
+}
+
+/// \}
+
+} // namespace ljus
