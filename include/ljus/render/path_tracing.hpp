@@ -5,6 +5,7 @@
 
 #include "ljus/render/direct_light.hpp"
 #include "ljus/render/path_log.hpp"
+#include "ljus/scene/indexed_scene.hpp"
 #include "ljus/scene/light_choice.hpp"
 
 namespace ljus {
@@ -23,13 +24,14 @@ struct PathTracing {
 /// A scene, ready for path tracing. It refers to the scene, which must outlive it.
 template <typename Scene>
 struct PathTracer {
-    const Scene& scene;   ///< What is rendered.
-    PathTracing settings; ///< How.
-    LightChoice lights;   ///< Its lights, by power.
+    IndexedT<Scene> scene; ///< What is rendered.
+    PathTracing settings;  ///< How.
+    LightChoice lights;    ///< Its lights, by power.
 };
 
 /// Makes a path tracer.
-/// \param scene     Must outlive the tracer.
+/// \param scene     Must outlive the tracer; a scene, which it indexes, or an
+///                  IndexedScene.
 /// \param settings  Limits.
 /// \return The tracer.
 template <typename Scene>
@@ -37,7 +39,7 @@ template <typename Scene>
                                                  const PathTracing& settings = {}) {
     require(settings.max_depth >= 1, "max_depth",
             static_cast<long long>(settings.max_depth), "at least 1");
-    return {scene, settings, light_choice(scene.lights)};
+    return {IndexedT<Scene>(scene), settings, light_choice(scene.lights)};
 }
 
 /// The balance heuristic: the share of one of two strategies that could have made the
@@ -85,7 +87,7 @@ template <typename Scene, std::floating_point T>
 template <typename Scene, std::floating_point T, typename Log = NoLog>
 [[nodiscard]] RgbT<T> radiance(const PathTracer<Scene>& tracer, RayT<T> ray,
                                RandomStream& stream, Counts& counts, Log&& log = {}) {
-    const Scene& scene = tracer.scene;
+    const auto& scene = tracer.scene;
     const PathTracing& limits = tracer.settings;
     RgbT<T> sum{T(0)};
     RgbT<T> throughput{T(1)};
@@ -133,9 +135,11 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
                     log.term("shadow ray", "DL", term);
                     sum += term;
                 }
-                const auto next =
-                    sample(material, at.wo, next_3d<T>(stream), Transport::radiance);
-                if (!next) return false;
+                const auto scattered =
+                    scatter(at.surface, material, at.wo, next_3d<T>(stream),
+                            Transport::radiance);
+                if (!scattered) return false;
+                const auto* next = &scattered->sample;
                 // From the last surface a path goes on to the lamp that its shadow ray
                 // left a share of, and to nothing else.
                 if (depth == limits.max_depth && next->specular) return false;
@@ -145,7 +149,7 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
                 from = at.surface.point.position;
                 log.vertex(next->specular ? 'S' : 'D', from, throughput, next->pdf);
                 medium = medium_beyond(medium, material, at.wo, next->wi);
-                ray = ray_from(at.surface.point, to_world(at.surface.frame, next->wi));
+                ray = ray_from(at.surface.point, scattered->wi);
                 return true;
             });
         if (!goes_on || is_black(throughput)) break;

@@ -8,6 +8,7 @@
 #include "ljus/render/direct_light.hpp"
 #include "ljus/render/path_log.hpp"
 #include "ljus/render/survey.hpp"
+#include "ljus/scene/indexed_scene.hpp"
 
 namespace ljus {
 
@@ -32,6 +33,7 @@ struct PhotonMapsT {
     FluxAudit caustics_audit; ///< Where the flux of the caustics pass went.
     FluxAudit general_audit;  ///< Where the flux of the general pass went.
     bool complete = true;     ///< False if the progress callback stopped the pass.
+    std::string remarks{};    ///< Why a pass gave up, if one did: lines.
 };
 
 /// Runs the first pass: the maps that the plan asks for, and no others.
@@ -51,6 +53,7 @@ make_photon_maps(const Scene& scene, const PhotonMapping& settings = {}) {
         map = make_photon_map(traced.photons);
         audit = traced.audit;
         maps.complete = maps.complete && traced.complete;
+        if (!traced.remark.empty()) maps.remarks += traced.remark + "\n";
     };
     if (plan.caustics_map.on)
         run(PhotonLaw::caustics, settings.caustics, maps.caustics, maps.caustics_audit);
@@ -62,13 +65,14 @@ make_photon_maps(const Scene& scene, const PhotonMapping& settings = {}) {
 /// A scene with its photon maps. It refers to both, which must outlive it.
 template <typename Scene>
 struct PhotonMapper {
-    const Scene& scene;                              ///< What is rendered.
+    IndexedT<Scene> scene;                           ///< What is rendered.
     const PhotonMapsT<typename Scene::Scalar>& maps; ///< Of the first pass.
     PhotonMapping settings;                          ///< How.
 };
 
 /// Makes a photon mapper.
-/// \param scene     Must outlive the mapper.
+/// \param scene     Must outlive the mapper; a scene, which it indexes, or an
+///                  IndexedScene.
 /// \param maps      Of make_photon_maps(); must outlive the mapper.
 /// \param settings  Depths, radii, who carries indirect light.
 /// \return The mapper.
@@ -78,7 +82,7 @@ template <typename Scene>
 make_photon_mapper(const Scene& scene, const PhotonMapsT<typename Scene::Scalar>& maps,
                    const PhotonMapping& settings = {}) {
     check(settings);
-    return {scene, maps, settings};
+    return {IndexedT<Scene>(scene), maps, settings};
 }
 
 /// The light that a diffuse surface sends back along a camera path, but for what comes
@@ -165,17 +169,18 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
 
             // Go on by one branch; after gathering, by mirrors and glass only.
             const bool no_indirect = gather || settings.indirect == IndirectLight::none;
-            const auto next =
-                sample(material, at.wo, next_3d<T>(stream), Transport::radiance,
-                       no_indirect ? Lobes::specular : Lobes::all);
-            if (!next) return false;
+            const auto scattered = scatter(at.surface, material, at.wo,
+                                           next_3d<T>(stream), Transport::radiance,
+                                           no_indirect ? Lobes::specular : Lobes::all);
+            if (!scattered) return false;
+            const auto* next = &scattered->sample;
             throughput *= next->weight;
             squeeze *= next->squeeze;
             met_diffuse = met_diffuse || !next->specular;
             log.vertex(next->specular ? 'S' : 'D', at.surface.point.position,
                        throughput, next->pdf);
             medium = medium_beyond(medium, material, at.wo, next->wi);
-            ray = ray_from(at.surface.point, to_world(at.surface.frame, next->wi));
+            ray = ray_from(at.surface.point, scattered->wi);
             return true;
         };
         if (!mapper.scene.visit_material(at.surface.object.material, at_material))
