@@ -15,6 +15,8 @@
 #include "ljus/geometry/surface.hpp"
 #include "ljus/geometry/transform.hpp"
 #include "ljus/geometry/triangle.hpp"
+#include "ljus/geometry/triangle_bvh.hpp"
+#include "ljus/geometry/wide_bvh.hpp"
 #include "ljus/image/byte_reader.hpp"
 #include "ljus/image/color.hpp"
 #include "ljus/image/file.hpp"
