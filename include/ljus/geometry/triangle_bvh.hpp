@@ -154,7 +154,8 @@ private:
     auto look_first(const Ray& ray, Ask& ask) const {
         return [this, &ray, &ask](std::uint32_t first, std::uint32_t count,
                                   const WideRay* ready) {
-            if (ready == nullptr) return tree_.each_place(ask)(first, count, ready);
+            if (ready == nullptr || !ready->moderate)
+                return tree_.each_place(ask)(first, count, ready);
             FirstLook found = first_look<Ask>(blocks_[first / lane_count], *ready, ray);
             if (certain_ends && found.certain != 0) return true;
             while (found.maybe != 0)

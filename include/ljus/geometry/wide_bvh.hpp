@@ -45,6 +45,7 @@ struct WideRay {
     std::array<std::size_t, 3> far{}; ///< and last.
     float length = 0;                 ///< The largest component of D.
     float last = 0;                   ///< Beyond this t there is nothing.
+    bool moderate = false; ///< Products of three such lengths are far from infinite.
 };
 
 /// The plain tree, made wide: of each node the largest children are opened until there
@@ -130,12 +131,12 @@ private:
 template <typename Leaf, typename Watch>
 bool WideBvh::walk(const Ray& ray, Leaf&& leaf, Watch&& watch) const {
     WideRay r;
-    if (nodes_.empty() || !(ray.t_min <= ray.t_max) || !is_finite(ray.origin) ||
-        !is_finite(ray.direction))
-        return false;
-    if (!make_ready(r, ray))
+    if (nodes_.empty() || !(ray.t_min <= ray.t_max)) return false;
+    if (!make_ready(r, ray)) {
+        if (!is_finite(ray.origin) || !is_finite(ray.direction)) return false;
         return leaf(0u, static_cast<std::uint32_t>(order_.size()),
                     static_cast<const WideRay*>(nullptr));
+    }
 
     // Asks eight boxes at once: which ones the ray enters, and where.
     const Lanes* const lanes = nodes_[0].plane.data();
@@ -228,19 +229,20 @@ inline bool WideBvh::make_ready(WideRay& r, const Ray& ray) const noexcept {
     const float reach = max_component(glm::abs(origin) + half_);
     r.length = max_component(size);
     r.last = 4 * reach / r.length;
+    const Vec3 d = glm::max(size, Vec3{1e-12f * r.length});
+    const float slack = 8 * std::numeric_limits<float>::epsilon() * reach;
     for (int axis = 0; axis < 3; ++axis) {
         const auto i = static_cast<std::size_t>(axis);
-        const float d =
-            std::copysign(std::max(size[axis], 1e-12f * r.length), ray.direction[axis]);
-        const float shift = origin[axis] / d;
-        const float slack =
-            8 * std::numeric_limits<float>::epsilon() * reach / std::abs(d);
-        r.inverse[axis] = 1 / d;
-        r.near_shift[axis] = shift + slack;
-        r.far_shift[axis] = shift - slack;
-        r.near[i] = std::signbit(d) ? i + 3 : i;
-        r.far[i] = std::signbit(d) ? i : i + 3;
+        const bool back = std::signbit(ray.direction[axis]);
+        const float size_of_inverse = 1 / d[axis];
+        const float shift = origin[axis] * (back ? -size_of_inverse : size_of_inverse);
+        r.inverse[axis] = back ? -size_of_inverse : size_of_inverse;
+        r.near_shift[axis] = shift + slack * size_of_inverse;
+        r.far_shift[axis] = shift - slack * size_of_inverse;
+        r.near[i] = back ? i + 3 : i;
+        r.far[i] = back ? i : i + 3;
     }
+    r.moderate = reach * reach * std::max(reach, r.length) < 1e36f;
     // Their squares are still numbers: those of the directions, and of the distances.
     constexpr float most = 1e18f;
     return r.length > 1 / most && r.length < most && reach < most &&
