@@ -429,6 +429,31 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("emission: at a flat mirror no photon is aimed in vain") {
+    // A long mirror, seen almost from its edge and from its side. The solid angle of a
+    // rectangle over a corner of it: asin(a b / (sqrt(a^2 + h^2) sqrt(b^2 + h^2))).
+    for (const float height : {0.02f, 0.5f, 5.0f})
+        for (const float beside : {0.1f, 2.0f}) {
+            CAPTURE(height);
+            CAPTURE(beside);
+            Stage stage;
+            stage.scene.add(
+                Quad{.corner{beside, 0, 0}, .edge_u{4, 0, 0}, .edge_v{0, 0.5f, 0}},
+                stage.mirror);
+            stage.scene.add(PointLight{.position{0, 0, height}});
+            const auto corner = [&](double a, double b) {
+                const double h2 = double(height) * double(height);
+                return std::asin(a * b / std::sqrt((a * a + h2) * (b * b + h2)));
+            };
+            const double right =
+                corner(double(beside + 4), 0.5) - corner(double(beside), 0.5);
+            const AimedFlux found = aim_at_all(stage.scene, 40000);
+            CHECK(std::abs(found.means[0][0].sigmas(right, 1e-4)) < 4.5);
+            const bool outside = beside > 1 || height > 3; // of the bounding sphere
+            if (outside) CHECK(found.kept >= 39900);
+        }
+}
+
 TEST_CASE("emission: a point light within the bound aims everywhere") {
     Stage ball;
     ball.scene.add(Sphere{.center{0.2f, 0, 0}}, ball.glass);

@@ -92,7 +92,72 @@ std::vector<Gather> each_kernel(float radius, std::size_t nearest = 0) {
     return ways;
 }
 
+/// A matt surface that the estimate does not know for one: it is asked photon by photon.
+struct Unknown {
+    using Scalar = float;
+    Lambertian inner = matt;
+};
+Rgb evaluate(const Unknown& unknown, const Vec3& wo, const Vec3& wi) {
+    return evaluate(unknown.inner, wo, wi);
+}
+
 } // namespace
+
+TEST_CASE("photon_map: eight at a time give what one by one give") {
+    Numbers numbers{81};
+    for (int repeat = 0; repeat < 300; ++repeat) {
+        // Everything that decides: distance, height, side, kind, normal.
+        std::vector<Photon> photons;
+        const int count = numbers.below(300);
+        for (int i = 0; i < count; ++i)
+            photons.push_back({.position = numbers.point<float>(0.5),
+                               .direction = glm::normalize(numbers.point<float>(1)),
+                               .flux = numbers.point<float>(1) + 1.0f,
+                               .light = std::uint16_t(i),
+                               .kind = static_cast<PhotonKind>(numbers.below(4)),
+                               .normal = numbers.below(4) == 0
+                                             ? ljus::SmallNormal{0}
+                                             : ljus::small_normal(glm::normalize(
+                                                   numbers.point<float>(1)))});
+        const auto map = ljus::make_photon_map(photons);
+        auto surface = floor_at<float>(numbers.point<float>(0.3));
+        surface.point.normal = glm::normalize(numbers.point<float>(1));
+        surface.frame = ljus::frame_around(
+            glm::normalize(surface.point.normal + numbers.point<float>(0.3)));
+        const Vec3 wo = glm::normalize(numbers.point<float>(1));
+        for (const Kernel kernel : kernels) {
+            const Gather gather{.radius = float(numbers.between(0.01, 1)),
+                                .kernel = kernel,
+                                .thickness = float(numbers.between(0.1, 1.2))};
+            const int kinds = numbers.below(16);
+            const auto wanted = [&](PhotonKind kind) {
+                return (kinds >> static_cast<int>(kind) & 1) != 0;
+            };
+            std::uint64_t in_lanes = 0, one_by_one = 0;
+            const Rgb a = ljus::estimate_radiance(map, surface, matt, wo, gather,
+                                                  wanted, in_lanes);
+            const Rgb b = ljus::estimate_radiance(map, surface, Unknown{}, wo, gather,
+                                                  wanted, one_by_one);
+            REQUIRE(in_lanes == one_by_one);
+            for (int c = 0; c < 3; ++c)
+                REQUIRE(a[c] == doctest::Approx(b[c]).epsilon(1e-5));
+        }
+    }
+}
+
+TEST_CASE("photon_map: one by one, too, find the flux density") {
+    Numbers numbers{82};
+    Mean mean;
+    for (int i = 0; i < 800; ++i) {
+        const auto map = ljus::make_photon_map(rain(500, numbers));
+        std::uint64_t gathered = 0;
+        mean.add(double(ljus::estimate_radiance(map, floor_at(Vec3{0}), Unknown{},
+                                                Vec3{0.6f, 0, 0.8f}, {.radius = 0.25f},
+                                                everything, gathered)
+                            .x));
+    }
+    CHECK(std::abs(mean.sigmas(exact(0))) < 4.5);
+}
 
 TEST_CASE("photon_map: within a fixed radius every kernel finds the flux density") {
     for (const Mean& mean : over_maps(1000, 500, each_kernel(0.25f), 11)) {
@@ -267,6 +332,95 @@ TEST_CASE("photon_map: photons of another wall are left out by the thickness") {
     CHECK(estimate(ljus::make_photon_map(both), thick).x > 2 * expected.x);
 }
 
+namespace {
+
+/// A surface point with a normal.
+ljus::SurfaceT<float> surface_with(Vec3 position, Vec3 normal) {
+    ljus::SurfaceT<float> surface{};
+    surface.point.position = position;
+    surface.point.normal = normal;
+    surface.frame = ljus::frame_around(normal);
+    return surface;
+}
+
+/// Photons of flux 1 that fall straight onto a ball around 0, alike everywhere.
+std::vector<Photon> onto_ball(int count, float radius, Numbers& numbers) {
+    std::vector<Photon> photons;
+    for (int i = 0; i < count; ++i) {
+        const Vec3 n = ljus::sample_uniform_sphere(
+            ljus::Vec2{float(numbers.unit()), float(numbers.unit())});
+        photons.push_back({.position = radius * n,
+                           .direction = -n,
+                           .flux{1, 1, 1},
+                           .normal = ljus::small_normal(n)});
+    }
+    return photons;
+}
+
+} // namespace
+
+TEST_CASE("photon_map: on a ball as small as the gather radius nothing is lost") {
+    // The cap within r of a point of a sphere has the area pi r^2, as on a plane, and
+    // the squared distance is uniform over it: every kernel's mean is right.
+    for (const float ball : {10.0f, 1.5f, 1.01f}) {
+        CAPTURE(ball);
+        Numbers numbers{43};
+        for (const std::size_t k : {std::size_t(0), std::size_t(30)}) {
+            std::vector<Mean> means(kernels.size());
+            for (int i = 0; i < 600; ++i) {
+                // Some hundred within the disc.
+                const int count = int(400 * ball * ball);
+                const auto map = ljus::make_photon_map(
+                    onto_ball(ball > 2 ? 4000 : count, ball, numbers));
+                const Vec3 n{0, 0.6f, 0.8f};
+                for (std::size_t j = 0; j < kernels.size(); ++j) {
+                    std::uint64_t gathered = 0;
+                    means[j].add(
+                        double(ljus::estimate_radiance(
+                                   map, surface_with(ball * n, n), matt, Vec3{0, 0, 1},
+                                   {.radius = 1, .nearest = k, .kernel = kernels[j]},
+                                   everything, gathered)
+                                   .x));
+                }
+            }
+            const double count = ball > 2 ? 4000 : int(400 * ball * ball);
+            const double right = double(matt.albedo.x) / std::numbers::pi * count /
+                                 (4 * std::numbers::pi * double(ball) * double(ball));
+            for (const Mean& mean : means) CHECK(std::abs(mean.sigmas(right)) < 4.5);
+        }
+    }
+}
+
+TEST_CASE("photon_map: the other wall of a corner and the other side of a wall do not "
+          "count, however near") {
+    Numbers numbers{44};
+    const auto floor = rain(3000, numbers);
+    std::vector<Photon> others;
+    for (int i = 0; i < 3000; ++i) {
+        const auto a = float(numbers.between(-1, 1)), b = float(numbers.unit());
+        // A wall at x = 0.02, lit from where the floor is, and the floor's other side,
+        // lit by light that comes through this one's air: one that shines up, and one
+        // whose direction alone would not tell.
+        others.push_back({.position{0.02f, a, b},
+                          .direction = glm::normalize(Vec3{1, 0, -1}),
+                          .flux{1, 1, 1},
+                          .normal = ljus::small_normal(Vec3{-1, 0, 0})});
+        others.push_back({.position{a, 2 * b - 1, -0.001f},
+                          .direction = glm::normalize(Vec3{1, 0, -1}),
+                          .flux{1, 1, 1},
+                          .normal = ljus::small_normal(Vec3{0, 0, -1})});
+    }
+    auto both = floor;
+    both.insert(both.end(), others.begin(), others.end());
+    for (const std::size_t k : {std::size_t(0), std::size_t(50)}) {
+        const Gather gather{.radius = 0.3f, .nearest = k};
+        const Rgb expected = estimate(ljus::make_photon_map(floor), gather);
+        const Rgb found = estimate(ljus::make_photon_map(both), gather);
+        for (int c = 0; c < 3; ++c)
+            CHECK(found[c] == doctest::Approx(expected[c]).epsilon(1e-6));
+    }
+}
+
 TEST_CASE("photon_map: k nearest stays right beside a ceiling full of photons") {
     // Photons of the ceiling count among the k, set the radius at times, and are left
     // out of the sum: the mean must not care.
@@ -360,7 +514,7 @@ TEST_CASE("photon_map: records follow the order of the tree") {
     REQUIRE(map.records.size() == 1000);
     for (std::size_t i = 0; i < 1000; ++i) {
         const Photon& photon = photons[map.records[i].light];
-        REQUIRE(map.tree.points()[i] == photon.position);
+        REQUIRE(map.tree.point(i) == photon.position);
         REQUIRE(map.records[i].direction == photon.direction);
         REQUIRE(map.records[i].flux == photon.flux);
         REQUIRE(map.records[i].kind == photon.kind);

@@ -382,8 +382,7 @@ TEST_CASE("photon mapping: lamps and matt balls within clear and coloured glass"
             for (std::uint64_t seed = 1; seed <= 16; ++seed) {
                 PhotonMapping settings;
                 settings.caustics = {.photons = 10000, .seed = seed, .threads = 1};
-                // The cap of the ball under a disc of radius r is r^2 / 2R high, 0.17 r.
-                settings.gather_caustics = {.radius = 0.1f, .thickness = 0.2f};
+                settings.gather_caustics = {.radius = 0.1f};
                 const auto maps = make_photon_maps(room, settings);
                 const PhotonMapper<Room> mapper{room, maps, settings};
                 mapped.add(mean_radiance(mapper, 10000, seed, ray).mean);

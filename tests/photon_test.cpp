@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include <numbers>
 #include <stdexcept>
 #include <type_traits>
 
@@ -18,13 +19,37 @@ using ljus::Rgb;
 using photon_test::Numbers;
 using RgbD = ljus::RgbT<double>; ///< Accounts are kept in double.
 
-TEST_CASE("photon: 40 bytes in float, and a plain value") {
-    CHECK(sizeof(ljus::Photon) == 40);
+TEST_CASE("photon: 44 bytes in float, and a plain value") {
+    CHECK(sizeof(ljus::Photon) == 44);
     CHECK(sizeof(ljus::PhotonT<double>) == 80);
     CHECK(sizeof(ljus::PhotonKind) == 1);
     CHECK(std::is_trivially_copyable_v<ljus::Photon>);
     CHECK(ljus::Photon{}.kind == ljus::PhotonKind::direct);
     CHECK(ljus::Photon{}.flux == Rgb{0});
+}
+
+TEST_CASE("photon: a normal in three bytes is less than half a degree wrong") {
+    Numbers numbers{5};
+    for (int i = 0; i < 10000; ++i) {
+        const glm::dvec3 n = glm::normalize(numbers.point<double>(1));
+        const glm::dvec3 kept(ljus::small_normal(ljus::Vec3(n)));
+        const double sine = glm::length(glm::cross(n, kept)) / glm::length(kept);
+        REQUIRE(glm::dot(n, kept) > 0);
+        REQUIRE(std::asin(sine) < 0.5 * std::numbers::pi / 180);
+    }
+    CHECK(ljus::small_normal(ljus::Vec3{0, -1, 0}) == ljus::SmallNormal{0, -127, 0});
+}
+
+TEST_CASE("photon: turned away from 60 degrees on, and never without a normal") {
+    for (int degrees = 0; degrees <= 180; ++degrees) {
+        if (degrees == 60) continue; // a rounded normal may lie on either side
+        const double angle = degrees * std::numbers::pi / 180;
+        const ljus::Vec3 n(std::sin(angle), 0, std::cos(angle));
+        CAPTURE(degrees);
+        CHECK(ljus::turned_away(ljus::small_normal(n), ljus::Vec3{0, 0, 1}) ==
+              (degrees > 60));
+    }
+    CHECK_FALSE(ljus::turned_away(ljus::SmallNormal{0}, ljus::Vec3{0, 0, 1}));
 }
 
 TEST_CASE("photon: accounts are added part by part") {

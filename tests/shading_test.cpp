@@ -52,7 +52,7 @@ TEST_CASE("shading: roulette leaves the mean as it was") {
         auto stream = random_stream(1, Pass::user, 0, 0);
         for (int i = 0; i < 20000; ++i) {
             Rgb throughput = before;
-            const bool alive = survives(throughput, next_1d<float>(stream));
+            const bool alive = survives(throughput, 1.0f, next_1d<float>(stream));
             for (int c = 0; c < 3; ++c)
                 after[c].add(alive ? double(throughput[c]) : 0.0);
             if (alive) CHECK(max_component(throughput) >= 1.0f - 1e-6f);
@@ -62,10 +62,14 @@ TEST_CASE("shading: roulette leaves the mean as it was") {
     }
     // Above 1 nobody dies, and nothing is changed: inside glass throughputs are 2.25.
     Rgb bright{2.25f, 1, 0.5f};
-    CHECK(survives(bright, 0.9999999f));
+    CHECK(survives(bright, 1.0f, 0.9999999f));
     CHECK(bright == Rgb{2.25f, 1, 0.5f});
     Rgb black{0};
-    CHECK_FALSE(survives(black, 0.0f));
+    CHECK_FALSE(survives(black, 1.0f, 0.0f));
     Rgb broken{std::numeric_limits<float>::quiet_NaN()};
-    (void)survives(broken, 0.5f); // does what it will, but ends
+    (void)survives(broken, 1.0f, 0.5f); // does what it will, but ends
+    // What n^2 makes of the throughput is no reason to die.
+    Rgb in_glass{1 / 2.25f};
+    CHECK(survives(in_glass, 1 / 2.25f, 0.99999f));
+    CHECK(in_glass.x == doctest::Approx(1 / 2.25f));
 }

@@ -31,8 +31,8 @@ ljus_break_it(NAME aim-weight HEADER photons/emission.hpp TEST emission
 
 # The density of the chosen cone alone, without the choice.
 ljus_break_it(NAME aim-choice HEADER photons/emission.hpp TEST emission
-    FROM "pdf_uniform_cone(sum)"
-    TO   "pdf_uniform_cone(cone.one_minus_cos)"
+    FROM "pdf *= at.size / sum;"
+    TO   ""
     CASES "emission: where cones overlap*")
 
 # The cosine at the lamp, forgotten: right for a point light only.
@@ -43,8 +43,8 @@ ljus_break_it(NAME aim-cosine HEADER photons/emission.hpp TEST emission
 
 # Within the bound of its target a lamp needs its whole hemisphere.
 ljus_break_it(NAME aim-inside HEADER photons/emission.hpp TEST emission
-    FROM "ConeT<T>{from.normal, T(1)}"
-    TO   "ConeT<T>{from.normal, T(0.5)}"
+    FROM "{{from.normal, T(1)}, false, T(1)}"
+    TO   "{{from.normal, T(0.5)}, false, T(0.5)}"
     CASES "emission: a lamp within*")
 
 # A target takes the place of the one before with its share, but u is not stretched: the

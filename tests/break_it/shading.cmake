@@ -4,6 +4,12 @@ ljus_break_it(NAME shading-roulette HEADER render/shading.hpp TEST shading
     TO   ""
     CASES "shading: roulette*")
 
+# Roulette takes the n^2 of radiance in glass for a loss.
+ljus_break_it(NAME shading-squeeze HEADER render/shading.hpp TEST shading
+    FROM "max_component(throughput) / squeeze"
+    TO   "max_component(throughput)"
+    CASES "shading: roulette*")
+
 # Coming out of glass, a path takes the glass along.
 ljus_break_it(NAME shading-medium HEADER render/shading.hpp TEST shading
     FROM "wi.z < T(0) ? absorption(material) : RgbT<T>{T(0)}"

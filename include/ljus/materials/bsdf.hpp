@@ -71,16 +71,24 @@ struct BsdfSampleT {
     RgbT<T> weight{T(0)};          ///< f |cos|/pdf: what the path is multiplied by.
     T pdf = T(0);          ///< Per steradian, choice of lobe included; 0: delta.
     bool specular = false; ///< Whether `wi` is a delta's direction.
+    T squeeze =
+        T(1); ///< What of the weight is (n_i/n_t)^2: light squeezed into another
+              ///< cone, not lost, so that roulette leaves it out.
 };
 using BsdfSample = BsdfSampleT<float>; ///< BsdfSampleT in float.
 
 /// A sample of a delta: its density is infinite, and says nothing.
-/// \param wi      Where the light comes from.
-/// \param weight  Share of that light which goes on, over the lobe's probability.
+/// \param wi       Where the light comes from.
+/// \param share    Of that light which goes on, over the lobe's probability.
+/// \param squeeze  (n_i/n_t)^2 for radiance that crosses a boundary; else 1.
 template <std::floating_point T>
-[[nodiscard]] constexpr BsdfSampleT<T> specular_sample(const Vec3T<T>& wi,
-                                                       const RgbT<T>& weight) noexcept {
-    return {.wi = wi, .weight = weight, .pdf = T(0), .specular = true};
+[[nodiscard]] constexpr BsdfSampleT<T>
+specular_sample(const Vec3T<T>& wi, const RgbT<T>& share, T squeeze = T(1)) noexcept {
+    return {.wi = wi,
+            .weight = share * squeeze,
+            .pdf = T(0),
+            .specular = true,
+            .squeeze = squeeze};
 }
 
 /// A sample of a lobe with a density.

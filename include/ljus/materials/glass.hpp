@@ -78,7 +78,7 @@ sample(const GlassT<T>& glass, const Vec3T<T>& wo, const Vec3T<T>& u,
     if (!refracted || u.z < fresnel(glass.fresnel, std::abs(wo.z), n_i, n_t))
         return specular_sample(reflect(wo), RgbT<T>{T(1)});
     const T scale = transport == Transport::radiance ? eta * eta : T(1);
-    return specular_sample(*refracted, RgbT<T>{scale});
+    return specular_sample(*refracted, RgbT<T>{T(1)}, scale);
 }
 // [glass sample]
 

@@ -174,7 +174,7 @@ sample(const MixtureT<T>& mixture, const Vec3T<T>& wo, const Vec3T<T>& u,
         const T eta = wo.z > T(0) ? T(1) / mixture.index : mixture.index;
         const T scale = transport == Transport::radiance ? eta * eta : T(1);
         if (const auto wi = refract(wo, eta))
-            return specular_sample(*wi, RgbT<T>{sum * scale});
+            return specular_sample(*wi, RgbT<T>{sum}, scale);
         // At the critical angle rounding may decide otherwise than in F.
     }
     return specular_sample(reflect(wo), RgbT<T>{sum});

@@ -94,34 +94,59 @@ struct AimedFlightT {
     ObjectId target;   ///< It counts only if this is what it meets first.
 };
 
-/// The directions in which a point of a light aims at an object: the cone in which it
-/// sees the object's bounding sphere. From inside of that, a lamp aims at all that it
-/// can shine on, and a point light everywhere.
+/// How a point of a light aims at an object.
+template <std::floating_point T>
+struct AimT {
+    ConeT<T> cone{};      ///< In which it sees the object's bounding sphere.
+    bool at_area = false; ///< At points of the object's area instead of the cone.
+    T size = T(0);        ///< About the solid angle over 2 pi: how often it is chosen.
+};
+
+/// Whether photons are aimed at a shape's area: flat shapes fill little of their
+/// bounding spheres, nothing at all if seen from the side, and no ray meets one twice.
+template <typename S>
+[[nodiscard]] constexpr bool aims_at_area(const S&) noexcept {
+    return requires(const S& shape) {
+        cross_of_edges(shape);
+    };
+}
+
+/// How a point of a light aims at an object: at the cone in which it sees the object's
+/// bounding sphere, or at the points of a flat one. From inside of that sphere, a lamp
+/// aims at all that it can shine on, and a point light everywhere.
 /// \param scene   The scene.
 /// \param light   One of its lights.
 /// \param from    A point of the light.
 /// \param target  The object.
-/// \return The cone.
-// [aiming_cone]
+/// \return The aim.
+// [aim_at]
 template <typename Scene, std::floating_point T>
-[[nodiscard]] ConeT<T> aiming_cone(const Scene& scene, const LightT<T>& light,
-                                   const SurfacePointT<T>& from, ObjectId target) {
-    const SphereT<T> bound = scene.visit_shape(
-        target, [](const auto& shape) { return bounding_sphere(shape); });
-    const ConeT<T> cone = cone_towards(bound, from.position);
-    const bool inside = cone.one_minus_cos == T(2);
-    return inside && light.object ? ConeT<T>{from.normal, T(1)} : cone;
+[[nodiscard]] AimT<T> aim_at(const Scene& scene, const LightT<T>& light,
+                             const SurfacePointT<T>& from, ObjectId target) {
+    return scene.visit_shape(target, [&](const auto& shape) {
+        const SphereT<T> bound = bounding_sphere(shape);
+        const ConeT<T> cone = cone_towards(bound, from.position);
+        if (cone.one_minus_cos == T(2) && light.object) // inside
+            return AimT<T>{{from.normal, T(1)}, false, T(1)};
+        if (cone.one_minus_cos == T(2) || !aims_at_area(shape))
+            return AimT<T>{cone, false, cone.one_minus_cos};
+        const Vec3T<T> way = bound.center - from.position;
+        const T size =
+            area(shape) * std::numbers::inv_pi_v<T> / (T(2) * glm::dot(way, way));
+        return AimT<T>{cone, true, std::min(size, cone.one_minus_cos)};
+    });
 }
-// [aiming_cone]
+// [aim_at]
 
 /// A photon aimed at one of several objects: at the cone in which the light's point
 /// sees the object's bounding sphere, uniformly; a wide cone is chosen more often, so
-/// that the density is the same, one over the sum of the cones, in all of them.
+/// that the density is the same, one over the sum of the cones, in all of them. A flat
+/// object is aimed at point by point of its area instead.
 ///
 /// The flux makes up for the density of the direction: it is multiplied by
 /// \f$ (\cos\theta / \pi) / p(\omega) \f$, for a point light by
-/// \f$ (1/4\pi) / p(\omega) \f$. Where cones overlap, each direction belongs to the
-/// object that is met first; the caller drops the photons that were aimed at another.
+/// \f$ (1/4\pi) / p(\omega) \f$. Where objects overlap, each direction belongs to the
+/// one that is met first; the caller drops the photons that were aimed at another.
 /// \param scene    The scene.
 /// \param choice   Of the scene's lights; at least one.
 /// \param targets  The objects; at least one.
@@ -148,19 +173,19 @@ aim(const Scene& scene, const LightChoice& choice, const std::vector<ObjectId>& 
     SurfacePointT<T> point{.position = light.position};
     if (light.object) point = light_point(scene, light, u_point);
 
-    // Choose a target by the size of its cone: each takes the place of the one before
+    // Choose a target by its size: each takes the place of the one before
     // with its share of the sum so far, and u is stretched to [0, 1) again.
     T sum = T(0);
     ObjectId target;
-    ConeT<T> cone;
+    AimT<T> at;
     for (const ObjectId candidate : targets) {
-        const ConeT<T> seen = aiming_cone(scene, light, point, candidate);
-        if (!(seen.one_minus_cos > T(0))) continue;
-        sum += seen.one_minus_cos;
-        const T share = seen.one_minus_cos / sum;
+        const AimT<T> seen = aim_at(scene, light, point, candidate);
+        if (!(seen.size > T(0))) continue;
+        sum += seen.size;
+        const T share = seen.size / sum;
         if (u_target < share) {
             target = candidate;
-            cone = seen;
+            at = seen;
             u_target /= share;
         } else {
             u_target = (u_target - share) / (T(1) - share);
@@ -168,13 +193,23 @@ aim(const Scene& scene, const LightChoice& choice, const std::vector<ObjectId>& 
     }
     if (!(sum > T(0))) return std::nullopt;
 
-    const Vec3T<T> direction = to_world(
-        frame_around(cone.axis), sample_uniform_cone(u_direction, cone.one_minus_cos));
+    Vec3T<T> direction =
+        to_world(frame_around(at.cone.axis),
+                 sample_uniform_cone(u_direction, at.cone.one_minus_cos));
+    T pdf = pdf_uniform_cone(at.cone.one_minus_cos);
+    if (at.at_area) {
+        const SeenPointT<T> seen = scene.visit_shape(target, [&](const auto& shape) {
+            return sample_towards(shape, point.position, u_direction);
+        });
+        direction = glm::normalize(seen.point.position - point.position);
+        pdf = seen.pdf;
+    }
+    pdf *= at.size / sum; // of the choice
+    if (!(pdf < std::numeric_limits<T>::infinity())) return std::nullopt; // edge-on
     const T cosine = glm::dot(direction, point.normal);
     if (light.object && !(cosine > T(0))) return std::nullopt;
     const T emitted = light.object ? cosine * std::numbers::inv_pi_v<T>
                                    : pdf_uniform_sphere(direction);
-    const T pdf = pdf_uniform_cone(sum);
     FlightT<T> flight{.flux = light.flux * (emitted / (pdf * chosen.probability)),
                       .light = static_cast<std::uint16_t>(chosen.light)};
     flight.ray = light.object

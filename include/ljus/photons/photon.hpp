@@ -5,6 +5,8 @@
 
 #include <cstdint>
 
+#include <glm/common.hpp>
+
 #include "ljus/math/vector.hpp"
 
 namespace ljus {
@@ -21,6 +23,33 @@ enum class PhotonKind : std::uint8_t {
     shadow ///< Not light: the first surface in its way hides this one from the light.
 };
 
+/// A surface's normal in three bytes, in steps of 1/127: less than half a degree wrong.
+/// Zero, for a photon whose surface nobody told, is every surface's.
+using SmallNormal = glm::vec<3, std::int8_t>;
+
+/// A normal, rounded to three bytes.
+/// \param normal  Unit vector.
+/// \return The nearest small normal.
+template <std::floating_point T>
+[[nodiscard]] SmallNormal small_normal(const Vec3T<T>& normal) noexcept {
+    return SmallNormal(glm::round(T(127) * normal));
+}
+
+/// Whether a photon's surface is turned away from another by 60 degrees or more: the
+/// next wall of a corner, the other side of a thin wall. On a ball, photons as far as
+/// its radius are of the same surface.
+/// \param photon  The normal where the photon is.
+/// \param normal  Unit vector, where it is asked for.
+/// \return Never true of a zero photon normal.
+// [turned_away]
+template <std::floating_point T>
+[[nodiscard]] bool turned_away(const SmallNormal& photon,
+                               const Vec3T<T>& normal) noexcept {
+    const Vec3T<T> n(photon);
+    return T(2) * T(127) * glm::dot(n, normal) < glm::dot(n, n);
+}
+// [turned_away]
+
 /// A photon where it met a surface.
 /// \report{Section 2.3}
 /// \erratum{The report gives a photon a radiance; it carries flux, in W.}
@@ -31,8 +60,9 @@ struct PhotonT {
     RgbT<T> flux{T(0)};       ///< W that arrive; of a shadow photon, that do not.
     std::uint16_t light = 0;  ///< The number of the light it comes from.
     PhotonKind kind = PhotonKind::direct; ///< What has happened to it.
+    SmallNormal normal{0};                ///< Of the surface that it met.
 };
-using Photon = PhotonT<float>; ///< PhotonT in float: 40 bytes.
+using Photon = PhotonT<float>; ///< PhotonT in float: 44 bytes.
 
 /// Where the emitted flux of a photon pass has gone; in W, added in double.
 ///

@@ -87,7 +87,8 @@ void trace_shadow(const Scene& scene, const FlightT<T>& flight,
             });
         if (faces_light && diffuse)
             out.push_back({surface.point.position, ray.direction, flight.flux,
-                           flight.light, PhotonKind::shadow});
+                           flight.light, PhotonKind::shadow,
+                           small_normal(surface.point.normal)});
         ray = ray_from(surface.point, ray.direction);
     }
 }
@@ -152,7 +153,8 @@ void trace(const Scene& scene, PhotonLaw law, FlightT<T> flight,
                 const bool owned = (kind == PhotonKind::caustic) == caustics;
                 if (has(lobes(material), Lobes::diffuse) && owned)
                     out.push_back({surface.point.position, flight.ray.direction,
-                                   flight.flux, flight.light, kind});
+                                   flight.flux, flight.light, kind,
+                                   small_normal(surface.point.normal)});
 
                 const Vec3T<T> u = next_3d<T>(stream);
                 const auto scattered = sample(material, wo, u, Transport::flux,

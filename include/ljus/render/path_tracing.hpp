@@ -75,6 +75,7 @@ template <std::floating_point T>
 struct PathT {
     RayT<T> ray{};         ///< Where it goes.
     RgbT<T> throughput{1}; ///< What it brings of the radiance that it finds.
+    T squeeze = T(1);      ///< What of that is no loss, see survives().
     RgbT<T> medium{T(0)};  ///< Absorption of what it is in, per scene unit.
     Vec3T<T> from{T(0)};   ///< The surface that it comes from.
     T bsdf_pdf = T(0); ///< Of its direction, per steradian; 0: no other was possible.
@@ -146,6 +147,7 @@ template <std::floating_point T, typename Material, typename Log>
     const auto next = sample(material, at.wo, next_3d<T>(stream), Transport::radiance);
     if (!next || (last && next->specular)) return false;
     path.throughput *= next->weight;
+    path.squeeze *= next->squeeze;
     path.bsdf_pdf = next->pdf;
     path.from = at.surface.point.position;
     log.vertex(next->specular ? 'S' : 'D', path.from, path.throughput, next->pdf);
@@ -201,7 +203,7 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
         if (!scene.visit_material(at.surface.object.material, at_material)) break;
         if (is_black(path.throughput)) break;
         if (depth >= limits.roulette_depth &&
-            !survives(path.throughput, next_1d<T>(stream)))
+            !survives(path.throughput, path.squeeze, next_1d<T>(stream)))
             break;
         ++counts.bounce_rays;
     }

@@ -141,6 +141,7 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
     const PhotonMapping& settings = mapper.settings;
     RgbT<T> sum{T(0)};
     RgbT<T> throughput{T(1)};
+    T squeeze = T(1); // what of the throughput is no loss, see survives()
     RgbT<T> medium{T(0)};
     bool met_diffuse = false;
     log.begin();
@@ -171,6 +172,7 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
                        no_indirect ? Lobes::specular : Lobes::all);
             if (!next) return false;
             throughput *= next->weight;
+            squeeze *= next->squeeze;
             met_diffuse = met_diffuse || !next->specular;
             log.vertex(next->specular ? 'S' : 'D', at.surface.point.position,
                        throughput, next->pdf);
@@ -182,7 +184,7 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
             break;
         if (is_black(throughput)) break;
         if (depth >= settings.roulette_depth &&
-            !survives(throughput, next_1d<T>(stream)))
+            !survives(throughput, squeeze, next_1d<T>(stream)))
             break;
         ++counts.bounce_rays;
     }

@@ -1,0 +1,108 @@
+#pragma once
+
+/// \file support/ball_caustic.hpp
+/// \brief Geometric optics on paper: where a ball sends the light of a point light.
+
+#include <cmath>
+#include <cstdlib>
+#include <initializer_list>
+#include <numbers>
+
+namespace ljus_test {
+
+/// A point light above a ball above a floor, all on one axis.
+///
+/// A ray leaves the light at an angle alpha and meets the ball under theta_i, with
+/// sin theta_i = (D/R) sin alpha, at the angle phi = theta_i - alpha from the top of the
+/// ball. Each way through the ball goes on by pi - 2 theta_t around its centre. After k
+/// inner reflections the ray leaves at
+///     phi_e = theta_i - alpha + (k + 1)(pi - 2 theta_t)
+/// in the direction phi_e + theta_i, with the share (1 - F)^2 F^k; k = -1 is the
+/// reflection at the first boundary, with the share F.
+struct BallCaustic {
+    double light = 2;      ///< D, from the centre of the ball up to the light.
+    double floor = 1;      ///< From the centre down to the floor.
+    double radius = 0.5;   ///< R.
+    double index = 1.5;    ///< n.
+    double intensity = 1;  ///< W/sr.
+    double absorption = 0; ///< Per unit, inside.
+
+    /// The largest alpha that meets the ball.
+    [[nodiscard]] double last() const { return std::asin(radius / light); }
+
+    /// Unpolarised Fresnel reflectance from the two cosines.
+    [[nodiscard]] double fresnel(double ci, double ct) const {
+        const double s = (ci - index * ct) / (ci + index * ct);
+        const double p = (index * ci - ct) / (index * ci + ct);
+        return (s * s + p * p) / 2;
+    }
+
+    /// Where one ray goes.
+    struct Arrival {
+        bool lands = false; ///< False if it goes up.
+        double rho = 0;     ///< Signed distance from the axis on the floor.
+        double share = 0;   ///< Of the light that goes this way.
+    };
+
+    /// The ray that leaves at alpha, after k inner reflections.
+    [[nodiscard]] Arrival trace(double alpha, int k) const {
+        const double si = std::sin(alpha) * light / radius;
+        const double ti = std::asin(si), tt = std::asin(si / index);
+        const double f = fresnel(std::cos(ti), std::cos(tt));
+        const double exit = ti - alpha + (k + 1) * (std::numbers::pi - 2 * tt);
+        const double way = exit + ti;
+        Arrival result;
+        result.lands = std::cos(way) < -1e-9;
+        result.rho = radius * std::sin(exit) +
+                     (radius * std::cos(exit) + floor) * -std::tan(way);
+        const double chord = 2 * radius * std::cos(tt);
+        result.share = k < 0 ? f
+                             : (1 - f) * (1 - f) * std::pow(f, k) *
+                                   std::exp(-absorption * chord * (k + 1));
+        return result;
+    }
+
+    /// Sums over all light that lands.
+    /// \param add    Called as add(rho, flux) with |rho|.
+    /// \param first  -1: with what is reflected outside; 0: without.
+    /// \param steps  Rays between the axis and the edge of the ball.
+    template <typename Add>
+    void shower(Add add, int first = -1, int steps = 40000) const {
+        const double width = last() / steps;
+        for (int i = 0; i < steps; ++i) {
+            const double alpha = (i + 0.5) * width;
+            const double flux =
+                intensity * 2 * std::numbers::pi * std::sin(alpha) * width;
+            for (int k = first; k < 40; ++k) {
+                const Arrival at = trace(alpha, k);
+                if (at.lands) add(std::abs(at.rho), flux * at.share);
+                if (k > 3 && at.share < 1e-9) break;
+            }
+        }
+    }
+
+    /// The irradiance at a distance from the axis, by the ratio of areas: each way to
+    /// get there adds I sin(alpha) share / (rho |d rho / d alpha|).
+    [[nodiscard]] double irradiance(double rho, int first = -1,
+                                    int steps = 4000) const {
+        double sum = 0;
+        const double width = last() / steps;
+        for (int k = first; k < 12; ++k)
+            for (int i = 0; i < steps; ++i) {
+                const double a = i * width, b = (i + 1) * width * (1 - 1e-12);
+                const Arrival from = trace(a, k), to = trace(b, k);
+                if (!from.lands || !to.lands) continue;
+                for (const double at : {rho, -rho}) {
+                    if ((from.rho < at) == (to.rho < at)) continue;
+                    const double slope = (to.rho - from.rho) / (b - a);
+                    const double alpha = a + (at - from.rho) / slope;
+                    const double share = trace(alpha, k).share;
+                    sum +=
+                        intensity * std::sin(alpha) * share / (rho * std::abs(slope));
+                }
+            }
+        return sum;
+    }
+};
+
+} // namespace ljus_test
