@@ -108,15 +108,22 @@ Ray some_ray(Numbers& n, double room, const Vec3& place) {
 /// A closed ball whose triangles share their corners to the last bit.
 Crowd ball(int rows, const Vec3& center) {
     const int columns = 2 * rows;
+    std::vector<Vec3>
+        corners; // each computed once: a corner must not have two roundings
+    for (int i = 0; i <= rows; ++i)
+        for (int j = 0; j < columns; ++j) {
+            const float theta = std::numbers::pi_v<float> * float(i) / float(rows);
+            const float phi = 2 * std::numbers::pi_v<float> * float(j) / float(columns);
+            const float r = 1 + 0.1f * std::sin(5 * theta) * std::sin(4 * phi);
+            const bool pole = i == 0 || i == rows;
+            corners.push_back(
+                center +
+                (pole ? Vec3{0, i == 0 ? 1 : -1, 0}
+                      : r * Vec3{std::sin(theta) * std::cos(phi), std::cos(theta),
+                                 std::sin(theta) * std::sin(phi)}));
+        }
     const auto at = [&](int i, int j) {
-        if (i == 0) return center + Vec3{0, 1, 0};
-        if (i == rows) return center - Vec3{0, 1, 0};
-        const float theta = std::numbers::pi_v<float> * float(i) / float(rows);
-        const float phi =
-            2 * std::numbers::pi_v<float> * float(j % columns) / float(columns);
-        const float r = 1 + 0.1f * std::sin(5 * theta) * std::sin(4 * phi);
-        return center + r * Vec3{std::sin(theta) * std::cos(phi), std::cos(theta),
-                                 std::sin(theta) * std::sin(phi)};
+        return corners[static_cast<std::size_t>(i * columns + j % columns)];
     };
     Crowd mesh;
     for (int i = 0; i < rows; ++i)

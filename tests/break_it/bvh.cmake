@@ -8,7 +8,7 @@ ljus_break_it(NAME box-sign HEADER geometry/box.hpp TEST box
 ljus_break_it(NAME box-slack HEADER geometry/box.hpp TEST box
     FROM ".slack = T(8) * Limits::epsilon() * reach}"
     TO   ".slack = T(0)}"
-    CASES "box: what the slabs say*")
+    CASES "box: no ray at an edge*")
 
 # The corner across of a quad is left out.
 ljus_break_it(NAME box-quad HEADER geometry/box.hpp TEST box
