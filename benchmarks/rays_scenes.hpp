@@ -123,8 +123,7 @@ RaySets ray_sets(FirstHit first_hit, Vec3 eye, Vec3 target, Vec3 up, Vec3 lamp,
     for (int y = 0; y < size; ++y)
         for (int x = 0; x < size; ++x) {
             const ljus::Vec2 u = ljus::next_2d<float>(stream);
-            const Vec3 way = forward +
-                             ((float(x) + u.x) / float(size) - 0.5f) * right +
+            const Vec3 way = forward + ((float(x) + u.x) / float(size) - 0.5f) * right +
                              (0.5f - (float(y) + u.y) / float(size)) * above;
             const Ray ray{.origin = eye, .direction = glm::normalize(way)};
             sets.primary.push_back(ray);

@@ -26,9 +26,9 @@ struct FirstLook {
     std::uint64_t certain = 0; ///< Those among them that it hits.
 };
 
-/// A first look at eight triangles: the test of Moeller and Trumbore \cite moller1997 without its
-/// division, in float, and how far its rounding can move each number. Where a sign could
-/// change within that, a triangle's own test has to decide.
+/// A first look at eight triangles: the test of Moeller and Trumbore
+/// \cite moller1997 without its division, in float, and how far its rounding can move
+/// each number. Where a sign could change within that, a triangle's own test decides.
 /// \param block  The triangles.
 /// \param ready  The ray, made ready.
 /// \param ray    The ray.

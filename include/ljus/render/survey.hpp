@@ -165,8 +165,8 @@ template <typename Scene>
     const bool few = found.objects <= flat_loop_limit;
     plan.flat_loop = item("flat loop", few,
                           std::to_string(found.objects) +
-                              (few ? " object(s), no need for a tree"
-                                   : " objects, a tree is faster from " +
+                              (few ? std::string(" object(s), no need for a tree")
+                                   : std::string(" objects, a tree is faster from ") +
                                          std::to_string(flat_loop_limit + 1) + " on"));
     return plan;
 }

@@ -29,8 +29,9 @@ template <Shape S>
         return bounds(bounding_sphere(shape));
 }
 
-/// A scene with an index over all its shapes, of all types \cite rubin1980. It stands for the scene
-/// wherever one is asked for, and refers to it: the scene must outlive it, unchanged.
+/// A scene with an index over all its shapes, of all types \cite rubin1980. It stands
+/// for the scene wherever one is asked for, and refers to it: the scene must outlive it,
+/// unchanged.
 ///
 /// closest_hit() and occluded() give the same answers as for the scene itself, to the
 /// last bit: the index leaves out what a ray cannot meet, and asks the rest.
