@@ -90,8 +90,8 @@ template <typename Caller>
 }
 // [first_look]
 
-/// A wide tree over triangles, with the searches of BvhT, and the same answers. It keeps
-/// what the first look needs; the triangles stay the caller's.
+/// A wide tree over triangles, with the searches of BvhT, and the same answers. It
+/// keeps what the first look needs; the triangles stay the caller's.
 ///
 ///     const TriangleBvh tree(count, [&](std::uint32_t i) { return triangles[i]; });
 /// \cost About 60 bytes a triangle.

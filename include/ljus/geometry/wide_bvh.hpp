@@ -49,8 +49,8 @@ struct WideRay {
 };
 
 /// The plain tree, made wide: of each node the largest children are opened until there
-/// are eight. Coordinates are as seen from the middle of everything, so that a scene far
-/// from the origin is met as well as one around it.
+/// are eight. Coordinates are as seen from the middle of everything, so that a scene
+/// far from the origin is met as well as one around it.
 class WideBvh {
 public:
     /// A tree over nothing.
@@ -59,7 +59,8 @@ public:
     /// Builds the tree.
     /// \param boxes     As for build_bvh(), but below 2^27.
     /// \param settings  As for build_bvh(); leaves of at most 16.
-    /// \param multiple  Leaves start at multiples of so many places, holes between them.
+    /// \param multiple  Leaves start at multiples of so many places, holes between
+    /// them.
     /// \throws As build_bvh().
     explicit WideBvh(std::span<const Box> boxes, const BvhBuild& settings = {},
                      std::uint32_t multiple = 1);
@@ -98,8 +99,9 @@ public:
 
     /// The way of both searches.
     /// \param ray    The ray; a search may shorten it.
-    /// \param leaf   Called as leaf(first place, count, ready ray); true ends the search.
-    ///               For a ray that cannot be made ready, once, with a null pointer.
+    /// \param leaf   Called as leaf(first place, count, ready ray); true ends the
+    ///               search. For a ray that cannot be made ready, once, with a null
+    ///               pointer.
     /// \param watch  Called for each node on the way.
     /// \return Whether a leaf said true.
     template <typename Leaf, typename Watch>
@@ -221,8 +223,8 @@ bool WideBvh::walk(const Ray& ray, Leaf&& leaf, Watch&& watch) const {
 }
 // [walk]
 
-// Boxes grow by as much as box_ray() says. A component of the direction that is almost 0
-// is given a size: within the box that leads no ray astray by more than this.
+// Boxes grow by as much as box_ray() says. A component of the direction that is almost
+// 0 is given a size: within the box that leads no ray astray by more than this.
 inline bool WideBvh::make_ready(WideRay& r, const Ray& ray) const noexcept {
     const Vec3 origin = ray.origin - middle_;
     const Vec3 size = glm::abs(ray.direction);

@@ -81,8 +81,8 @@ struct PathT {
     T bsdf_pdf = T(0); ///< Of its direction, per steradian; 0: no other was possible.
 };
 
-/// The light of a lamp that a path has met, with the weight that the shadow ray from the
-/// surface before left it.
+/// The light of a lamp that a path has met, with the weight that the shadow ray from
+/// the surface before left it.
 /// \param tracer  The scene and the limits.
 /// \param path    The path.
 /// \param hit     Where it met the lamp.
@@ -101,8 +101,8 @@ template <typename Scene, std::floating_point T>
 }
 // [emitted]
 
-/// The light of one lamp, chosen by power, at a surface of a path: by a shadow ray, with
-/// the weight that it leaves to the path itself.
+/// The light of one lamp, chosen by power, at a surface of a path: by a shadow ray,
+/// with the weight that it leaves to the path itself.
 /// \param tracer    The scene and the limits.
 /// \param path      The path.
 /// \param at        The surface.

@@ -14,8 +14,8 @@ namespace ljus {
 /// \{
 
 /// So many shapes, at most, are asked in turn; of more, a tree says which ones to ask.
-/// Measured: in the Cornell box and the report's room, cut down to 1, 2, 3, ... objects,
-/// the loop takes 39, 52, 71, ... ns a ray and the wide tree 81, 39, 44, ...
+/// Measured: in the Cornell box and the report's room, cut down to 1, 2, 3, ...
+/// objects, the loop takes 39, 52, 71, ... ns a ray and the wide tree 81, 39, 44, ...
 inline constexpr std::size_t flat_loop_limit = 1;
 
 /// A box around a shape of any type: its own bounds(), or those of its bounding sphere.
@@ -30,8 +30,8 @@ template <Shape S>
 }
 
 /// A scene with an index over all its shapes, of all types \cite rubin1980. It stands
-/// for the scene wherever one is asked for, and refers to it: the scene must outlive it,
-/// unchanged.
+/// for the scene wherever one is asked for, and refers to it: the scene must outlive
+/// it, unchanged.
 ///
 /// closest_hit() and occluded() give the same answers as for the scene itself, to the
 /// last bit: the index leaves out what a ray cannot meet, and asks the rest.
