@@ -237,8 +237,8 @@ void heat_map(const examples::Options& options) {
         double sum = 0;
         for (int y = 0; y < options.height; ++y)
             for (int x = 0; x < options.width; ++x) {
-                const Vec3 to{(float(x) + 0.5f) / float(options.width) * 3.2f - 1.6f,
-                              1.6f - (float(y) + 0.5f) / float(options.height) * 3.2f,
+                const Vec3 to{(float(x) + 0.5f) / float(options.width) * 4.0f - 2.0f,
+                              2.0f - (float(y) + 0.5f) / float(options.height) * 4.0f,
                               0};
                 const Vec3 eye{0, 0, 5};
                 int nodes = 0;
