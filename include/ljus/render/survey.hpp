@@ -163,12 +163,11 @@ template <typename Scene>
         item("shadow photons", shadows,
              shadows ? "the general map keeps them" : "no map keeps them");
     const bool few = found.objects <= flat_loop_limit;
-    plan.flat_loop =
-        item("flat loop", few,
-             std::to_string(found.objects) +
-                 (few ? " objects are asked in turn"
-                      : " objects: above " + std::to_string(flat_loop_limit) +
-                            " a tree says which ones to ask"));
+    plan.flat_loop = item("flat loop", few,
+                          std::to_string(found.objects) +
+                              (few ? std::string(" object(s), no need for a tree")
+                                   : std::string(" objects, a tree is faster from ") +
+                                         std::to_string(flat_loop_limit + 1) + " on"));
     return plan;
 }
 // [survey]
