@@ -26,13 +26,13 @@ bool same_bytes(const std::vector<V>& a, const std::vector<V>& b) {
 /// Whether two maps hold the same numbers; a record has padding, so not by bytes.
 template <typename T>
 bool same_map(const PhotonMapT<T>& a, const PhotonMapT<T>& b) {
-    if (!same_bytes(a.tree.points(), b.tree.points()) ||
+    if (!same_bytes(a.tree.blocks(), b.tree.blocks()) ||
         !same_bytes(a.tree.order(), b.tree.order()) ||
         a.records.size() != b.records.size())
         return false;
     for (std::size_t i = 0; i < a.records.size(); ++i) {
-        const auto& x = a.records[i];
-        const auto& y = b.records[i];
+        const auto x = a.records[i];
+        const auto y = b.records[i];
         if (std::memcmp(&x.direction, &y.direction, sizeof(x.direction)) != 0 ||
             std::memcmp(&x.flux, &y.flux, sizeof(x.flux)) != 0 || x.light != y.light ||
             x.kind != y.kind)

@@ -14,150 +14,20 @@
 #include <utility>
 
 #include "ljus/parallel.hpp"
-#include "support/photon_samples.hpp"
+#include "support/point_sets.hpp"
 
 using ljus::KdTree;
 using ljus::KdTreeT;
 using ljus::Neighbor;
 using ljus::Vec3;
 using ljus::Vec3T;
+using photon_test::compare_with_brute_force;
 using photon_test::Numbers;
+using photon_test::point_sets;
+using photon_test::Points;
+using photon_test::PointSet;
 
 namespace {
-
-template <typename T>
-using Points = std::vector<Vec3T<T>>;
-
-template <typename T>
-struct PointSet {
-    std::string name;
-    double size = 1; ///< Half the side of what holds the points.
-    Points<T> points;
-};
-
-/// The sets that photons really make, and the ones that break trees.
-template <typename T>
-std::vector<PointSet<T>> point_sets(std::size_t n, double size, double offset) {
-    Numbers numbers{n * 7 + 1};
-    const auto make = [&](const char* name, auto point) {
-        PointSet<T> set{name, size, {}};
-        for (std::size_t i = 0; i < n; ++i) {
-            const Vec3T<double> p = point(i);
-            set.points.push_back(Vec3T<T>{p * size + offset});
-        }
-        return set;
-    };
-    using D = Vec3T<double>;
-    std::vector<PointSet<T>> sets;
-    sets.push_back(make("volume", [&](auto) { return numbers.point<double>(1); }));
-    sets.push_back(make("walls", [&](auto) {
-        D p = numbers.point<double>(1);
-        p[numbers.below(3)] = numbers.unit() < 0.5 ? -1 : 1;
-        return p;
-    }));
-    sets.push_back(make("caustics", [&](auto) {
-        const double width = std::pow(10.0, -numbers.between(0, 6));
-        const double angle = numbers.between(0, 6.283);
-        const D center{numbers.below(3) - 1, 0, numbers.below(2)};
-        return center + width * D{std::cos(angle), 0, std::sin(angle)} * numbers.unit();
-    }));
-    sets.push_back(make("identical", [&](auto) { return D{0.5, -0.25, 0.125}; }));
-    sets.push_back(make("collinear", [&](std::size_t i) {
-        return D{1, 1, 1} * (double(i) / double(n)); // sorted, too
-    }));
-    sets.push_back(make("along an axis, backwards", [&](std::size_t i) {
-        return D{0, 1 - double(i) / double(n), 0};
-    }));
-    sets.push_back(make("lattice with ties", [&](auto) {
-        return D{numbers.below(5) - 2, numbers.below(5) - 2, numbers.below(3) - 1} /
-               4.0;
-    }));
-    sets.push_back(make("two heaps", [&](std::size_t i) {
-        return D{i % 2 == 0 ? 1 : -1, 0, 0};
-    }));
-    return sets;
-}
-
-/// The squared distance, as the tree defines it: in double.
-template <typename T>
-double distance2(const Vec3T<T>& a, const Vec3T<T>& b) {
-    const double x = double(a.x) - double(b.x), y = double(a.y) - double(b.y),
-                 z = double(a.z) - double(b.z);
-    const double xx = x * x, yy = y * y, zz = z * z;
-    return xx + yy + zz;
-}
-
-/// All points of a closed ball, nearest first, by asking each.
-template <typename T, typename Wanted>
-std::vector<Neighbor> brute_force(const KdTreeT<T>& tree, const Vec3T<T>& center,
-                                  T radius, Wanted wanted) {
-    std::vector<Neighbor> found;
-    for (std::size_t i = 0; i < tree.size(); ++i) {
-        const auto index = static_cast<std::uint32_t>(i);
-        const double d2 = distance2(tree.points()[i], center);
-        if (d2 <= double(radius) * double(radius) && wanted(index))
-            found.push_back({d2, index});
-    }
-    std::sort(found.begin(), found.end());
-    return found;
-}
-
-template <typename T>
-void compare_with_brute_force(const PointSet<T>& set, Numbers& numbers) {
-    CAPTURE(set.name);
-    const KdTreeT<T> tree{std::span<const Vec3T<T>>(set.points)};
-    const std::size_t n = set.points.size();
-    constexpr T infinity = std::numeric_limits<T>::infinity();
-    for (int i = 0; i < 12; ++i) {
-        // At a point, near one, anywhere, far away.
-        Vec3T<T> center = Vec3T<T>{numbers.point<double>(1.2 * set.size)};
-        if (n > 0 && i % 4 < 2) {
-            center = set.points[static_cast<std::size_t>(numbers.below(int(n)))];
-            if (i % 4 == 1) center += Vec3T<T>{numbers.point<double>(1e-3 * set.size)};
-        }
-        if (i == 11) center = Vec3T<T>{T(1e3 * set.size), 0, 0};
-        T radius = T(set.size * std::pow(10.0, -numbers.between(-0.5, 4)));
-        if (i == 3) radius = 0;
-        if (i == 7) radius = infinity;
-        if (n > 0 && i % 3 == 0) { // just through a point, or as near as T comes
-            const auto& edge =
-                set.points[static_cast<std::size_t>(numbers.below(int(n)))];
-            radius = T(std::sqrt(distance2(edge, center)));
-        }
-
-        const auto all = [](std::uint32_t) { return true; };
-        const auto some = [](std::uint32_t index) { return index % 3 == 1; };
-        const auto expected = brute_force(tree, center, radius, all);
-        std::vector<Neighbor> visited;
-        tree.visit_within(center, radius, [&](std::uint32_t index, double d2) {
-            visited.push_back({d2, index});
-        });
-        std::sort(visited.begin(), visited.end());
-        REQUIRE(visited == expected);
-
-        for (const std::size_t k :
-             {std::size_t(1), std::size_t(2), std::size_t(20), n + 3}) {
-            const auto check_nearest = [&](auto wanted) {
-                auto nearest = brute_force(tree, center, radius, wanted);
-                const auto among = nearest;
-                nearest.resize(std::min(nearest.size(), k));
-                std::vector<Neighbor> room(k);
-                const std::size_t count = tree.nearest(center, radius, room, wanted);
-                REQUIRE(count == nearest.size());
-                room.resize(count);
-                if (count > 0) REQUIRE(room[0].distance2 == nearest.back().distance2);
-                std::sort(room.begin(), room.end());
-                REQUIRE(std::adjacent_find(room.begin(), room.end()) == room.end());
-                for (std::size_t j = 0; j < count; ++j) {
-                    REQUIRE(room[j].distance2 == nearest[j].distance2);
-                    REQUIRE(std::binary_search(among.begin(), among.end(), room[j]));
-                }
-            };
-            check_nearest(all);
-            check_nearest(some);
-        }
-    }
-}
 
 /// How many points a search passes.
 template <typename T>
@@ -200,7 +70,7 @@ TEST_CASE("kd_tree: every search is what asking all points gives") {
             for (const auto& set : point_sets<float>(n, size, 0)) {
                 CAPTURE(n);
                 CAPTURE(size);
-                compare_with_brute_force(set, numbers);
+                compare_with_brute_force<KdTree>(set, numbers);
             }
 }
 
@@ -209,19 +79,19 @@ TEST_CASE("kd_tree: also in double, and far from the origin") {
     for (const std::size_t n : {0u, 1u, 2u, 10u, 500u}) {
         for (const double size : {1e-18, 1.0, 1e18})
             for (const auto& set : point_sets<double>(n, size, 0))
-                compare_with_brute_force(set, numbers);
+                compare_with_brute_force<KdTreeT<double>>(set, numbers);
         // A million away, a float has four bits left behind the point.
         for (const auto& set : point_sets<float>(n, 1, 1e6))
-            compare_with_brute_force(set, numbers);
+            compare_with_brute_force<KdTree>(set, numbers);
         for (const auto& set : point_sets<double>(n, 1, 1e6))
-            compare_with_brute_force(set, numbers);
+            compare_with_brute_force<KdTreeT<double>>(set, numbers);
     }
 }
 
 TEST_CASE("kd_tree: ten thousand points at once") {
     Numbers numbers{7};
     for (const auto& set : point_sets<float>(10000, 1, 0))
-        compare_with_brute_force(set, numbers);
+        compare_with_brute_force<KdTree>(set, numbers);
 }
 
 TEST_CASE("kd_tree: the ball is closed, exactly, and it is no cube") {

@@ -35,6 +35,7 @@
 #include <glm/gtx/intersect.hpp>
 
 #include "ljus/geometry/sphere.hpp"
+#include "support/exact.hpp"
 
 using ljus::Ray;
 using ljus::RayT;
@@ -45,33 +46,13 @@ using ljus::Vec3T;
 
 namespace {
 
-using Integer = boost::multiprecision::cpp_int;
+using ljus_test::grid_exponent;
+using ljus_test::Integer;
+using ljus_test::on_grid;
 using Real = boost::multiprecision::cpp_bin_float_100;
 
 // --- The oracle
 // -------------------------------------------------------------------------
-
-/// The exponent e for which value is an integer times 2^e, as large as its type allows.
-template <std::floating_point T>
-int grid_exponent(T value) {
-    if (value == T(0)) return 1 << 20;
-    int exponent = 0;
-    (void)std::frexp(value, &exponent);
-    return exponent - std::numeric_limits<T>::digits;
-}
-
-/// value / 2^exponent, which must be an integer.
-template <std::floating_point T>
-Integer on_grid(T value, int exponent) {
-    if (value == T(0)) return 0;
-    int own = 0;
-    const T mantissa = std::frexp(value, &own);
-    const auto whole =
-        static_cast<std::int64_t>(std::ldexp(mantissa, std::numeric_limits<T>::digits));
-    Integer result = whole < 0 ? -whole : whole;
-    result <<= own - std::numeric_limits<T>::digits - exponent;
-    return whole < 0 ? Integer(-result) : result;
-}
 
 struct Truth {
     bool hit = false;

@@ -177,6 +177,7 @@ TEST_CASE("sphere: invalid data are a miss") {
             }
     for (const float radius : {0.0f, -0.0f, -1.0f, not_a_number, infinity, -infinity}) {
         const Sphere bad{.center = {0, 0, -5}, .radius = radius};
+        CHECK_FALSE(ljus::chord(Ray{}, bad));
         CHECK_FALSE(ljus::intersect(Ray{}, bad));
         CHECK_FALSE(ljus::intersect<double>(Ray{}, bad));
         CHECK_FALSE(ljus::intersect(Ray{.origin = bad.center}, bad));
@@ -192,6 +193,28 @@ TEST_CASE("sphere: invalid data are a miss") {
                          "sphere.radius is -1; it must be finite and above 0.",
                          std::invalid_argument);
     CHECK_NOTHROW(ljus::check(ball));
+}
+
+TEST_CASE("sphere: a hit is never infinitely far away") {
+    // In units of a short direction t leaves the range of float; double holds it.
+    int beyond = 0;
+    for (const float distance : {1e-30f, 1.0f, 1e10f, 1e18f, 1e30f, 1e38f})
+        for (const float length : {1e-45f, 1e-38f, 1e-30f, 1e-20f, 1.0f, 1e20f}) {
+            const Sphere ball{.center = {0, 0, -distance}, .radius = 0.5f * distance};
+            for (const float z : {0.0f, -distance}) { // from outside, and from within
+                const Ray ray{.origin = {0, 0, z}, .direction = {0, 0, -length}};
+                const double t = 0.5 * double(distance) / double(length);
+                if (const auto hit = ljus::intersect(ray, ball))
+                    CHECK(std::isfinite(*hit));
+                const auto hit = ljus::intersect<double>(ray, ball);
+                if (hit) CHECK(std::isfinite(*hit));
+                if (t > 3.5e38) {
+                    CHECK_FALSE(hit);
+                    ++beyond;
+                }
+            }
+        }
+    CHECK(beyond > 5);
 }
 
 TEST_CASE("sphere: near the origin the printed formula gives the same hits") {

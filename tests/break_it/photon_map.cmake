@@ -20,24 +20,24 @@ ljus_break_it(NAME photon-map-area HEADER photons/photon_map.hpp TEST photon_map
 ljus_break_it(NAME photon-map-cosine HEADER photons/photon_map.hpp TEST photon_map
     FROM "weight * evaluate(material, wo, wi)"
     TO   "weight * wi.z * evaluate(material, wo, wi)"
-    CASES "photon_map: within a fixed*")
+    CASES "photon_map: one by one*")
 
 ljus_break_it(NAME photon-map-direction HEADER photons/photon_map.hpp TEST photon_map
     FROM "-photon.direction"
     TO   "photon.direction"
-    CASES "photon_map: within a fixed*")
+    CASES "photon_map: one by one*")
 
 # A ball without a disc: the light of another wall.
 ljus_break_it(NAME photon-map-thickness HEADER photons/photon_map.hpp TEST photon_map
     FROM "if (height * height > limit * limit * radius2) return;"
     TO   ""
-    CASES "photon_map: photons of another wall*")
+    CASES "photon_map: eight*")
 
 # The next wall of a corner, and the other side of a thin wall.
 ljus_break_it(NAME photon-map-turned HEADER photons/photon_map.hpp TEST photon_map
     FROM "&& !turned_away(photon.normal, surface.point.normal)"
     TO   ""
-    CASES "photon_map: the other wall*")
+    CASES "photon_map: eight*")
 
 # A disc so flat that a ball of twice its radius loses the rim.
 ljus_break_it(NAME photon-map-flat HEADER photons/photon_map.hpp TEST photon_map
@@ -56,3 +56,27 @@ ljus_break_it(NAME photon-map-one-point HEADER photons/photon_map.hpp TEST photo
     FROM "if (!(radius2 > 0)) return RgbT<T>{T(0)};"
     TO   ""
     CASES "photon_map: photons that all*")
+
+# Eight at a time, what decides on a photon must be as it is one by one.
+ljus_break_it(NAME lane-estimate-side HEADER photons/lane_estimate.hpp TEST photon_map
+    FROM "(inside[i] != 0) & (towards < T(0))"
+    TO   "(inside[i] != 0)"
+    CASES "photon_map: eight*")
+ljus_break_it(NAME lane-estimate-height HEADER photons/lane_estimate.hpp TEST photon_map
+    FROM "(-h <= height)"
+    TO   "true"
+    CASES "photon_map: eight*")
+ljus_break_it(NAME lane-estimate-turned HEADER photons/lane_estimate.hpp TEST photon_map
+    FROM "T(2) * T(127) * along"
+    TO   "T(127) * along"
+    CASES "photon_map: eight*")
+ljus_break_it(NAME lane-estimate-kinds HEADER photons/lane_estimate.hpp TEST photon_map
+    FROM "disc.kinds >> kind & 1u"
+    TO   "disc.kinds | 1u"
+    CASES "photon_map: eight*")
+
+# A sum in float alone.
+ljus_break_it(NAME lane-estimate-float HEADER photons/lane_estimate.hpp TEST photon_map
+    FROM "if (++parts == 16) add_part();"
+    TO   ""
+    CASES "photon_map: two million*")

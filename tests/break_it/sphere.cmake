@@ -35,7 +35,7 @@ ljus_break_it(NAME sphere-t-min HEADER geometry/sphere.hpp TEST sphere
     CASES "sphere: known hits")
 
 ljus_break_it(NAME sphere-t-max HEADER geometry/sphere.hpp TEST sphere
-    FROM " && leave <= ray.t_max"
+    FROM " && leave <= t_max"
     TO   ""
     CASES "sphere: the range*")
 
@@ -54,3 +54,9 @@ ljus_break_it(NAME sphere-touch HEADER geometry/sphere.hpp TEST sphere
 ljus_break_it(NAME sphere-normal HEADER geometry/sphere.hpp TEST sphere
     FROM "glm::normalize(point - sphere.center)"
     TO   "(point - sphere.center)")
+
+# A double beyond the range of float becomes infinity, and t_max is infinite by default.
+ljus_break_it(NAME sphere-infinite-t HEADER geometry/sphere.hpp TEST sphere
+    FROM "glm::min(ray.t_max, std::numeric_limits<T>::max())"
+    TO   "ray.t_max"
+    CASES "sphere: a hit*infinitely*")

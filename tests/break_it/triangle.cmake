@@ -1,13 +1,19 @@
 # Without u + v <= 1 the triangle is a parallelogram.
 ljus_break_it(NAME triangle-u-plus-v HEADER geometry/triangle.hpp TEST triangle
-    FROM " && u + v <= C(1)"
+    FROM " && u + v <= C(1) + border"
     TO   ""
     CASES "triangle: each of the three edges*")
 
 # u + v <= 1 holds where v is negative.
 ljus_break_it(NAME triangle-v HEADER geometry/triangle.hpp TEST triangle
-    FROM "v >= C(0) && u + v"
+    FROM "v >= -border && u + v"
     TO   "u + v"
+    CASES "triangle: each of the three edges*")
+
+# The conditions that the report forgets: all of the plane is hit.
+ljus_break_it(NAME triangle-u HEADER geometry/triangle.hpp TEST triangle
+    FROM "u >= -border && inside"
+    TO   "inside"
     CASES "triangle: each of the three edges*")
 
 # The usual guard against parallel rays: an epsilon with a unit loses every small mesh.
@@ -39,3 +45,9 @@ ljus_break_it(NAME triangle-normal HEADER geometry/triangle.hpp TEST triangle
     FROM "Vec3T<T>(glm::normalize(cross_of_edges(triangle)))"
     TO   "glm::normalize(glm::cross(triangle.v2 - triangle.v1, triangle.v3 - triangle.v1))"
     CASES "triangle: the normal is that*")
+
+# In double, without a border as wide as the rounding: ties are lost.
+ljus_break_it(NAME triangle-open HEADER geometry/triangle.hpp TEST watertight
+    FROM "closed ? border_of_rounding(d, to, e1, e2, inverse) : C(0)"
+    TO   "C(0)"
+    CASES "watertight: rays that meet*")

@@ -32,8 +32,10 @@ template <typename Compute = void, std::floating_point T>
                                                    const QuadT<T>& quad) noexcept {
     using C = ComputeT<Compute, T>;
     return moller_trumbore<C>(ray, Vec3T<C>{quad.corner}, Vec3T<C>{quad.edge_u},
-                              Vec3T<C>{quad.edge_v},
-                              [](C, C v) { return v >= C(0) && v <= C(1); });
+                              Vec3T<C>{quad.edge_v}, [](C u, C v, C border) {
+                                  return u <= C(1) + border && v >= -border &&
+                                         v <= C(1) + border;
+                              });
 }
 
 /// \f$ E_1 \times E_2 \f$, in double, as for a triangle.

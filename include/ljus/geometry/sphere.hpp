@@ -100,10 +100,12 @@ template <typename Compute = void, std::floating_point T>
                                          const SphereT<T>& sphere) noexcept {
     const auto hits = chord<Compute>(ray, sphere);
     if (!hits) return std::nullopt;
+    // A ray may be open to infinity; no hit is infinitely far away.
+    const T t_max = glm::min(ray.t_max, std::numeric_limits<T>::max());
     const T enter = static_cast<T>(hits->enter);
-    if (ray.t_min <= enter && enter <= ray.t_max) return enter;
+    if (ray.t_min <= enter && enter <= t_max) return enter;
     const T leave = static_cast<T>(hits->leave);
-    if (ray.t_min <= leave && leave <= ray.t_max) return leave;
+    if (ray.t_min <= leave && leave <= t_max) return leave;
     return std::nullopt;
 }
 // [intersect]

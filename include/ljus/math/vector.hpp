@@ -35,9 +35,10 @@ template <std::floating_point T>
 using RgbT = glm::vec<3, T>;
 using Rgb = RgbT<float>; ///< RgbT in float.
 
-/// The precision of a computation: what the caller asked for, or that of the data.
+/// The precision of a computation: what the caller asked for, or that of the data, if he
+/// asked for none (void) or for something that is no precision.
 template <typename Compute, std::floating_point T>
-using ComputeT = std::conditional_t<std::is_void_v<Compute>, T, Compute>;
+using ComputeT = std::conditional_t<std::is_floating_point_v<Compute>, Compute, T>;
 
 /// At least double: for the few places where neither the digits nor the range of float
 /// will do, and speed does not matter.

@@ -4,13 +4,13 @@
 /// \brief The plain k-d tree: points near a point.
 
 #include <algorithm>
-#include <compare>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
 
 #include "ljus/math/require.hpp"
+#include "ljus/photons/neighbor.hpp"
 
 namespace ljus {
 
@@ -18,43 +18,6 @@ namespace ljus {
 /// \brief Section 3.2.2: "whenever a photon hits a surface, it is stored in a k-d
 /// tree".
 /// \{
-
-/// A point that a search has found. The nearer one is less.
-struct Neighbor {
-    double distance2 = 0;    ///< Squared, in double.
-    std::uint32_t index = 0; ///< Its place in the tree's order.
-
-    /// By distance, then by place.
-    friend auto operator<=>(const Neighbor&, const Neighbor&) = default;
-};
-
-/// The nearest points of a search so far: a heap in the caller's memory, the farthest
-/// of them on top, at `found[0]`.
-struct Nearest {
-    std::span<Neighbor> found; ///< Room for as many as are wanted, at least one.
-    double limit2 = 0;         ///< The search's radius, squared.
-    std::size_t count = 0;     ///< How many there are.
-
-    /// Whether a point at this distance belongs to them. Once the room is full it must
-    /// be nearer than the farthest: a thousand equal points are not tried one by one.
-    [[nodiscard]] bool reaches(double distance2) const noexcept {
-        return count < found.size() ? distance2 <= limit2
-                                    : distance2 < found[0].distance2;
-    }
-
-    /// Takes a point that belongs to them; the farthest one leaves if the room is full.
-    void take(const Neighbor& neighbor) {
-        const auto last = [&] {
-            return found.begin() + static_cast<std::ptrdiff_t>(count);
-        };
-        if (count == found.size())
-            std::pop_heap(found.begin(), last());
-        else
-            ++count;
-        found[count - 1] = neighbor;
-        std::push_heap(found.begin(), last());
-    }
-};
 
 /// A balanced k-d tree \cite bentley1975 without a single pointer: each range of the
 /// array is halved at the median of its longest side, down to leaves of a few points.

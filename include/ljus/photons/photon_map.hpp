@@ -6,10 +6,8 @@
 #include <array>
 #include <numbers>
 
-#include "ljus/materials/bsdf.hpp"
-#include "ljus/photons/kd_tree.hpp"
-#include "ljus/photons/kernel.hpp"
-#include "ljus/photons/photon.hpp"
+#include "ljus/materials/lambertian.hpp"
+#include "ljus/photons/lane_estimate.hpp"
 #include "ljus/scene/query.hpp"
 
 namespace ljus {
@@ -18,22 +16,12 @@ namespace ljus {
 /// \brief Sections 3.2.2 and 3.2.6: the general map and the caustics map.
 /// \{
 
-/// What a photon map keeps of a photon besides its position.
-template <std::floating_point T>
-struct PhotonRecordT {
-    Vec3T<T> direction{T(0)};             ///< Unit, the way it travels.
-    RgbT<T> flux{T(0)};                   ///< W.
-    std::uint16_t light = 0;              ///< The number of its light.
-    PhotonKind kind = PhotonKind::direct; ///< What has happened to it.
-    SmallNormal normal{0};                ///< Of the surface that it met.
-};
-
 /// Photons, ordered for searching. The general map and the caustics map differ in what
 /// was traced into them, not in what they are.
 template <std::floating_point T>
 struct PhotonMapT {
-    KdTreeT<T> tree;                       ///< The positions.
-    std::vector<PhotonRecordT<T>> records; ///< The rest, in the order of the tree.
+    WideKdTreeT<T> tree;       ///< The positions.
+    PhotonRecordsT<T> records; ///< The rest, in the order of the tree.
 
     /// Whether there is nothing to be found.
     [[nodiscard]] bool empty() const noexcept { return records.empty(); }
@@ -42,10 +30,12 @@ using PhotonMap = PhotonMapT<float>; ///< PhotonMapT in float.
 
 /// Builds a map.
 /// \param photons  In any order, which it does not keep.
-/// \return The map.
+/// \param threads  As in ParallelOptions.
+/// \return The map, the same for any number of threads.
 /// \throws std::invalid_argument  if a position, a direction or a flux is not finite.
 template <std::floating_point T>
-[[nodiscard]] PhotonMapT<T> make_photon_map(const std::vector<PhotonT<T>>& photons) {
+[[nodiscard]] PhotonMapT<T> make_photon_map(const std::vector<PhotonT<T>>& photons,
+                                            int threads = 0) {
     std::vector<Vec3T<T>> positions;
     positions.reserve(photons.size());
     for (const PhotonT<T>& photon : photons) {
@@ -54,11 +44,9 @@ template <std::floating_point T>
         positions.push_back(photon.position);
     }
 
-    PhotonMapT<T> map{.tree = KdTreeT<T>(positions), .records = {}};
-    map.records.reserve(photons.size());
-    for (const std::uint32_t i : map.tree.order())
-        map.records.push_back({photons[i].direction, photons[i].flux, photons[i].light,
-                               photons[i].kind, photons[i].normal});
+    PhotonMapT<T> map{.tree = WideKdTreeT<T>(positions, threads), .records = {}};
+    positions = {};
+    map.records = PhotonRecordsT<T>(photons, map.tree.order());
     return map;
 }
 
@@ -84,6 +72,15 @@ inline void check(const Gather& gather) {
     require(gather.nearest != 1 && gather.nearest <= max_gathered, "gather.nearest",
             static_cast<long long>(gather.nearest),
             "0 for all within the radius, or 2 to 512 (one photon sets the radius)");
+}
+
+/// Whether an estimate runs eight photons at a time: on a matt surface, unless the
+/// radius is of a size whose square no float can hold.
+/// \param gather  How.
+template <typename Material>
+[[nodiscard]] constexpr bool in_lanes(const Gather& gather) noexcept {
+    return std::same_as<Material, LambertianT<typename Material::Scalar>> &&
+           1e-15f < gather.radius && gather.radius < 1e15f;
 }
 
 /// The radiance that the photons around a point send towards an observer:
@@ -122,10 +119,11 @@ estimate_radiance(const PhotonMapT<T>& map, const SurfaceT<T>& surface,
     if (map.empty()) return RgbT<T>{T(0)};
     const Vec3T<T>& x = surface.point.position;
     double radius2 = double(gather.radius) * double(gather.radius);
+
     RgbT<double> sum{0}; // many small terms: a float would lose the last of them
     const auto add = [&](std::uint32_t i, double distance2) {
-        const PhotonRecordT<T>& photon = map.records[i];
-        const double height = glm::dot(glm::dvec3(map.tree.points()[i]) - glm::dvec3(x),
+        const PhotonRecordT<T> photon = map.records[i];
+        const double height = glm::dot(glm::dvec3(map.tree.point(i)) - glm::dvec3(x),
                                        glm::dvec3(surface.point.normal));
         const double limit = double(gather.thickness);
         if (height * height > limit * limit * radius2) return;
@@ -136,10 +134,23 @@ estimate_radiance(const PhotonMapT<T>& map, const SurfaceT<T>& surface,
         ++gathered;
     };
     const auto counts = [&](std::uint32_t i) {
-        const PhotonRecordT<T>& photon = map.records[i];
+        const PhotonRecordT<T> photon = map.records[i];
         return wanted(photon.kind) && !turned_away(photon.normal, surface.point.normal);
     };
-    if (gather.nearest == 0) {
+    if (gather.nearest == 0 && in_lanes<Material>(gather)) {
+        // A matt surface sends back the same share of all: their flux is summed.
+        FluxDiscT<T> disc{.center = x,
+                          .normal = surface.point.normal,
+                          .from = std::copysign(T(1), wo.z) * surface.frame.normal,
+                          .radius = T(gather.radius),
+                          .thickness = T(gather.thickness),
+                          .kernel = gather.kernel,
+                          .kinds = 0};
+        for (std::uint32_t kind = 0; kind < 4; ++kind)
+            disc.kinds |= wanted(static_cast<PhotonKind>(kind)) ? 1u << kind : 0u;
+        sum = RgbT<double>(evaluate(material, wo, wo)) *
+              flux_in_disc(map.tree, map.records, disc, gathered);
+    } else if (gather.nearest == 0) {
         map.tree.visit_within(x, T(gather.radius),
                               [&](std::uint32_t i, double distance2) {
                                   if (counts(i)) add(i, distance2);

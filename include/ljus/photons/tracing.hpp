@@ -10,6 +10,7 @@
 #include "ljus/parallel.hpp"
 #include "ljus/photons/emission.hpp"
 #include "ljus/photons/photon.hpp"
+#include "ljus/scene/indexed_scene.hpp"
 
 namespace ljus {
 
@@ -201,6 +202,7 @@ trace_photons(const Scene& scene, PhotonLaw law, const PhotonPass& pass) {
             static_cast<long long>(pass.max_bounces), "at least 1");
 
     const bool caustics = law == PhotonLaw::caustics;
+    const IndexedT<Scene> indexed(scene);
     const LightChoice choice = light_choice(scene.lights);
     const auto targets = caustics ? specular_objects(scene) : std::vector<ObjectId>{};
     TracedPhotonsT<T> result{.emitted = pass.photons};
@@ -231,7 +233,8 @@ trace_photons(const Scene& scene, PhotonLaw law, const PhotonPass& pass) {
                 flight = emit(scene, choice, stream);
             }
             flight.flux /= static_cast<T>(pass.photons);
-            trace(scene, law, flight, target, pass, stream, block.photons, block.audit);
+            trace(indexed, law, flight, target, pass, stream, block.photons,
+                  block.audit);
         }
     };
     result.complete = parallel_blocks(

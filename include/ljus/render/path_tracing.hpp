@@ -5,6 +5,7 @@
 
 #include "ljus/render/direct_light.hpp"
 #include "ljus/render/path_log.hpp"
+#include "ljus/scene/indexed_scene.hpp"
 #include "ljus/scene/light_choice.hpp"
 
 namespace ljus {
@@ -23,13 +24,14 @@ struct PathTracing {
 /// A scene, ready for path tracing. It refers to the scene, which must outlive it.
 template <typename Scene>
 struct PathTracer {
-    const Scene& scene;   ///< What is rendered.
-    PathTracing settings; ///< How.
-    LightChoice lights;   ///< Its lights, by power.
+    IndexedT<Scene> scene; ///< What is rendered.
+    PathTracing settings;  ///< How.
+    LightChoice lights;    ///< Its lights, by power.
 };
 
 /// Makes a path tracer.
-/// \param scene     Must outlive the tracer.
+/// \param scene     Must outlive the tracer; a scene, which it indexes, or an
+///                  IndexedScene.
 /// \param settings  Limits.
 /// \return The tracer.
 template <typename Scene>
@@ -37,7 +39,7 @@ template <typename Scene>
                                                  const PathTracing& settings = {}) {
     require(settings.max_depth >= 1, "max_depth",
             static_cast<long long>(settings.max_depth), "at least 1");
-    return {scene, settings, light_choice(scene.lights)};
+    return {IndexedT<Scene>(scene), settings, light_choice(scene.lights)};
 }
 
 /// The balance heuristic: the share of one of two strategies that could have made the
@@ -85,7 +87,7 @@ template <typename Scene, std::floating_point T>
 template <typename Scene, std::floating_point T, typename Log = NoLog>
 [[nodiscard]] RgbT<T> radiance(const PathTracer<Scene>& tracer, RayT<T> ray,
                                RandomStream& stream, Counts& counts, Log&& log = {}) {
-    const Scene& scene = tracer.scene;
+    const auto& scene = tracer.scene;
     const PathTracing& limits = tracer.settings;
     RgbT<T> sum{T(0)};
     RgbT<T> throughput{T(1)};

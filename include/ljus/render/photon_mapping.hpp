@@ -8,6 +8,7 @@
 #include "ljus/render/direct_light.hpp"
 #include "ljus/render/path_log.hpp"
 #include "ljus/render/survey.hpp"
+#include "ljus/scene/indexed_scene.hpp"
 
 namespace ljus {
 
@@ -62,13 +63,14 @@ make_photon_maps(const Scene& scene, const PhotonMapping& settings = {}) {
 /// A scene with its photon maps. It refers to both, which must outlive it.
 template <typename Scene>
 struct PhotonMapper {
-    const Scene& scene;                              ///< What is rendered.
+    IndexedT<Scene> scene;                           ///< What is rendered.
     const PhotonMapsT<typename Scene::Scalar>& maps; ///< Of the first pass.
     PhotonMapping settings;                          ///< How.
 };
 
 /// Makes a photon mapper.
-/// \param scene     Must outlive the mapper.
+/// \param scene     Must outlive the mapper; a scene, which it indexes, or an
+///                  IndexedScene.
 /// \param maps      Of make_photon_maps(); must outlive the mapper.
 /// \param settings  Depths, radii, who carries indirect light.
 /// \return The mapper.
@@ -78,7 +80,7 @@ template <typename Scene>
 make_photon_mapper(const Scene& scene, const PhotonMapsT<typename Scene::Scalar>& maps,
                    const PhotonMapping& settings = {}) {
     check(settings);
-    return {scene, maps, settings};
+    return {IndexedT<Scene>(scene), maps, settings};
 }
 
 /// The light that a diffuse surface sends back along a camera path, but for what comes

@@ -8,6 +8,7 @@
 
 #include "ljus/photons/photon_map.hpp"
 #include "ljus/photons/tracing.hpp"
+#include "ljus/scene/indexed_scene.hpp"
 
 namespace ljus {
 
@@ -161,8 +162,13 @@ template <typename Scene>
     plan.shadow_photons =
         item("shadow photons", shadows,
              shadows ? "the general map keeps them" : "no map keeps them");
-    plan.flat_loop = item("flat loop", true,
-                          std::to_string(found.objects) + " objects are asked in turn");
+    const bool few = found.objects <= flat_loop_limit;
+    plan.flat_loop =
+        item("flat loop", few,
+             std::to_string(found.objects) +
+                 (few ? " objects are asked in turn"
+                      : " objects: above " + std::to_string(flat_loop_limit) +
+                            " a tree says which ones to ask"));
     return plan;
 }
 // [survey]

@@ -20,24 +20,42 @@ struct SceneHitT {
     ObjectId object{}; ///< Which object.
 };
 
-/// The first object that a ray meets, by asking every shape in turn.
+/// Where a ray meets a shape of any type, in the arithmetic that is asked for, if the
+/// shape has a choice.
+/// \tparam Compute  As for intersect().
+/// \param ray    Hits count in [t_min, t_max].
+/// \param shape  The shape.
+/// \return The hit; nothing for a miss.
+template <typename Compute, std::floating_point T, typename S>
+[[nodiscard]] std::optional<FlatHitT<T>> hit_of(const RayT<T>& ray, const S& shape) {
+    const auto hit = [&] {
+        if constexpr (requires { intersect<Compute>(ray, shape); })
+            return intersect<Compute>(ray, shape);
+        else
+            return intersect(ray, shape);
+    }();
+    if (!hit) return std::nullopt;
+    return as_hit(*hit);
+}
+
+/// The first object that a ray meets, by asking every shape in turn: the exact twin of
+/// the tree in an IndexedScene.
+/// \tparam Compute  The arithmetic, as for intersect().
 /// \param scene  The scene.
 /// \param ray    Hits count in [t_min, t_max].
 /// \return The nearest hit, the earlier object on a tie; nothing for a miss.
-/// \cost One intersection a shape; for a few dozen shapes faster than any tree.
+/// \cost One intersection a shape.
 // [closest_hit]
-template <typename Scene, std::floating_point T>
+template <typename Compute = void, typename Scene, std::floating_point T>
 [[nodiscard]] std::optional<SceneHitT<T>> closest_hit(const Scene& scene, RayT<T> ray) {
     std::optional<SceneHitT<T>> closest;
     std::uint32_t type = 0;
     const auto ask_all = [&](const auto& shapes) {
         for (std::uint32_t i = 0; i < shapes.size(); ++i) {
-            const auto hit = intersect(ray, shapes[i]);
-            if (!hit) continue;
-            const FlatHitT<T> found = as_hit(*hit);
-            if (closest && !(found.t < ray.t_max)) continue;
-            ray.t_max = found.t;
-            closest = SceneHitT<T>{found, {type, i}};
+            const auto found = hit_of<Compute>(ray, shapes[i]);
+            if (!found || (closest && !(found->t < ray.t_max))) continue;
+            ray.t_max = found->t;
+            closest = SceneHitT<T>{*found, {type, i}};
         }
         ++type;
     };
@@ -47,14 +65,15 @@ template <typename Scene, std::floating_point T>
 // [closest_hit]
 
 /// Whether anything lies on a ray: the question of a shadow ray.
+/// \tparam Compute  The arithmetic, as for intersect().
 /// \param scene  The scene.
 /// \param ray    Hits count in [t_min, t_max].
 /// \return True at the first hit found, whichever it is.
-template <typename Scene, std::floating_point T>
+template <typename Compute = void, typename Scene, std::floating_point T>
 [[nodiscard]] bool occluded(const Scene& scene, const RayT<T>& ray) {
     const auto any = [&](const auto& shapes) {
         for (const auto& shape : shapes)
-            if (intersect(ray, shape)) return true;
+            if (hit_of<Compute>(ray, shape)) return true;
         return false;
     };
     return std::apply([&](const auto&... shapes) { return (any(shapes) || ...); },

@@ -1,0 +1,106 @@
+#pragma once
+
+/// \file ljus/optics/conductor.hpp
+/// \brief The share of light that a metal reflects.
+
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include "ljus/math/require.hpp"
+#include "ljus/math/vector.hpp"
+
+namespace ljus {
+
+/// \defgroup conductor Metals
+/// \brief Fresnel's equations with a complex index: what makes gold yellow.
+///
+/// A metal's index is complex, \f$ \bar n = n + ik \f$: the wave that enters dies
+/// within a fraction of its length, and nothing is refracted. n and k depend on the
+/// wavelength, and that is the metal's colour.
+/// \{
+
+/// The complex index of a metal at three wavelengths, for red, green and blue.
+template <std::floating_point T>
+struct ConductorIndexT {
+    RgbT<T> n{T(1)}; ///< Real part, >= 0.
+    RgbT<T> k{T(0)}; ///< Imaginary part, the extinction, >= 0.
+};
+using ConductorIndex = ConductorIndexT<float>; ///< ConductorIndexT in float.
+
+/// Measured indices at 620, 539 and 459 nm, wavelengths that a display's red, green
+/// and blue are near to \cite babar2015.
+/// \{
+template <std::floating_point T>
+inline constexpr ConductorIndexT<T> gold{{T(0.1357), T(0.3290), T(1.457)},
+                                         {T(3.204), T(2.249), T(1.736)}};
+template <std::floating_point T>
+inline constexpr ConductorIndexT<T> copper{{T(0.09461), T(0.9717), T(1.147)},
+                                           {T(3.382), T(2.413), T(2.372)}};
+template <std::floating_point T>
+inline constexpr ConductorIndexT<T> silver{{T(0.04803), T(0.05168), T(0.052)},
+                                           {T(4.164), T(3.483), T(2.765)}};
+/// \}
+
+/// The reflectance of a metal, seen from air, at one wavelength.
+///
+/// \f[ R_s = \left|\frac{c - q}{c + q}\right|^2, \quad
+///     R_p = R_s \left|\frac{q c - s^2}{q c + s^2}\right|^2, \quad
+///     q = \sqrt{\bar n^2 - s^2}, \quad c = \cos\theta,\ s = \sin\theta \f]
+///
+/// and R is their mean. The root is taken where its two parts do not cancel.
+/// \param cos_theta  Cosine between ray and normal, in [0, 1].
+/// \param n          Real part of the index, >= 0.
+/// \param k          Imaginary part, >= 0. With k = 0 this is fresnel(cos_theta, 1, n).
+/// \return R in [0, 1].
+/// \cost Three square roots (one of them a hypot) and three divisions.
+/// \report{Section 3.2.5; the complex index: \cite pharr2023, section 9.3}
+// [fresnel_conductor]
+template <std::floating_point T>
+[[nodiscard]] T fresnel_conductor(T cos_theta, T n, T k) noexcept {
+    const T c = cos_theta;
+    const T sin2 = (T(1) - c) * (T(1) + c);
+
+    // q = a + ib, with q^2 = n^2 - k^2 - s^2 + 2ink.
+    const T real = (n - k) * (n + k) - sin2;
+    const T half_imaginary = n * k;
+    const T size = std::hypot(real, T(2) * half_imaginary);
+    const T larger = std::sqrt((size + std::abs(real)) / T(2));
+    const T smaller = larger > T(0) ? half_imaginary / larger : T(0);
+    const T a = real >= T(0) ? larger : smaller;
+    const T b = real >= T(0) ? smaller : larger;
+
+    const auto square = [](T x) { return x * x; };
+    const T r_s = (square(c - a) + square(b)) / (square(c + a) + square(b));
+    const T p = square(a * c + sin2) + square(b * c);
+    // At grazing incidence onto nothing, n = 1 and k = 0, both are 0.
+    const T ratio = p > T(0) ? (square(a * c - sin2) + square(b * c)) / p : T(1);
+    return r_s * (T(1) + ratio) / T(2);
+}
+// [fresnel_conductor]
+
+/// The reflectance of a metal in three channels.
+/// \param cos_theta  Cosine between ray and normal, in [0, 1].
+/// \param index      Of the metal.
+/// \return R in [0, 1] for each channel.
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> fresnel_conductor(T cos_theta,
+                                        const ConductorIndexT<T>& index) noexcept {
+    return {fresnel_conductor(cos_theta, index.n.x, index.k.x),
+            fresnel_conductor(cos_theta, index.n.y, index.k.y),
+            fresnel_conductor(cos_theta, index.n.z, index.k.z)};
+}
+
+/// Refuses an index that no metal has.
+/// \param what   The name of the index, e.g. "metal.index".
+/// \param index  The index.
+/// \throws std::invalid_argument as require().
+template <std::floating_point T>
+void require_conductor(std::string_view what, const ConductorIndexT<T>& index) {
+    require_radiance(std::string(what) + ".n", index.n);
+    require_radiance(std::string(what) + ".k", index.k);
+}
+
+/// \}
+
+} // namespace ljus

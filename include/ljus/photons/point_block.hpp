@@ -1,0 +1,130 @@
+#pragma once
+
+/// \file ljus/photons/point_block.hpp
+/// \brief Eight points side by side, and which of them lie within reach.
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <limits>
+
+#include "ljus/math/lanes.hpp"
+#include "ljus/photons/neighbor.hpp"
+
+namespace ljus {
+
+/// \addtogroup wide_kd_tree
+/// \{
+
+/// Eight numbers of any precision.
+template <std::floating_point T>
+struct alignas(32) LanesT {
+    T lane[lane_count]; ///< The numbers.
+};
+
+/// Eight points, directions or colours, by coordinate.
+template <std::floating_point T>
+struct alignas(32) BlockT {
+    T x[lane_count]; ///< First coordinates.
+    T y[lane_count]; ///< Second coordinates.
+    T z[lane_count]; ///< Third coordinates.
+
+    /// One of them.
+    /// \param lane  In [0, 8).
+    [[nodiscard]] constexpr Vec3T<T> operator[](std::size_t lane) const noexcept {
+        return {x[lane], y[lane], z[lane]};
+    }
+    /// Replaces one of them.
+    /// \param lane  In [0, 8).
+    /// \param v     The new one.
+    constexpr void set(std::size_t lane, const Vec3T<T>& v) noexcept {
+        x[lane] = v.x;
+        y[lane] = v.y;
+        z[lane] = v.z;
+    }
+};
+
+/// The squared distances of eight points, in the precision of their coordinates: within
+/// five roundings of the exact ones unless they leave the range of T.
+/// \param points  Eight points.
+/// \param center  Where from.
+template <std::floating_point T>
+[[nodiscard]] constexpr LanesT<T> distances2(const BlockT<T>& points,
+                                             const Vec3T<T>& center) noexcept {
+    LanesT<T> result{};
+    for (int i = 0; i < lane_count; ++i) {
+        const T x = points.x[i] - center.x;
+        const T y = points.y[i] - center.y;
+        const T z = points.z[i] - center.z;
+        result.lane[i] = x * x + y * y + z * z;
+    }
+    return result;
+}
+
+/// How far a search reaches: a limit in double that decides, and two bounds in T that
+/// decide nearly always.
+///
+/// A squared distance computed in T has at most five roundings of half an ulp.
+/// Whatever is at most `sure` is within the limit, whatever lies above `last` is not,
+/// with 16 roundings between each of them and the limit; only what falls between the
+/// two is computed once more, by distance2().
+template <std::floating_point T>
+struct ReachT {
+    double limit2 = 0; ///< Squared.
+    bool open = false; ///< Whether the limit itself is out of reach.
+    T sure = T(-1);    ///< At most this: within the limit.
+    T last = T(-1);    ///< Above this: beyond the limit.
+
+    /// The reach up to a limit.
+    /// \param limit   Squared; at least 0, or infinite.
+    /// \param beyond  Whether the limit itself is out of reach.
+    [[nodiscard]] static constexpr ReachT up_to(double limit, bool beyond) noexcept {
+        using Numbers = std::numeric_limits<T>;
+        // The smallest numbers, which processors may take for 0, decide nothing.
+        constexpr double margin = 8 * double(Numbers::epsilon());
+        constexpr double tiny = 4 * double(Numbers::min());
+        constexpr double most = double(Numbers::max());
+        const double up = limit * (1 + margin) + tiny;
+        const double down = std::min(limit, most) * (1 - margin) - tiny;
+        return {.limit2 = limit,
+                .open = beyond,
+                .sure = T(down),
+                .last = up < most ? T(up) : Numbers::infinity()};
+    }
+    /// What a squared distance in double says: the last word.
+    [[nodiscard]] constexpr bool holds(double d2) const noexcept {
+        return open ? d2 < limit2 : d2 <= limit2;
+    }
+    /// Which of eight distances may be within reach, a bit each; and, 8 bits further
+    /// up, which surely are.
+    [[nodiscard]] constexpr std::uint32_t bits(const LanesT<T>& d2) const noexcept {
+        std::uint32_t result = 0;
+        for (int i = 0; i < lane_count; ++i)
+            result |= (d2.lane[i] <= last ? 1u << i : 0u) |
+                      (d2.lane[i] <= sure ? 256u << i : 0u);
+        return result;
+    }
+    /// Which of eight points are within reach, exactly.
+    /// \param points  The points.
+    /// \param center  The centre of the search.
+    /// \param d2      What distances2() says of them.
+    /// \return A bit each, the first point's the lowest.
+    // [within]
+    [[nodiscard]] constexpr std::uint32_t within(const BlockT<T>& points,
+                                                 const Vec3T<T>& center,
+                                                 const LanesT<T>& d2) const noexcept {
+        const std::uint32_t both = bits(d2);
+        const std::uint32_t sure_ones = both >> lane_count;
+        std::uint32_t found = both & 255u;
+        for (std::uint32_t rest = found & ~sure_ones; rest != 0; rest &= rest - 1) {
+            const int i = std::countr_zero(rest);
+            if (!holds(distance2(points[std::size_t(i)], center))) found &= ~(1u << i);
+        }
+        return found;
+    }
+    // [within]
+};
+
+/// \}
+
+} // namespace ljus

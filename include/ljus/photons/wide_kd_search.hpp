@@ -1,0 +1,291 @@
+#pragma once
+
+/// \file ljus/photons/wide_kd_search.hpp
+/// \brief How the wide k-d tree is searched.
+
+#include "ljus/photons/wide_kd_tree.hpp"
+
+namespace ljus {
+
+/// \addtogroup wide_kd_tree
+/// \{
+
+namespace detail {
+
+// The squared distances to the nearest points of eight boxes.
+template <std::floating_point T>
+[[nodiscard]] constexpr LanesT<T> near2(const WideNodeT<T>& node,
+                                        const Vec3T<T>& center) noexcept {
+    LanesT<T> result{};
+    const auto outside = [](T low, T high, T x) {
+        const T below = low - x;
+        const T above = x - high;
+        const T more = below > above ? below : above;
+        return more > T(0) ? more : T(0);
+    };
+    for (int i = 0; i < lane_count; ++i) {
+        const T x = outside(node.low.x[i], node.high.x[i], center.x);
+        const T y = outside(node.low.y[i], node.high.y[i], center.y);
+        const T z = outside(node.low.z[i], node.high.z[i], center.z);
+        result.lane[i] = x * x + y * y + z * z;
+    }
+    return result;
+}
+
+// The squared distances to their farthest corners.
+template <std::floating_point T>
+[[nodiscard]] constexpr LanesT<T> far2(const WideNodeT<T>& node,
+                                       const Vec3T<T>& center) noexcept {
+    LanesT<T> result{};
+    const auto across = [](T low, T high, T x) {
+        const T above = x - low;
+        const T below = high - x;
+        return above > below ? above : below;
+    };
+    for (int i = 0; i < lane_count; ++i) {
+        const T x = across(node.low.x[i], node.high.x[i], center.x);
+        const T y = across(node.low.y[i], node.high.y[i], center.y);
+        const T z = across(node.low.z[i], node.high.z[i], center.z);
+        result.lane[i] = x * x + y * y + z * z;
+    }
+    return result;
+}
+
+} // namespace detail
+
+// Ranges of blocks that together hold all points of a ball; until one visit says true.
+// [in ball]
+template <std::floating_point T>
+template <typename Visit>
+bool WideKdTreeT<T>::in_ball(const Vec3T<T>& center, T radius, const ReachT<T>& reach,
+                             Visit visit) const {
+    if (!(radius >= T(0))) return false;
+    if (shape_.levels == 0) return visit(std::size_t(0), blocks_.size());
+    struct Entry {
+        int level;
+        std::uint32_t number;
+    };
+    Entry stack[8 * 12];
+    int size = 0;
+    stack[size++] = {0, 0};
+    std::uint32_t children = (1u << shape_.root_children()) - 1;
+    while (size > 0) {
+        const auto [level, number] = stack[--size];
+        const WideNodeT<T>& node = nodes_[shape_.first[std::size_t(level)] + number];
+        LanesT<T> near = detail::near2(node, center);
+        const LanesT<T> far = detail::far2(node, center);
+        std::uint32_t both = 0;
+        for (int i = 0; i < lane_count; ++i)
+            both |= (near.lane[i] <= reach.last ? 1u << i : 0u) |
+                    (far.lane[i] <= reach.sure ? 256u << i : 0u);
+        std::uint32_t some = both & children;
+        children = 255;
+        const int below = shape_.levels - 1 - level; // levels between these and leaves
+        const int depth = shape_.halvings - 3 * below;
+        for (; some != 0; some &= some - 1) {
+            const auto i = static_cast<std::uint32_t>(std::countr_zero(some));
+            const std::uint32_t child = 8 * number + i;
+            if (below > 0 && (both >> (8 + i) & 1u) == 0) {
+                stack[size++] = {level + 1, child};
+            } else if (visit(shape_.first_block(depth, child),
+                             shape_.first_block(depth, child + 1))) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+// [in ball]
+
+// Ranges of blocks, the nearer ones first, as long as they are within reach; a visit
+// may shorten the reach.
+// [towards]
+template <std::floating_point T>
+template <typename Visit>
+void WideKdTreeT<T>::towards(const Vec3T<T>& center, const ReachT<T>& reach,
+                             Visit visit) const {
+    if (shape_.levels == 0) return visit(std::size_t(0), blocks_.size());
+    struct Entry {
+        T distance2;
+        int level;
+        std::uint32_t number;
+    };
+    Entry stack[8 * 12];
+    int size = 0;
+    stack[size++] = {T(0), 0, 0};
+    std::uint32_t children = (1u << shape_.root_children()) - 1;
+    while (size > 0) {
+        const Entry at = stack[--size];
+        if (!(at.distance2 <= reach.last)) continue;
+        if (at.distance2 > reach.sure && at.level > 0) { // T cannot tell
+            const WideNodeT<T>& node =
+                nodes_[shape_.first[std::size_t(at.level - 1)] + at.number / 8];
+            if (!reach.holds(box_distance2(node.low[at.number % 8],
+                                           node.high[at.number % 8], center)))
+                continue;
+        }
+        if (at.level == shape_.levels) {
+            visit(shape_.first_block(shape_.halvings, at.number),
+                  shape_.first_block(shape_.halvings, at.number + 1));
+            continue;
+        }
+        const LanesT<T> near = detail::near2(
+            nodes_[shape_.first[std::size_t(at.level)] + at.number], center);
+        const int base = size;
+        for (std::uint32_t some = reach.bits(near) & children; some != 0;
+             some &= some - 1) {
+            const auto i = static_cast<std::uint32_t>(std::countr_zero(some));
+            const Entry entry{near.lane[i], at.level + 1, 8 * at.number + i};
+            int place = size++;
+            for (; place > base && stack[place - 1].distance2 < entry.distance2;
+                 --place)
+                stack[place] = stack[place - 1];
+            stack[place] = entry;
+        }
+        children = 255;
+    }
+}
+// [towards]
+
+template <std::floating_point T>
+std::optional<Neighbor> WideKdTreeT<T>::nearest(const Vec3T<T>& center,
+                                                T radius) const {
+    if (!(radius >= T(0)) || size() == 0) return std::nullopt;
+    auto reach = ReachT<T>::up_to(double(radius) * double(radius), false);
+    std::optional<Neighbor> best;
+    towards(center, reach, [&](std::size_t first, std::size_t last) {
+        // The smallest distance in T; only what is as small may be the nearest.
+        LanesT<T> least;
+        for (T& x : least.lane) x = std::numeric_limits<T>::infinity();
+        for (std::size_t b = first; b < last; ++b) {
+            const LanesT<T> d2 = distances2(blocks_[b], center);
+            for (int i = 0; i < lane_count; ++i)
+                least.lane[i] = d2.lane[i] < least.lane[i] ? d2.lane[i] : least.lane[i];
+        }
+        T smallest = least.lane[0];
+        for (const T x : least.lane) smallest = x < smallest ? x : smallest;
+        if (!(smallest <= reach.last)) return;
+        auto close = ReachT<T>::up_to(double(smallest), false);
+        close.last = std::min(close.last, reach.last);
+        for (std::size_t b = first; b < last; ++b) {
+            const LanesT<T> d2 = distances2(blocks_[b], center);
+            for (std::uint32_t some = close.bits(d2) & 255u; some != 0;
+                 some &= some - 1) {
+                const auto i = std::size_t(std::countr_zero(some));
+                const double exact = distance2(blocks_[b][i], center);
+                if (!reach.holds(exact)) continue;
+                best = Neighbor{exact, static_cast<std::uint32_t>(8 * b + i)};
+                reach = ReachT<T>::up_to(exact, true);
+            }
+        }
+    });
+    return best;
+}
+
+// [nearest]
+template <std::floating_point T>
+template <typename Wanted>
+std::size_t WideKdTreeT<T>::nearest(const Vec3T<T>& center, T radius,
+                                    std::span<Neighbor> found, Wanted wanted) const {
+    if (found.empty() || !(radius >= T(0)) || size() == 0) return 0;
+    auto reach = ReachT<T>::up_to(double(radius) * double(radius), false);
+    if (found.size() <= most_counted)
+        return count_nearest(center, reach, found, wanted);
+
+    Nearest best{.found = found, .limit2 = reach.limit2};
+    towards(center, reach, [&](std::size_t first, std::size_t last) {
+        for (std::size_t b = first; b < last; ++b) {
+            std::uint32_t some =
+                reach.within(blocks_[b], center, distances2(blocks_[b], center));
+            for (; some != 0; some &= some - 1) {
+                const auto i = std::size_t(std::countr_zero(some));
+                const auto index = static_cast<std::uint32_t>(8 * b + i);
+                const double d2 = distance2(blocks_[b][i], center);
+                if (best.reaches(d2) && wanted(index)) best.take({d2, index});
+            }
+        }
+        if (best.count == found.size())
+            reach = ReachT<T>::up_to(found[0].distance2, true);
+    });
+    return best.count;
+}
+
+// Gathers candidates and now and then, when there are more than enough, finds by
+// counting how far the k-th of them lies: the reach from then on.
+template <std::floating_point T>
+template <typename Wanted>
+std::size_t WideKdTreeT<T>::count_nearest(const Vec3T<T>& center, ReachT<T> reach,
+                                          std::span<Neighbor> found,
+                                          Wanted& wanted) const {
+    constexpr std::size_t room = 2 * most_counted;
+    alignas(32) T d2[room + 8];
+    std::uint32_t index[room + 8];
+    std::uint32_t band[room];
+    Neighbor tie[room];
+    const std::size_t k = found.size();
+    std::size_t count = 0;
+
+    const auto shrink = [&] {
+        for (std::size_t i = count; i % 8 != 0; ++i)
+            d2[i] = std::numeric_limits<T>::infinity();
+        // Those that T puts near the k-th are put into their order in double.
+        const auto kth = ReachT<T>::up_to(double(select_smallest(d2, count, k)), false);
+        std::size_t sure = 0, ties = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const T x = d2[i];
+            const std::uint32_t at = index[i];
+            d2[sure] = x;
+            index[sure] = at;
+            band[ties] = at;
+            sure += x <= kth.sure;
+            ties += x > kth.sure && x <= kth.last;
+        }
+        for (std::size_t i = 0; i < ties; ++i)
+            tie[i] = {distance2(point(band[i]), center), band[i]};
+        const auto last = std::ptrdiff_t(k - sure - 1);
+        std::nth_element(tie, tie + last, tie + ties);
+        for (std::size_t i = 0; sure < k; ++i, ++sure) {
+            d2[sure] =
+                T(std::min(tie[i].distance2, double(std::numeric_limits<T>::max())));
+            index[sure] = tie[i].index;
+        }
+        count = k;
+        reach = ReachT<T>::up_to(tie[last].distance2, true);
+    };
+
+    std::size_t enough = k;
+    towards(center, reach, [&](std::size_t first, std::size_t last) {
+        for (std::size_t b = first; b < last; ++b) {
+            const LanesT<T> far = distances2(blocks_[b], center);
+            const std::uint32_t some = reach.within(blocks_[b], center, far);
+            if (some == 0) continue;
+            for (std::uint32_t i = 0; i < lane_count; ++i) {
+                const auto at = static_cast<std::uint32_t>(8 * b + i);
+                d2[count] = far.lane[i];
+                index[count] = at;
+                if constexpr (std::is_same_v<Wanted, AnyPoint>)
+                    count += some >> i & 1u;
+                else
+                    count += (some >> i & 1u) != 0 && wanted(at) ? 1 : 0;
+            }
+        }
+        if (count >= enough) {
+            shrink();
+            enough = k + std::max<std::size_t>(k / 2, 32);
+        }
+    });
+    if (count > k) shrink();
+
+    std::size_t farthest = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        found[i] = {distance2(point(index[i]), center), index[i]};
+        if (found[i].distance2 > found[farthest].distance2) farthest = i;
+    }
+    if (count > 0) std::swap(found[0], found[farthest]);
+    return count;
+}
+// [nearest]
+
+/// \}
+
+} // namespace ljus

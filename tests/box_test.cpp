@@ -1,0 +1,150 @@
+/// \file box_test.cpp
+/// \brief Boxes around shapes, and rays that meet them, against the definitions.
+
+#include "ljus/geometry/box.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "ljus/geometry/shape.hpp"
+#include "support/numbers.hpp"
+
+using namespace ljus;
+using ljus_test::Numbers;
+
+namespace {
+
+constexpr float inf = std::numeric_limits<float>::infinity();
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+
+/// The slabs as they are defined, in long double, without a sign or a division by 0.
+bool meets(const Ray& ray, const Box& box) {
+    long double first = ray.t_min, last = ray.t_max;
+    for (int axis = 0; axis < 3; ++axis) {
+        const long double o = ray.origin[axis], d = ray.direction[axis];
+        const long double low = box.low[axis], high = box.high[axis];
+        if (d == 0) {
+            if (o < low || o > high) return false;
+            continue;
+        }
+        first = std::max(first, std::min((low - o) / d, (high - o) / d));
+        last = std::min(last, std::max((low - o) / d, (high - o) / d));
+    }
+    return first <= last;
+}
+
+std::optional<float> entry(const Ray& ray, const Box& box) {
+    const auto ready = box_ray(ray, box);
+    if (!ready) return std::nullopt;
+    return enter(*ready, box, ray.t_min, ray.t_max);
+}
+
+bool within(const Box& box, const Vec3T<long double>& p) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (p[axis] < box.low[axis] || p[axis] > box.high[axis]) return false;
+    return true;
+}
+
+} // namespace
+
+TEST_CASE("box: the box around nothing, and what it grows to") {
+    Box box;
+    CHECK(box.low.x > box.high.x);
+    box = join(box, Vec3{1, 2, 3});
+    CHECK(box.low == Vec3{1, 2, 3});
+    CHECK(box.high == Vec3{1, 2, 3});
+    box = join(box, Box{{-1, 5, 0}, {0, 6, 1}});
+    CHECK(box.low == Vec3{-1, 2, 0});
+    CHECK(box.high == Vec3{1, 6, 3});
+    CHECK(join(Box{}, box).low == box.low);
+}
+
+TEST_CASE("box: no point of a shape is outside of its box") {
+    using Exact = Vec3T<long double>;
+    Numbers n;
+    for (int k = 0; k < 20000; ++k) {
+        const double size = n.power(-6, 6);
+        const Vec3 at(n.point(n.power(-3, 6)));
+        const Sphere sphere{at, float(size)};
+        const Triangle triangle{at, at + Vec3(n.point(size)), at + Vec3(n.point(size))};
+        const Quad quad{at, Vec3(n.point(size)), Vec3(n.point(size))};
+        for (int axis = 0; axis < 3; ++axis)
+            for (const long double sign : {-1.0L, 1.0L}) {
+                Exact pole(sphere.center);
+                pole[axis] += sign * static_cast<long double>(sphere.radius);
+                REQUIRE(within(bounds(sphere), pole));
+            }
+        for (const Vec3& v : {triangle.v1, triangle.v2, triangle.v3})
+            REQUIRE(within(bounds(triangle), Exact(v)));
+        for (const long double u : {0.0L, 1.0L})
+            for (const long double v : {0.0L, 1.0L})
+                REQUIRE(within(bounds(quad), Exact(quad.corner) +
+                                                 u * Exact(quad.edge_u) +
+                                                 v * Exact(quad.edge_v)));
+        // Nor is the box much larger than the shape.
+        const double slack = 1e-6 * (size + double(max_component(glm::abs(at))));
+        REQUIRE(double(bounds(sphere).high.x) <=
+                double(at.x) + double(sphere.radius) + slack);
+    }
+}
+
+TEST_CASE("box: what the slabs say exactly, enter() says too, and little more") {
+    Numbers n;
+    int hits = 0, more = 0;
+    for (int k = 0; k < 200000; ++k) {
+        const Vec3 a(n.point(2)), b(n.point(2));
+        Box box{glm::min(a, b), glm::max(a, b)};
+        if (k % 3 == 0) box.high[k % 2] = box.low[k % 2]; // flat
+        Ray ray{.origin = Vec3(n.point(4)), .direction = Vec3(n.point(1))};
+        for (int axis = 0; axis < 3; ++axis) {
+            const int what = n.below(6);
+            if (what == 0) ray.direction[axis] = 0.0f;
+            if (what == 1) ray.direction[axis] = -0.0f;
+            if (what == 2)
+                ray.origin[axis] = n.below(2) ? box.low[axis] : box.high[axis];
+        }
+        if (ray.direction == Vec3{0}) continue;
+        if (k % 5 == 0) ray.t_max = float(n.between(0, 5));
+        if (k % 7 == 0) ray.t_min = float(n.between(0, 5));
+        const bool exact = meets(ray, box);
+        const auto found = entry(ray, box);
+        if (exact) REQUIRE(found);
+        hits += exact;
+        more += found && !exact;
+        if (found) REQUIRE((*found >= ray.t_min && *found <= ray.t_max));
+    }
+    CHECK(hits > 5000);
+    MESSAGE("met beyond the exact box: " << more << " beside " << hits);
+    CHECK(more < hits / 20);
+}
+
+TEST_CASE("box: along an axis, the sign of zero does not matter") {
+    const Box box{{-1, -1, -5}, {1, 1, -3}};
+    for (const float zero : {0.0f, -0.0f})
+        for (const float x : {-1.0f, -0.5f, 0.0f, 1.0f}) {
+            CHECK(entry({.origin{x, 0, 0}, .direction{zero, zero, -1}}, box).value() ==
+                  doctest::Approx(3));
+            CHECK(entry({.origin{x, -1, 0}, .direction{zero, zero, -1}}, box));
+            CHECK(entry({.origin{x, 1, -9}, .direction{zero, zero, 1}}, box));
+            CHECK_FALSE(entry({.origin{x, 1.01f, 0}, .direction{zero, zero, -1}}, box));
+            CHECK_FALSE(entry({.origin{x, 0, 0}, .direction{zero, zero, 1}}, box));
+        }
+}
+
+TEST_CASE("box: NaN is a miss, and so is nothing") {
+    const Box box{{-1, -1, -5}, {1, 1, -3}};
+    CHECK(entry(Ray{}, box));
+    CHECK_FALSE(entry({.t_max = not_a_number}, box));
+    CHECK_FALSE(entry({.t_min = not_a_number}, box));
+    CHECK_FALSE(entry({.t_max = 2.99f}, box));
+    CHECK_FALSE(entry({.t_min = 5.01f}, box));
+    const auto ready = box_ray(Ray{}, box);
+    CHECK_FALSE(enter(*ready, Box{}, 0.0f, inf));
+    for (const Ray& bad :
+         {Ray{.origin{not_a_number, 0, 0}}, Ray{.direction{not_a_number, 0, 1}},
+          Ray{.direction = Vec3{0}}, Ray{.direction{0, 0, inf}},
+          Ray{.direction{0, 0, 1e-30f}}, Ray{.direction{0, 0, 1e30f}},
+          Ray{.origin{1e30f, 0, 0}}})
+        CHECK_FALSE(box_ray(bad, box));
+}

@@ -1,0 +1,29 @@
+# What -march=native makes of a product that is not exact: the sides of an edge differ.
+ljus_break_it(NAME watertight-contracted HEADER geometry/watertight.hpp TEST watertight
+    FROM "return W(p.x) * W(q.y) - W(p.y) * W(q.x);"
+    TO   "return W(std::fma(p.x, q.y, -(p.y * q.x)));"
+    CASES "watertight: a mesh of any size*")
+
+# On an edge is inside, on both sides of it.
+ljus_break_it(NAME watertight-ties HEADER geometry/watertight.hpp TEST watertight
+    FROM "(u >= 0 && v >= 0 && w >= 0)"
+    TO   "(u > 0 && v > 0 && w > 0)"
+    CASES "watertight: a tie*")
+
+# Only triangles that turn one way.
+ljus_break_it(NAME watertight-one-sided HEADER geometry/watertight.hpp TEST watertight
+    FROM " || (u <= 0 && v <= 0 && w <= 0)"
+    TO   ""
+    CASES "watertight: it agrees*")
+
+# An infinite direction makes every t zero.
+ljus_break_it(NAME watertight-infinity HEADER geometry/watertight.hpp TEST watertight
+    FROM " && shear.sz != 0"
+    TO   ""
+    CASES "watertight: invalid data*")
+
+# The longest axis must become z, or the shear divides by nearly zero.
+ljus_break_it(NAME watertight-axis HEADER geometry/watertight.hpp TEST watertight
+    FROM "size.x > size.y ? (size.x > size.z ? 0 : 2) : size.y > size.z ? 1 : 2"
+    TO   "2"
+    CASES "watertight: a mesh of any size*")

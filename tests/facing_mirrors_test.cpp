@@ -1,0 +1,92 @@
+// concept: reflection
+/// \file facing_mirrors_test.cpp
+/// \brief After n mirrors there is R^n left, whoever traces the path.
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+
+#include <ljus/ljus.hpp>
+
+namespace {
+
+template <typename T>
+using Hall = ljus::Scene<ljus::Shapes<ljus::QuadT<T>>,
+                         ljus::Materials<ljus::MirrorT<T>, ljus::LambertianT<T>>>;
+
+/// Two mirrors at x = 0 and x = 1, and above them a lamp of radiance 1 that spans the
+/// gap.
+template <typename T>
+Hall<T> hall(const ljus::RgbT<T>& reflectance) {
+    Hall<T> scene;
+    const auto mirror = scene.add(ljus::MirrorT<T>{reflectance});
+    const auto black = scene.add(ljus::LambertianT<T>{ljus::RgbT<T>{0}});
+    using Quad = ljus::QuadT<T>;
+    scene.add(Quad{{0, -1, -4}, {0, 0, 8}, {0, 3, 0}}, mirror);
+    scene.add(Quad{{1, -1, -4}, {0, 3, 0}, {0, 0, 8}}, mirror);
+    scene.add(Quad{{0, 1, -4}, {1, 0, 0}, {0, 0, 8}}, black, ljus::RgbT<T>{1});
+    return scene;
+}
+
+/// The ray from the middle of the gap that meets a mirror n times below the lamp.
+template <typename T>
+ljus::RayT<T> ray_of(int n) {
+    return {.origin{T(0.5), 0, 0},
+            .direction = glm::normalize(ljus::Vec3T<T>{n, 1, 0})};
+}
+
+/// The largest relative error of R^n over n = 0..40 and three channels.
+template <typename T, typename Renderer>
+double largest_error(const Renderer& renderer, const ljus::RgbT<T>& reflectance) {
+    double largest = 0;
+    for (int n = 0; n <= 40; ++n) {
+        ljus::RandomStream stream = ljus::random_stream(3, ljus::Pass::camera, 0, 0);
+        ljus::Counts counts;
+        const auto seen = radiance(renderer, ray_of<T>(n), stream, counts);
+        for (int channel = 0; channel < 3; ++channel) {
+            const double exact = std::pow(double(reflectance[channel]), n);
+            largest = std::max(largest, std::abs(double(seen[channel]) / exact - 1));
+        }
+    }
+    return largest;
+}
+
+} // namespace
+
+TEST_CASE_TEMPLATE("facing_mirrors: n reflections leave R^n in both renderers", T,
+                   float, double) {
+    const ljus::RgbT<T> reflectance{T(0.95), T(0.9), T(0.8)};
+    const auto scene = hall(reflectance);
+    const double most = 45 * double(std::numeric_limits<T>::epsilon());
+    CHECK(largest_error(make_path_tracer(scene, {.roulette_depth = 1000}),
+                        reflectance) <= most);
+    ljus::PhotonMapping settings{.roulette_depth = 1000};
+    settings.caustics.photons = 100;
+    const auto maps = make_photon_maps(scene, settings);
+    CHECK(largest_error(make_photon_mapper(scene, maps, settings), reflectance) <=
+          most);
+}
+
+TEST_CASE("facing_mirrors: roulette keeps the mean of 40 reflections") {
+    const ljus::Rgb reflectance{0.95f, 0.9f, 0.8f};
+    const auto scene = hall(reflectance);
+    const auto tracer = make_path_tracer(scene, {.roulette_depth = 4});
+    const double exact = std::pow(0.95, 40);
+    constexpr int paths = 20000;
+    double sum = 0, squares = 0;
+    for (int i = 0; i < paths; ++i) {
+        ljus::RandomStream stream =
+            ljus::random_stream(3, ljus::Pass::camera, 0, static_cast<unsigned>(i));
+        ljus::Counts counts;
+        const double seen =
+            double(radiance(tracer, ray_of<float>(40), stream, counts).x);
+        sum += seen;
+        squares += seen * seen;
+    }
+    const double mean = sum / paths;
+    const double error = std::sqrt((squares / paths - mean * mean) / paths);
+    // A false alarm once in 15 000 seeds.
+    CHECK(std::abs(mean - exact) <= 4 * error);
+    CHECK(error < 0.05 * exact);
+}

@@ -1,0 +1,92 @@
+// concept: refraction
+/// \file lens_test.cpp
+/// \brief What optics knows of a pane and of a ball of glass, found by tracing.
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include <ljus/ljus.hpp>
+
+using Ray = ljus::RayT<double>;
+using Vec3 = ljus::Vec3T<double>;
+
+namespace {
+
+/// Where a ray parallel to the x axis, at a height, meets that axis behind the unit
+/// ball of index n.
+double crossing(double height, double n) {
+    const ljus::SphereT<double> ball{};
+    const Ray before{.origin{-3, height, 0}, .direction{1, 0, 0}};
+    const Vec3 in = at(before, *intersect(before, ball));
+    const Vec3 inside = *ljus::refract(before.direction, normal(ball, in), 1 / n);
+    const Ray within{.origin = in, .direction = inside, .t_min = 1e-9};
+    const Vec3 out = at(within, *intersect(within, ball));
+    const Vec3 beyond = *ljus::refract(inside, normal(ball, out), n);
+    return out.x - out.y * beyond.x / beyond.y;
+}
+
+} // namespace
+
+TEST_CASE("lens: the focus of a ball is n R / 2(n - 1), for rays close to the axis") {
+    for (const double n : {1.1, 1.33, 1.5, 1.8, 1.99}) {
+        const double focus = n / (2 * (n - 1));
+        // The aberration goes with the square of the height.
+        const double near = crossing(1e-3, n) - focus;
+        const double far = crossing(2e-3, n) - focus;
+        CHECK(std::abs(near) < 1e-4 * focus);
+        CHECK(far / near == doctest::Approx(4).epsilon(1e-3));
+        CHECK(near < 0); // rays far from the axis cross it earlier
+    }
+}
+
+TEST_CASE("lens: a ray leaves a ball at the angle at which it entered") {
+    const ljus::SphereT<double> ball{};
+    for (int i = 0; i < 99; ++i) {
+        const double height = 0.01 * i;
+        const Ray before{.origin{-3, height, 0}, .direction{1, 0, 0}};
+        const Vec3 in = at(before, *intersect(before, ball));
+        const Vec3 inside = *ljus::refract(before.direction, normal(ball, in), 1 / 1.5);
+        const Ray within{.origin = in, .direction = inside, .t_min = 1e-9};
+        const Vec3 out = at(within, *intersect(within, ball));
+        const auto beyond = ljus::refract(inside, normal(ball, out), 1.5);
+        REQUIRE(beyond); // so that there is no total reflection
+        CHECK(glm::dot(*beyond, normal(ball, out)) ==
+              doctest::Approx(-glm::dot(before.direction, normal(ball, in)))
+                  .epsilon(1e-10));
+    }
+}
+
+TEST_CASE("lens: a pane lets 2n/(n^2 + 1) through, all the ways to and fro together") {
+    using Scene =
+        ljus::Scene<ljus::Shapes<ljus::QuadT<double>>,
+                    ljus::Materials<ljus::GlassT<double>, ljus::LambertianT<double>>>;
+    using Quad = ljus::QuadT<double>;
+    for (const double n : {1.2, 1.5, 2.4}) {
+        Scene scene;
+        const auto glass = scene.add(ljus::GlassT<double>{.index = n});
+        const auto black = scene.add(ljus::LambertianT<double>{ljus::RgbT<double>{0}});
+        // Normals outwards: up at z = 0, down at z = -1; below, a lamp.
+        scene.add(Quad{{-50, -50, 0}, {100, 0, 0}, {0, 100, 0}}, glass);
+        scene.add(Quad{{-50, -50, -1}, {0, 100, 0}, {100, 0, 0}}, glass);
+        scene.add(Quad{{-50, -50, -2}, {100, 0, 0}, {0, 100, 0}}, black,
+                  ljus::RgbT<double>{1});
+        const auto tracer = make_path_tracer(scene, {.roulette_depth = 1000});
+        constexpr int paths = 40000;
+        int through = 0;
+        for (int i = 0; i < paths; ++i) {
+            ljus::RandomStream stream =
+                ljus::random_stream(1, ljus::Pass::camera, 0, static_cast<unsigned>(i));
+            ljus::Counts counts;
+            const Ray ray{.origin{0, 0, 1}, .direction{0, 0, -1}};
+            const double seen = radiance(tracer, ray, stream, counts).x;
+            // A path ends at the lamp or in the void; the n^2 in and out cancel.
+            REQUIRE((seen == 0 || std::abs(seen - 1) < 1e-12));
+            through += seen > 0.5;
+        }
+        const double exact = 2 * n / (n * n + 1);
+        const double error = std::sqrt(exact * (1 - exact) / paths);
+        // A false alarm once in 5000 seeds, all three indices together.
+        CHECK(std::abs(double(through) / paths - exact) <= 4 * error);
+    }
+}
