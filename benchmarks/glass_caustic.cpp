@@ -50,8 +50,8 @@ CausticScene glass_caustic() {
 }
 
 Camera camera() {
-    return look_at(View{
-        .position{0, 1.3f, 2.8f}, .target{0.1f, 0.25f, 0}, .vfov_degrees = 36});
+    return look_at(
+        View{.position{0, 1.3f, 2.8f}, .target{0.1f, 0.25f, 0}, .vfov_degrees = 36});
 }
 
 /// Processor seconds of this process.
@@ -120,12 +120,18 @@ Reference load_reference(const std::string& name) {
 
 Reference reference; // NOLINT: made once, before the benchmarks run
 
-PhotonMapping settings_for(long long photons, double radius) {
+/// Direct light by rays, caustics and indirect light by photons.
+PhotonMapping settings_for(double caustic_photons, double caustic_radius,
+                           double indirect_photons, double indirect_radius) {
     PhotonMapping settings;
-    settings.roulette_depth = 2;
-    settings.caustics.photons = photons;
+    settings.indirect = IndirectLight::photons;
+    settings.caustics.photons = static_cast<long long>(caustic_photons);
     settings.caustics.threads = 1;
-    settings.gather_caustics.radius = static_cast<float>(radius);
+    settings.gather_caustics.radius = static_cast<float>(caustic_radius);
+    settings.general.photons = static_cast<long long>(indirect_photons);
+    settings.general.shadow_photons = false;
+    settings.general.threads = 1;
+    settings.gather_general.radius = static_cast<float>(indirect_radius);
     return settings;
 }
 
@@ -137,12 +143,13 @@ void count(benchmark::State& state, const Image& image, const Counts& counts) {
     state.counters["rays"] = double(counts.rays());
 }
 
-/// Both passes of the photon mapper. Arguments: rays a pixel, thousands of photons, the
-/// radius in thousandths.
+/// Both passes of the photon mapper. Arguments: rays a pixel; of the caustics and of the
+/// indirect light thousands of photons and the radius in thousandths.
 void photon_mapping(benchmark::State& state) {
     const CausticScene scene = glass_caustic();
     const PhotonMapping settings =
-        settings_for(1000 * state.range(1), double(state.range(2)) / 1000);
+        settings_for(1e3 * double(state.range(1)), 1e-3 * double(state.range(2)),
+                     1e3 * double(state.range(3)), 1e-3 * double(state.range(4)));
     RenderedT<float> result;
     for (auto _ : state) {
         const double start = processor_seconds();
@@ -178,8 +185,8 @@ void path_tracing(benchmark::State& state) {
 } // namespace
 
 BENCHMARK(photon_mapping)
-    ->ArgsProduct({{8, 16, 24, 32}, {100}, {10, 14, 20}})
-    ->ArgNames({"rays", "kilophotons", "milliradius"})
+    ->ArgsProduct({{2, 4}, {50}, {14}, {300, 500, 800}, {60, 80, 100}})
+    ->ArgNames({"rays", "caustic_k", "r_milli", "indirect_k", "r_milli"})
     ->Unit(benchmark::kSecond)
     ->Iterations(1)
     ->UseManualTime();

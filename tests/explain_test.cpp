@@ -70,7 +70,8 @@ TEST_CASE("explain: the sums by path add up to the pixel as it is rendered") {
         check_sums(make_path_tracer(room.scene, {.sample_lights = false}), room.camera);
     }
     for (const auto indirect :
-         {IndirectLight::rays, IndirectLight::map, IndirectLight::none}) {
+         {IndirectLight::rays, IndirectLight::map, IndirectLight::photons,
+          IndirectLight::none}) {
         const PhotonMapping settings{.max_depth = 6,
                                      .indirect = indirect,
                                      .caustics = {.photons = 2000},

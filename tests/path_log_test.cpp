@@ -121,7 +121,8 @@ TEST_CASE("path log: the letters of a path that is known") {
 TEST_CASE("path log: each term of the photon mapper has the one owner of the table") {
     const Room room = mixed_room();
     for (const IndirectLight indirect :
-         {IndirectLight::rays, IndirectLight::map, IndirectLight::none}) {
+         {IndirectLight::rays, IndirectLight::map, IndirectLight::photons,
+          IndirectLight::none}) {
         PhotonMapping settings;
         settings.indirect = indirect;
         settings.caustics = {.photons = 20000, .threads = 1};

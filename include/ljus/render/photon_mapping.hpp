@@ -100,22 +100,26 @@ void light_at(const PhotonMapper<Scene>& mapper, const ShadingT<T>& at,
               const Material& material, bool gather, RandomStream& stream,
               Counts& counts, Add& add) {
     const PhotonMapping& settings = mapper.settings;
-    const auto ask = [&](const PhotonMapT<T>& map, const Gather& how) {
-        const auto light = [](PhotonKind kind) { return kind != PhotonKind::shadow; };
+    const auto ask = [&](const PhotonMapT<T>& map, const Gather& how, auto wanted) {
         ++counts.map_queries;
-        return estimate_radiance(map, at.surface, material, at.wo, how, light,
+        return estimate_radiance(map, at.surface, material, at.wo, how, wanted,
                                  counts.map_photons);
     };
+    const auto light = [](PhotonKind kind) { return kind != PhotonKind::shadow; };
+    const auto indirect = [](PhotonKind kind) { return kind == PhotonKind::indirect; };
     if (gather)
         add("general map", "DL|D..DL",
-            ask(mapper.maps.general, settings.gather_general));
+            ask(mapper.maps.general, settings.gather_general, light));
     else
         add("shadow ray", "DL",
             light_of_all(mapper.scene, at, material, settings.shadow_rays, stream,
                          counts));
+    if (settings.indirect == IndirectLight::photons)
+        add("general map", "D..DL",
+            ask(mapper.maps.general, settings.gather_general, indirect));
     if (!mapper.maps.caustics.empty())
         add("caustics map", "DS+L",
-            ask(mapper.maps.caustics, settings.gather_caustics));
+            ask(mapper.maps.caustics, settings.gather_caustics, light));
 }
 // [light_at]
 
@@ -123,7 +127,8 @@ void light_at(const PhotonMapper<Scene>& mapper, const ShadingT<T>& at,
 ///
 /// At each diffuse surface: one shadow ray to each light, the caustics map, and one
 /// indirect ray; at each mirror or glass: one branch. With IndirectLight::map, the
-/// first diffuse surface that an indirect ray meets answers from the general map.
+/// first diffuse surface that an indirect ray meets answers from the general map; with
+/// IndirectLight::photons, the one that the camera path meets itself.
 /// \param mapper  The scene, the maps, the limits.
 /// \param ray     A primary ray.
 /// \param stream  The numbers of this path.
@@ -166,7 +171,9 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
             if (depth == settings.max_depth) return false;
 
             // Go on by one branch; after gathering, by mirrors and glass only.
-            const bool no_indirect = gather || settings.indirect == IndirectLight::none;
+            const bool no_indirect = gather ||
+                                     settings.indirect == IndirectLight::photons ||
+                                     settings.indirect == IndirectLight::none;
             const auto next =
                 sample(material, at.wo, next_3d<T>(stream), Transport::radiance,
                        no_indirect ? Lobes::specular : Lobes::all);
