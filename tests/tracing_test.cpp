@@ -415,8 +415,7 @@ TEST_CASE("tracing: the kinds of photons are those of their paths") {
     CHECK(seen[2] > 100);
 }
 
-TEST_CASE("tracing: shadow photons lie behind the first surface, where it faces the "
-          "light") {
+TEST_CASE("tracing: shadow photons lie behind the first surface") {
     const Room room = make_room<float>(Ball::glass, Lamp::sphere, 2);
     const auto traced =
         trace_photons(room, PhotonLaw::general, {.photons = 2000, .threads = 1});

@@ -65,6 +65,7 @@
 #include "ljus/render/explain.hpp"
 #include "ljus/render/path_log.hpp"
 #include "ljus/render/path_tracing.hpp"
+#include "ljus/render/photon_dots.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"
 #include "ljus/render/shading.hpp"

@@ -67,31 +67,43 @@ template <std::floating_point T>
 }
 // [roulette]
 
-/// Stores shadow photons on the surfaces that a first hit hides from the light: those
-/// behind it that face the light.
+/// Stores shadow photons on the matt surfaces behind the first one that a photon meets.
+///
+/// A surface is one thing, its two sides are two: what a side does not get is the light
+/// whose cosine with *that side's* normal is positive. A ray that goes straight on comes
+/// to exactly one side of each surface, the one that it meets, and the cosine is positive
+/// there, wherever the surface's own normal points. So nothing is asked of the normal, as
+/// nothing is asked of it for a direct photon; whoever reads the map asks photon_side().
+/// Direct and shadow photons together are then, on each side, all the light that would
+/// come if nothing stood in its way.
 /// \param scene   The scene.
 /// \param flight  The photon as it left its light.
 /// \param first   The first surface it met.
 /// \param out     Takes the photons.
+/// \cost One search for the closest surface for each surface behind the first, and one
+///       more; it ends after 1000.
 /// \report{Section 3.2.2.1} \cite jensen1995
+// [trace_shadow]
 template <typename Scene, std::floating_point T>
 void trace_shadow(const Scene& scene, const FlightT<T>& flight,
                   const SurfacePointT<T>& first, std::vector<PhotonT<T>>& out) {
     RayT<T> ray = ray_from(first, flight.ray.direction);
-    while (const auto hit = closest_hit(scene, ray)) {
+    for (int surfaces = 0; surfaces < 1000; ++surfaces) {
+        const auto hit = closest_hit(scene, ray);
+        if (!hit) return;
         const SurfaceT<T> surface = surface_at(scene, ray, *hit);
-        const bool faces_light = glm::dot(surface.point.normal, ray.direction) < T(0);
         const bool diffuse =
             scene.visit_material(surface.object.material, [](const auto& m) {
                 return has(lobes(m), Lobes::diffuse);
             });
-        if (faces_light && diffuse)
+        if (diffuse)
             out.push_back({surface.point.position, ray.direction, flight.flux,
                            flight.light, PhotonKind::shadow,
                            small_normal(surface.point.normal)});
         ray = ray_from(surface.point, ray.direction);
     }
 }
+// [trace_shadow]
 
 /// What a photon does at a surface.
 enum class PhotonLaw : std::uint8_t {
