@@ -17,18 +17,17 @@ template <std::floating_point T>
 [[nodiscard]] constexpr LanesT<T> near2(const WideNodeT<T>& node,
                                         const Vec3T<T>& center) noexcept {
     LanesT<T> result{};
+    // To the nearest number of an interval.
     const auto outside = [](T low, T high, T x) {
-        const T below = low - x;
-        const T above = x - high;
-        const T more = below > above ? below : above;
-        return more > T(0) ? more : T(0);
+        const T above = x < low ? low : x;
+        return x - (above > high ? high : above);
     };
-    for (int i = 0; i < lane_count; ++i) {
+    for_lanes([&](int i) {
         const T x = outside(node.low.x[i], node.high.x[i], center.x);
         const T y = outside(node.low.y[i], node.high.y[i], center.y);
         const T z = outside(node.low.z[i], node.high.z[i], center.z);
         result.lane[i] = x * x + y * y + z * z;
-    }
+    });
     return result;
 }
 
@@ -42,12 +41,12 @@ template <std::floating_point T>
         const T below = high - x;
         return above > below ? above : below;
     };
-    for (int i = 0; i < lane_count; ++i) {
+    for_lanes([&](int i) {
         const T x = across(node.low.x[i], node.high.x[i], center.x);
         const T y = across(node.low.y[i], node.high.y[i], center.y);
         const T z = across(node.low.z[i], node.high.z[i], center.z);
         result.lane[i] = x * x + y * y + z * z;
-    }
+    });
     return result;
 }
 
@@ -72,20 +71,17 @@ bool WideKdTreeT<T>::in_ball(const Vec3T<T>& center, T radius, const ReachT<T>& 
     while (size > 0) {
         const auto [level, number] = stack[--size];
         const WideNodeT<T>& node = nodes_[shape_.first[std::size_t(level)] + number];
-        LanesT<T> near = detail::near2(node, center);
-        const LanesT<T> far = detail::far2(node, center);
-        std::uint32_t both = 0;
-        for (int i = 0; i < lane_count; ++i)
-            both |= (near.lane[i] <= reach.last ? 1u << i : 0u) |
-                    (far.lane[i] <= reach.sure ? 256u << i : 0u);
-        std::uint32_t some = both & children;
+        const std::uint32_t whole =
+            lanes_up_to(detail::far2(node, center), reach.sure);
+        std::uint32_t some =
+            lanes_up_to(detail::near2(node, center), reach.last) & children;
         children = 255;
         const int below = shape_.levels - 1 - level; // levels between these and leaves
         const int depth = shape_.halvings - 3 * below;
         for (; some != 0; some &= some - 1) {
             const auto i = static_cast<std::uint32_t>(std::countr_zero(some));
             const std::uint32_t child = 8 * number + i;
-            if (below > 0 && (both >> (8 + i) & 1u) == 0) {
+            if (below > 0 && (whole >> i & 1u) == 0) {
                 stack[size++] = {level + 1, child};
             } else if (visit(shape_.first_block(depth, child),
                              shape_.first_block(depth, child + 1))) {
@@ -132,7 +128,7 @@ void WideKdTreeT<T>::towards(const Vec3T<T>& center, const ReachT<T>& reach,
         const LanesT<T> near = detail::near2(
             nodes_[shape_.first[std::size_t(at.level)] + at.number], center);
         const int base = size;
-        for (std::uint32_t some = reach.bits(near) & children; some != 0;
+        for (std::uint32_t some = lanes_up_to(near, reach.last) & children; some != 0;
              some &= some - 1) {
             const auto i = static_cast<std::uint32_t>(std::countr_zero(some));
             const Entry entry{near.lane[i], at.level + 1, 8 * at.number + i};
@@ -159,8 +155,9 @@ std::optional<Neighbor> WideKdTreeT<T>::nearest(const Vec3T<T>& center,
         for (T& x : least.lane) x = std::numeric_limits<T>::infinity();
         for (std::size_t b = first; b < last; ++b) {
             const LanesT<T> d2 = distances2(blocks_[b], center);
-            for (int i = 0; i < lane_count; ++i)
+            for_lanes([&](int i) {
                 least.lane[i] = d2.lane[i] < least.lane[i] ? d2.lane[i] : least.lane[i];
+            });
         }
         T smallest = least.lane[0];
         for (const T x : least.lane) smallest = x < smallest ? x : smallest;
@@ -169,7 +166,7 @@ std::optional<Neighbor> WideKdTreeT<T>::nearest(const Vec3T<T>& center,
         close.last = std::min(close.last, reach.last);
         for (std::size_t b = first; b < last; ++b) {
             const LanesT<T> d2 = distances2(blocks_[b], center);
-            for (std::uint32_t some = close.bits(d2) & 255u; some != 0;
+            for (std::uint32_t some = lanes_up_to(d2, close.last); some != 0;
                  some &= some - 1) {
                 const auto i = std::size_t(std::countr_zero(some));
                 const double exact = distance2(blocks_[b][i], center);
@@ -221,7 +218,10 @@ std::size_t WideKdTreeT<T>::count_nearest(const Vec3T<T>& center, ReachT<T> reac
     alignas(32) T d2[room + 8];
     std::uint32_t index[room + 8];
     std::uint32_t band[room];
-    Neighbor tie[room];
+    struct Tie {
+        double distance2;
+        std::uint32_t index;
+    } tie[room];
     const std::size_t k = found.size();
     std::size_t count = 0;
 
@@ -243,7 +243,10 @@ std::size_t WideKdTreeT<T>::count_nearest(const Vec3T<T>& center, ReachT<T> reac
         for (std::size_t i = 0; i < ties; ++i)
             tie[i] = {distance2(point(band[i]), center), band[i]};
         const auto last = std::ptrdiff_t(k - sure - 1);
-        std::nth_element(tie, tie + last, tie + ties);
+        std::nth_element(tie, tie + last, tie + ties, [](const Tie& a, const Tie& b) {
+            return a.distance2 < b.distance2 ||
+                   (a.distance2 == b.distance2 && a.index < b.index);
+        });
         for (std::size_t i = 0; sure < k; ++i, ++sure) {
             d2[sure] =
                 T(std::min(tie[i].distance2, double(std::numeric_limits<T>::max())));

@@ -94,16 +94,17 @@ public:
     void visit_blocks(const Vec3T<T>& center, T radius, Visit&& visit) const {
         constexpr T infinity = std::numeric_limits<T>::infinity();
         constexpr T most = std::numeric_limits<T>::max();
+        constexpr std::uint32_t bit[lane_count] = {1, 2, 4, 8, 16, 32, 64, 128};
         const auto reach = ReachT<T>::up_to(double(radius) * double(radius), false);
         in_ball(center, radius, reach, [&](std::size_t first, std::size_t last) {
             for (std::size_t b = first; b < last; ++b) {
                 LanesT<T> d2 = distances2(blocks_[b], center);
                 const std::uint32_t found = reach.within(blocks_[b], center, d2);
                 if (found == 0) continue;
-                for (int i = 0; i < lane_count; ++i)
-                    d2.lane[i] = (found >> i & 1u) == 0 ? infinity
-                                 : d2.lane[i] < most    ? d2.lane[i]
-                                                        : most;
+                for_lanes([&](int i) {
+                    const T x = d2.lane[i] < most ? d2.lane[i] : most;
+                    d2.lane[i] = (found & bit[i]) != 0 ? x : infinity;
+                });
                 visit(FoundBlockT<T>{8 * b, found, blocks_[b], d2});
             }
             return false;
