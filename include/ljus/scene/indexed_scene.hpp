@@ -3,7 +3,7 @@
 /// \file ljus/scene/indexed_scene.hpp
 /// \brief A scene that knows where its shapes are: the fast way to the first hit.
 
-#include "ljus/geometry/bvh.hpp"
+#include "ljus/geometry/wide_bvh.hpp"
 #include "ljus/scene/query.hpp"
 
 namespace ljus {
@@ -37,6 +37,9 @@ template <Shape S>
 template <typename S, typename Compute = void>
 struct IndexedScene {
     using Scalar = typename S::Scalar; ///< The precision, from the shapes' types.
+    /// The wide tree, which is made of floats, or the plain one.
+    using Tree =
+        std::conditional_t<std::is_same_v<Scalar, float>, WideBvh, BvhT<Scalar>>;
 
     /// Indexes a scene.
     /// \param of  Must outlive the index.
@@ -55,7 +58,7 @@ struct IndexedScene {
             ++type;
         };
         std::apply([&](const auto&... lists) { (add(lists), ...); }, shapes);
-        tree = BvhT<Scalar>(boxes);
+        tree = Tree(boxes, {.leaf_size = 1});
         for (const std::uint32_t number : tree.order()) ids.push_back(all[number]);
     }
 
@@ -64,7 +67,7 @@ struct IndexedScene {
     const decltype(S::objects)& objects;     ///< As the scene has them.
     const decltype(S::materials)& materials; ///< As the scene has them.
     const decltype(S::lights)& lights;       ///< As the scene has them.
-    BvhT<Scalar> tree{};         ///< Over all shapes; empty for the flat loop.
+    Tree tree{};                 ///< Over all shapes; empty for the flat loop.
     std::vector<ObjectId> ids{}; ///< Of the shapes, in the tree's order.
 
     /// As the scene does.
