@@ -128,6 +128,7 @@ TEST_CASE("path log: each term of the photon mapper has the one owner of the tab
                                          IndirectLight::photons, IndirectLight::none}) {
         PhotonMapping settings;
         settings.indirect = indirect;
+        settings.split_glass = indirect != IndirectLight::map;
         settings.caustics = {.photons = 20000, .threads = 1};
         settings.general = {.photons = 20000, .threads = 1};
         const auto maps = make_photon_maps(room, settings);

@@ -123,12 +123,23 @@ void light_at(const PhotonMapper<Scene>& mapper, const ShadingT<T>& at,
 }
 // [light_at]
 
+/// A camera path on its way.
+template <std::floating_point T>
+struct PathT {
+    RayT<T> ray{};            ///< Where it goes.
+    RgbT<T> throughput{T(1)}; ///< What of the light at its end comes to the camera.
+    T squeeze = T(1);         ///< What of the throughput is no loss, see survives().
+    RgbT<T> medium{T(0)};     ///< Absorption of what it is in, per scene unit.
+    std::uint64_t bounce = 0; ///< Where its random numbers start.
+};
+
 /// The radiance that one camera path finds with the help of the photon maps.
 ///
 /// At each diffuse surface: one shadow ray to each light, the caustics map, and one
 /// indirect ray; at each mirror or glass: one branch. With IndirectLight::map, the
 /// first diffuse surface that an indirect ray meets answers from the general map; with
-/// IndirectLight::photons, the one that the camera path meets itself.
+/// IndirectLight::photons, the one that the camera path meets itself. With split_glass a
+/// path goes both ways at the glass that the camera sees.
 /// \param mapper  The scene, the maps, the limits.
 /// \param ray     A primary ray.
 /// \param stream  The numbers of this path.
@@ -145,55 +156,83 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
                                RandomStream& stream, Counts& counts, Log&& log = {}) {
     const PhotonMapping& settings = mapper.settings;
     RgbT<T> sum{T(0)};
-    RgbT<T> throughput{T(1)};
-    T squeeze = T(1); // what of the throughput is no loss, see survives()
-    RgbT<T> medium{T(0)};
-    bool met_diffuse = false;
-    log.begin();
-    const auto add = [&](const char* owner, const char* letters, const RgbT<T>& light) {
-        log.term(owner, letters, throughput * light);
-        sum += throughput * light;
-    };
+    std::optional<PathT<T>> other; // the second way at the first glass
 
-    for (int depth = 1; depth <= settings.max_depth; ++depth) {
-        start_bounce(stream, static_cast<std::uint64_t>(depth));
-        const auto hit = closest_hit(mapper.scene, ray);
-        if (!hit) break;
-        const ShadingT<T> at = shading(mapper.scene, ray, *hit, medium);
-        throughput *= transmittance(medium, hit->at.t);
-        if (at.shines() && !met_diffuse)
-            add("emission", "L", at.surface.object.emission);
-
-        const bool gather = met_diffuse && settings.indirect == IndirectLight::map;
-        const auto at_material = [&](const auto& material) {
-            if (has(lobes(material), Lobes::diffuse))
-                light_at(mapper, at, material, gather, stream, counts, add);
-            if (depth == settings.max_depth) return false;
-
-            // Go on by one branch; after gathering, by mirrors and glass only.
-            const bool no_indirect = gather ||
-                                     settings.indirect == IndirectLight::photons ||
-                                     settings.indirect == IndirectLight::none;
-            const auto next =
-                sample(material, at.wo, next_3d<T>(stream), Transport::radiance,
-                       no_indirect ? Lobes::specular : Lobes::all);
-            if (!next) return false;
-            throughput *= next->weight;
-            squeeze *= next->squeeze;
-            met_diffuse = met_diffuse || !next->specular;
-            log.vertex(next->specular ? 'S' : 'D', at.surface.point.position,
-                       throughput, next->pdf);
-            medium = medium_beyond(medium, material, at.wo, next->wi);
-            ray = ray_from(at.surface.point, to_world(at.surface.frame, next->wi));
-            return true;
+    const auto follow = [&](PathT<T> path, int first) {
+        RgbT<T>& throughput = path.throughput;
+        bool met_diffuse = false;
+        const auto add = [&](const char* owner, const char* letters,
+                             const RgbT<T>& light) {
+            log.term(owner, letters, throughput * light);
+            sum += throughput * light;
         };
-        if (!mapper.scene.visit_material(at.surface.object.material, at_material))
-            break;
-        if (is_black(throughput)) break;
-        if (depth >= settings.roulette_depth &&
-            !survives(throughput, squeeze, next_1d<T>(stream)))
-            break;
+        for (int depth = first; depth <= settings.max_depth; ++depth) {
+            start_bounce(stream, path.bounce + static_cast<std::uint64_t>(depth));
+            const auto hit = closest_hit(mapper.scene, path.ray);
+            if (!hit) return;
+            const ShadingT<T> at = shading(mapper.scene, path.ray, *hit, path.medium);
+            throughput *= transmittance(path.medium, hit->at.t);
+            if (at.shines() && !met_diffuse)
+                add("emission", "L", at.surface.object.emission);
+
+            const bool gather = met_diffuse && settings.indirect == IndirectLight::map;
+            const auto at_material = [&](const auto& material) {
+                if (has(lobes(material), Lobes::diffuse))
+                    light_at(mapper, at, material, gather, stream, counts, add);
+                if (depth == settings.max_depth) return false;
+
+                const auto go = [&](PathT<T>& on, const BsdfSampleT<T>& next) {
+                    on.throughput *= next.weight;
+                    on.squeeze *= next.squeeze;
+                    on.medium = medium_beyond(on.medium, material, at.wo, next.wi);
+                    on.ray =
+                        ray_from(at.surface.point, to_world(at.surface.frame, next.wi));
+                };
+                if constexpr (requires {
+                                  both_ways(material, at.wo, Transport::radiance);
+                              })
+                    if (depth == 1 && settings.split_glass)
+                        if (const auto both =
+                                both_ways(material, at.wo, Transport::radiance)) {
+                            other = path;
+                            other->bounce = std::uint64_t(1) << 32; // its own numbers
+                            go(*other, (*both)[1]);
+                            go(path, (*both)[0]);
+                            log.vertex('S', at.surface.point.position, throughput,
+                                       T(0));
+                            return true;
+                        }
+
+                // Go on by one branch; after gathering, by mirrors and glass only.
+                const bool no_indirect = gather ||
+                                         settings.indirect == IndirectLight::photons ||
+                                         settings.indirect == IndirectLight::none;
+                const auto next =
+                    sample(material, at.wo, next_3d<T>(stream), Transport::radiance,
+                           no_indirect ? Lobes::specular : Lobes::all);
+                if (!next) return false;
+                go(path, *next);
+                met_diffuse = met_diffuse || !next->specular;
+                log.vertex(next->specular ? 'S' : 'D', at.surface.point.position,
+                           throughput, next->pdf);
+                return true;
+            };
+            if (!mapper.scene.visit_material(at.surface.object.material, at_material))
+                return;
+            if (is_black(throughput)) return;
+            if (depth >= settings.roulette_depth &&
+                !survives(throughput, path.squeeze, next_1d<T>(stream)))
+                return;
+            ++counts.bounce_rays;
+        }
+    };
+    log.begin();
+    follow({.ray = ray}, 1);
+    if (other) {
         ++counts.bounce_rays;
+        log.begin();
+        log.vertex('S', other->ray.origin, other->throughput, T(0));
+        follow(*other, 2);
     }
     return sum;
 }

@@ -27,9 +27,10 @@ enum class IndirectLight : std::uint8_t {
 
 /// How the report's renderer works. Lengths are in scene units.
 struct PhotonMapping {
-    int max_depth = 1000;   ///< Surfaces on a camera path, mirrors and glass counted.
-    int roulette_depth = 4; ///< From this surface on, roulette may end a path.
-    int shadow_rays = 1;    ///< Shadow rays to each light, at least 1.
+    int max_depth = 1000;     ///< Surfaces on a camera path, mirrors and glass counted.
+    int roulette_depth = 4;   ///< From this surface on, roulette may end a path.
+    int shadow_rays = 1;      ///< Shadow rays to each light, at least 1.
+    bool split_glass = false; ///< At glass that the camera sees, go both ways.
     IndirectLight indirect = IndirectLight::rays; ///< Who carries indirect light.
     PhotonPass caustics{};                 ///< Photons aimed at mirrors and glass.
     PhotonPass general{};                  ///< Photons for all the rest.
