@@ -186,7 +186,7 @@ void path_tracing(benchmark::State& state) {
 } // namespace
 
 BENCHMARK(photon_mapping)
-    ->ArgsProduct({{2, 3, 4}, {50}, {14}, {300, 500}, {60, 80}})
+    ->ArgsProduct({{2, 3, 4}, {50}, {14}, {700}, {50}})
     ->ArgNames({"rays", "caustic_k", "r_milli", "indirect_k", "r_milli"})
     ->Unit(benchmark::kSecond)
     ->Iterations(1)
