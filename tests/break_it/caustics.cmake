@@ -52,10 +52,11 @@ ljus_break_it(NAME caustics-reflect HEADER materials/glass.hpp TEST caustics
     TO   "!refracted || u.z < T(0) * fresnel("
     CASES "caustics: the light of a point light*")
 
-# The report's program: a photon goes on a tenth of a unit behind where it hit.
+# The report's program: a photon starts a tenth of a unit inside the glass, which is then
+# a lens of another shape.
 ljus_break_it(NAME caustics-start HEADER geometry/surface.hpp TEST caustics
     FROM "return {.origin = leave(point, direction), .direction = direction};"
-    TO   "return {.origin = leave(point, direction) + T(0.1) * direction, .direction = direction};"
+    TO   "return {.origin = leave(point, direction) - (glm::dot(direction, point.normal) < T(0) ? T(0.1) : T(0)) * point.normal, .direction = direction};"
     CASES "caustics: the light of a point light*")
 
 # Coloured glass that absorbs nothing.

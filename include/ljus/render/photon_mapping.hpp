@@ -138,8 +138,8 @@ struct PathT {
 /// At each diffuse surface: one shadow ray to each light, the caustics map, and one
 /// indirect ray; at each mirror or glass: one branch. With IndirectLight::map, the
 /// first diffuse surface that an indirect ray meets answers from the general map; with
-/// IndirectLight::photons, the one that the camera path meets itself. With split_glass a
-/// path goes both ways at the glass that the camera sees.
+/// IndirectLight::photons, the one that the camera path meets itself. With split_glass
+/// a path goes both ways at the glass that the camera sees.
 /// \param mapper  The scene, the maps, the limits.
 /// \param ray     A primary ray.
 /// \param stream  The numbers of this path.
