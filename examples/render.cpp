@@ -23,6 +23,9 @@
 #include "ljus/render/photon_dots.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/scene/load_json.hpp"
+#ifdef LJUS_HAS_TINYOBJLOADER
+#include "ljus/scene/load_obj.hpp"
+#endif
 
 namespace {
 
@@ -159,6 +162,9 @@ PhotonMapsT<float> photon_pass(const LoadedScene& loaded, PhotonMapping settings
     (caustics ? settings.caustics : settings.general).progress = bar;
     auto maps = make_photon_maps(loaded.scene, settings);
     examples::stop_if_asked();
+    if (!maps.remarks.empty())
+        std::fprintf(stderr, "%s: %s", caustics ? "caustics map" : "general map",
+                     maps.remarks.c_str());
     if (quiet) return maps;
     std::printf("  %-16s %8.2f s  %lld photons emitted; kept:",
                 caustics ? "caustics map" : "general map", watch.seconds(),
@@ -272,7 +278,13 @@ void body(examples::CommandLine& line) {
     line.add("--plan", request.plan, "Print what would run and why, no picture");
     const examples::Options options = line.parse();
 
+#ifdef LJUS_HAS_TINYOBJLOADER
+    std::string troubles;
+    const LoadedScene loaded = load_json(request.scene, ObjMeshes{&troubles});
+    if (!options.quiet) std::fputs(troubles.c_str(), stderr);
+#else
     const LoadedScene loaded = load_json(request.scene);
+#endif
     const Picture picture{.width = line.given("--width") ? options.width : loaded.width,
                           .height =
                               line.given("--height") ? options.height : loaded.height,

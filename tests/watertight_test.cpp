@@ -28,8 +28,9 @@ namespace {
 template <typename Test>
 long leaks(const ClosedMesh& mesh, Aim aim, long rays) {
     return ljus_test::count_leaks(mesh, aim, rays, [&](const Ray& ray) {
+        const auto prepared = prepare<Test>(ray);
         for (const Triangle& triangle : mesh.triangles)
-            if (intersect<Test>(ray, triangle)) return true;
+            if (intersect<Test>(ray, triangle, prepared)) return true;
         return false;
     });
 }
@@ -215,4 +216,14 @@ TEST_CASE("watertight: what takes a precision for all its shapes takes it too") 
     CHECK(*t(ball) == *intersect(down_at(0.25f, 0.25f), ball));
     CHECK(t(square)->t == 4.0f);
     CHECK(t(square)->u == 0.25f);
+    // And so does a loop that prepares a ray once, for each of them.
+    const auto prepared = [](auto test, const auto& shape) {
+        using Test = decltype(test);
+        const Ray ray = down_at(0.25f, 0.25f);
+        return intersect<Test>(ray, shape, prepare<Test>(ray));
+    };
+    CHECK(*prepared(Watertight{}, ball) == *prepared(float{}, ball));
+    CHECK(prepared(Watertight{}, square)->t == prepared(double{}, square)->t);
+    CHECK(prepared(Watertight{}, half_square)->t == 4.0f);
+    CHECK(prepared(double{}, half_square)->t == 4.0f);
 }

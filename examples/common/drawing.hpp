@@ -121,6 +121,20 @@ inline void draw_arc(Drawing& drawing, const Point& center, double radius, doubl
     draw_line(drawing, points, pen);
 }
 
+/// Draws a dot.
+/// \param drawing  Where to.
+/// \param at       Its middle.
+/// \param radius   In pixels.
+/// \param color    As CSS has it.
+inline void draw_dot(Drawing& drawing, const Point& at, double radius,
+                     const std::string& color) {
+    const std::string place = pixels(drawing, at);
+    const std::size_t comma = place.find(',');
+    drawing.body += "<circle cx=\"" + place.substr(0, comma) + "\" cy=\"" +
+                    place.substr(comma + 1) + "\" r=\"" + text(radius) + "\" fill=\"" +
+                    color + "\"/>\n";
+}
+
 /// Writes a name; the character after an underscore stands lower, as in "n_1 = 1".
 /// \param drawing  Where to.
 /// \param at       The middle of the text.

@@ -1,36 +1,36 @@
 # Shadow photons only where the surface's own normal faces the light: the other side of a
 # quad, lit or not, would look as if nothing could ever stand in its way.
-ljus_break_it(NAME general-map-shadow-normal HEADER photons/tracing.hpp TEST general_map
+ljus_break_it(NAME general-map-shadow-normal HEADER photons/photon_path.hpp TEST general_map
     FROM "if (diffuse)"
     TO   "if (diffuse && glm::dot(surface.point.normal, ray.direction) < T(0))"
     CASES "general map: direct + shadow*")
 
 # And the wrong way round.
-ljus_break_it(NAME general-map-shadow-side HEADER photons/tracing.hpp TEST general_map
+ljus_break_it(NAME general-map-shadow-side HEADER photons/photon_path.hpp TEST general_map
     FROM "out.push_back({surface.point.position, ray.direction, flight.flux,"
     TO   "out.push_back({surface.point.position, -ray.direction, flight.flux,"
     CASES "general map: direct + shadow*")
 
 # One shadow photon a path: only the next surface behind is told.
-ljus_break_it(NAME general-map-shadow-one HEADER photons/tracing.hpp TEST general_map
+ljus_break_it(NAME general-map-shadow-one HEADER photons/photon_path.hpp TEST general_map
     FROM "surfaces < 1000"
     TO   "surfaces < 1"
     CASES "general map: direct + shadow*")
 
 # The surface that hides counts itself among the hidden.
-ljus_break_it(NAME general-map-shadow-first HEADER photons/tracing.hpp TEST general_map
+ljus_break_it(NAME general-map-shadow-first HEADER photons/photon_path.hpp TEST general_map
     FROM [[RayT<T> ray = ray_from(first, flight.ray.direction);]]
     TO   [[(void)first; RayT<T> ray = flight.ray;]]
     CASES "general map: direct + shadow*")
 
 # Photons on mirrors and glass.
-ljus_break_it(NAME general-map-mirror HEADER photons/tracing.hpp TEST general_map
-    FROM "if (has(lobes(material), Lobes::diffuse) && owned)"
-    TO   "if (owned)"
+ljus_break_it(NAME general-map-mirror HEADER photons/photon_path.hpp TEST general_map
+    FROM "if (!owned || !has(lobes(material), Lobes::diffuse)) return;"
+    TO   "if (!owned) return;"
     CASES "general map: photons lie on matt*")
 
 # Shadow photons on mirrors and glass.
-ljus_break_it(NAME general-map-shadow-mirror HEADER photons/tracing.hpp TEST general_map
+ljus_break_it(NAME general-map-shadow-mirror HEADER photons/photon_path.hpp TEST general_map
     FROM "if (diffuse)"
     TO   "if (diffuse || true)"
     CASES "general map: photons lie on matt*")
@@ -44,19 +44,19 @@ ljus_break_it(NAME general-map-light HEADER photons/emission.hpp TEST general_ma
     CASES "general map: photons lie on matt*")
 
 # Direct photons counted as indirect, and the other way round.
-ljus_break_it(NAME general-map-kind HEADER photons/tracing.hpp TEST general_map
+ljus_break_it(NAME general-map-kind HEADER photons/photon_path.hpp TEST general_map
     FROM "met_diffuse    ? PhotonKind::indirect"
     TO   "!met_diffuse   ? PhotonKind::indirect"
     CASES "general map: direct and indirect*")
 
 # The power of all paths in each photon.
-ljus_break_it(NAME general-map-number HEADER photons/tracing.hpp TEST general_map
+ljus_break_it(NAME general-map-number HEADER photons/photon_path.hpp TEST general_map
     FROM [[flight.flux /= static_cast<T>(pass.photons);]]
     TO   [[(void)0;]]
     CASES "general map: direct and indirect*")
 
 # The cosine a second time, as the report's program has it at each bounce.
-ljus_break_it(NAME general-map-cosine HEADER photons/tracing.hpp TEST general_map
+ljus_break_it(NAME general-map-cosine HEADER photons/photon_path.hpp TEST general_map
     FROM [[flight.flux = *survivor;]]
     TO   [[flight.flux = *survivor * std::abs(scattered->wi.z);]]
     CASES "general map: direct and indirect*")

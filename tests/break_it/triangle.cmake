@@ -10,10 +10,10 @@ ljus_break_it(NAME triangle-v HEADER geometry/triangle.hpp TEST triangle
     TO   "u + v"
     CASES "triangle: each of the three edges*")
 
-# The conditions that the report forgets: all of the plane is hit.
-ljus_break_it(NAME triangle-u HEADER geometry/triangle.hpp TEST triangle
-    FROM "u >= -border && inside"
-    TO   "inside"
+# The conditions that the report forgets: what lies beside the triangle is hit.
+ljus_break_it(NAME triangle-conditions HEADER geometry/triangle.hpp TEST triangle
+    FROM "if (!(hit && inverse != C(0)))"
+    TO   "if (!(inverse != C(0)))"
     CASES "triangle: each of the three edges*")
 
 # The usual guard against parallel rays: an epsilon with a unit loses every small mesh.

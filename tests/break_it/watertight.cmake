@@ -27,3 +27,9 @@ ljus_break_it(NAME watertight-axis HEADER geometry/watertight.hpp TEST watertigh
     FROM "size.x > size.y ? (size.x > size.z ? 0 : 2) : size.y > size.z ? 1 : 2"
     TO   "2"
     CASES "watertight: a mesh of any size*")
+
+# A triangle on the other side of the axis is not all that lies beside it.
+ljus_break_it(NAME watertight-bounds HEADER geometry/watertight.hpp TEST watertight
+    FROM "high.y < 0"
+    TO   "high.y <= 0"
+    CASES "watertight: a tie*")

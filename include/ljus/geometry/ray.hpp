@@ -10,14 +10,17 @@
 namespace ljus {
 
 /// \defgroup ray Rays
-/// \brief Section 3.1.1: the ray.
+/// \brief Section 3.1.1: the ray. Chapter: \ref ch_ray.
 /// \{
 
 /// The part of a line from `t_min` to `t_max`.
 ///
 /// The report allows every t >= 0, so that a ray which leaves a surface may hit that
 /// surface again at t = 0: see leave() for the origin that avoids it.
+/// A NaN or an infinity in a ray, a direction of zero, a t_min beyond t_max: such a ray
+/// meets nothing.
 /// \report{Definition 3.1}
+// [ray]
 template <std::floating_point T>
 struct RayT {
     Vec3T<T> origin{T(0)};                        ///< O, in scene units.
@@ -26,6 +29,7 @@ struct RayT {
     T t_max = std::numeric_limits<T>::infinity(); ///< Last t that counts.
 };
 using Ray = RayT<float>; ///< RayT in float.
+// [ray]
 
 /// The point of a ray at distance t, in units of the direction's length.
 /// \param ray  The ray.
@@ -38,6 +42,37 @@ template <std::floating_point T>
     return ray.origin + t * ray.direction;
 }
 // [at]
+
+/// \name What a test prepares
+/// A loop over many shapes is told its test once, as one template argument: a
+/// precision, or the name of a test.
+///
+///     const auto prepared = prepare<Test>(ray);
+///     for (const Triangle& triangle : mesh) intersect<Test>(ray, triangle, prepared);
+/// \{
+
+/// A test that prepares nothing.
+struct Unprepared {};
+
+/// What a test computes once for a ray and then uses for every shape: nothing, in
+/// general; prepare<Watertight>() is another.
+template <typename Test = void, std::floating_point T>
+[[nodiscard]] constexpr Unprepared prepare(const RayT<T>&) noexcept {
+    return {};
+}
+
+/// Where a ray meets a shape whose test has no use for what was prepared.
+/// \tparam Test  As for intersect(ray, shape).
+/// \param ray    The ray.
+/// \param shape  The shape.
+/// \return What intersect(ray, shape) returns.
+template <typename Test = void, std::floating_point T, typename Shape,
+          typename Prepared>
+[[nodiscard]] constexpr auto intersect(const RayT<T>& ray, const Shape& shape,
+                                       const Prepared&) noexcept {
+    return intersect<Test>(ray, shape);
+}
+/// \}
 
 /// \}
 

@@ -11,7 +11,7 @@ namespace ljus {
 
 /// \defgroup surface Leaving a surface
 /// \brief A hit point is rounded: it lies a little in front of its surface or behind
-/// it.
+/// it. Chapter: \ref ch_ray.
 /// \{
 
 /// A point of a surface.

@@ -3,6 +3,7 @@
 /// \file ljus/geometry/triangle.hpp
 /// \brief The triangle, and where a ray meets it (Moeller and Trumbore).
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 
@@ -12,7 +13,7 @@
 namespace ljus {
 
 /// \defgroup triangle Triangles
-/// \brief Section 3.1.5: the ray-triangle intersection.
+/// \brief Section 3.1.5: the ray-triangle intersection. Chapter: \ref ch_triangle.
 /// \{
 
 /// Three vertices; seen from the side where they turn counter-clockwise, the normal
@@ -30,16 +31,17 @@ using Triangle = TriangleT<float>; ///< TriangleT in float.
 /// Where a ray meets the plane of a flat shape.
 template <std::floating_point T>
 struct FlatHitT {
-    T t = T(0); ///< Distance, in units of the direction's length.
-    T u = T(0); ///< Coordinate along the first edge.
-    T v = T(0); ///< Coordinate along the second edge.
+    T t = T(0);             ///< Distance, in units of the direction's length.
+    T u = T(0);             ///< Coordinate along the first edge.
+    T v = T(0);             ///< Coordinate along the second edge.
+    std::uint32_t part = 0; ///< Which triangle of a mesh; 0 for other shapes.
 };
 
 /// How far the rounding of moller_trumbore() may move u, v and u + v.
 ///
 /// Their numerators are sums of products with at most 8 roundings on the way, none
-/// larger than \f$ |D|\,|E|\,|T| \f$ with \f$ |X| = |X_x| + |X_y| + |X_z| \f$; u + v has
-/// both. Where that is no small part of the shape, nothing is known, and nothing gained.
+/// larger than \f$ |D|\,|E|\,|T| \f$ with \f$ |X| = |X_x| + |X_y| + |X_z| \f$; u + v
+/// has both. Where that is no small part of the shape, nothing is known.
 /// \param d        D.
 /// \param to       T.
 /// \param e1       \f$E_1\f$.
@@ -114,7 +116,7 @@ moller_trumbore(const RayT<T>& ray, const Vec3T<ComputeT<Compute, T>>& v1,
     constexpr C max{std::numeric_limits<T>::max()};
     if (!(C(ray.t_min) <= t && t <= C(ray.t_max) && t <= max)) return std::nullopt;
     return FlatHitT<T>{static_cast<T>(t), static_cast<T>(glm::max(u, C(0))),
-                       static_cast<T>(glm::max(v, C(0)))};
+                       static_cast<T>(glm::max(v, C(0))), 0};
 }
 // [moller_trumbore]
 

@@ -98,6 +98,16 @@ struct FluxAudit {
         roulette += other.roulette;
         return *this;
     }
+
+    /// As if so many times as much had been emitted.
+    FluxAudit& operator*=(double factor) noexcept {
+        emitted *= factor;
+        absorbed *= factor;
+        escaped *= factor;
+        cut *= factor;
+        roulette *= factor;
+        return *this;
+    }
 };
 
 /// \}

@@ -71,8 +71,7 @@ bool WideKdTreeT<T>::in_ball(const Vec3T<T>& center, T radius, const ReachT<T>& 
     while (size > 0) {
         const auto [level, number] = stack[--size];
         const WideNodeT<T>& node = nodes_[shape_.first[std::size_t(level)] + number];
-        const std::uint32_t whole =
-            lanes_up_to(detail::far2(node, center), reach.sure);
+        const std::uint32_t whole = lanes_up_to(detail::far2(node, center), reach.sure);
         std::uint32_t some =
             lanes_up_to(detail::near2(node, center), reach.last) & children;
         children = 255;
@@ -97,7 +96,7 @@ bool WideKdTreeT<T>::in_ball(const Vec3T<T>& center, T radius, const ReachT<T>& 
 // may shorten the reach.
 // [towards]
 template <std::floating_point T>
-template <typename Visit>
+template <bool in_order, typename Visit>
 void WideKdTreeT<T>::towards(const Vec3T<T>& center, const ReachT<T>& reach,
                              Visit visit) const {
     if (shape_.levels == 0) return visit(std::size_t(0), blocks_.size());
@@ -132,10 +131,17 @@ void WideKdTreeT<T>::towards(const Vec3T<T>& center, const ReachT<T>& reach,
              some &= some - 1) {
             const auto i = static_cast<std::uint32_t>(std::countr_zero(some));
             const Entry entry{near.lane[i], at.level + 1, 8 * at.number + i};
+            // In order, the nearest on top; or on top the nearest only, where what is
+            // found there will put most others out of reach.
             int place = size++;
-            for (; place > base && stack[place - 1].distance2 < entry.distance2;
-                 --place)
+            if constexpr (in_order) {
+                for (; place > base && stack[place - 1].distance2 < entry.distance2;
+                     --place)
+                    stack[place] = stack[place - 1];
+            } else if (place > base && stack[place - 1].distance2 < entry.distance2) {
                 stack[place] = stack[place - 1];
+                --place;
+            }
             stack[place] = entry;
         }
         children = 255;
@@ -149,7 +155,7 @@ std::optional<Neighbor> WideKdTreeT<T>::nearest(const Vec3T<T>& center,
     if (!(radius >= T(0)) || size() == 0) return std::nullopt;
     auto reach = ReachT<T>::up_to(double(radius) * double(radius), false);
     std::optional<Neighbor> best;
-    towards(center, reach, [&](std::size_t first, std::size_t last) {
+    towards<false>(center, reach, [&](std::size_t first, std::size_t last) {
         // The smallest distance in T; only what is as small may be the nearest.
         LanesT<T> least;
         for (T& x : least.lane) x = std::numeric_limits<T>::infinity();
@@ -190,7 +196,7 @@ std::size_t WideKdTreeT<T>::nearest(const Vec3T<T>& center, T radius,
         return count_nearest(center, reach, found, wanted);
 
     Nearest best{.found = found, .limit2 = reach.limit2};
-    towards(center, reach, [&](std::size_t first, std::size_t last) {
+    towards<true>(center, reach, [&](std::size_t first, std::size_t last) {
         for (std::size_t b = first; b < last; ++b) {
             std::uint32_t some =
                 reach.within(blocks_[b], center, distances2(blocks_[b], center));
@@ -257,7 +263,7 @@ std::size_t WideKdTreeT<T>::count_nearest(const Vec3T<T>& center, ReachT<T> reac
     };
 
     std::size_t enough = k;
-    towards(center, reach, [&](std::size_t first, std::size_t last) {
+    towards<true>(center, reach, [&](std::size_t first, std::size_t last) {
         for (std::size_t b = first; b < last; ++b) {
             const LanesT<T> far = distances2(blocks_[b], center);
             const std::uint32_t some = reach.within(blocks_[b], center, far);

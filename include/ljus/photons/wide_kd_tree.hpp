@@ -178,7 +178,7 @@ private:
     template <typename Visit>
     bool in_ball(const Vec3T<T>& center, T radius, const ReachT<T>& reach,
                  Visit visit) const;
-    template <typename Visit>
+    template <bool in_order, typename Visit>
     void towards(const Vec3T<T>& center, const ReachT<T>& reach, Visit visit) const;
     template <typename Wanted>
     std::size_t count_nearest(const Vec3T<T>& center, ReachT<T> reach,

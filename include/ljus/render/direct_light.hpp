@@ -38,7 +38,7 @@ template <typename Scene, std::floating_point T, typename Material, typename Wei
     if (!sampled) return RgbT<T>{T(0)};
     const Vec3T<T> wi = to_local(at.surface.frame, sampled->wi);
     const RgbT<T> f = evaluate(material, at.wo, wi);
-    if (is_black(f)) return RgbT<T>{T(0)};
+    if (is_black(f) || !agrees(at.surface, wi, sampled->wi)) return RgbT<T>{T(0)};
 
     ++counts.shadow_rays;
     const RayT<T> shadow = ray_between(point, sampled->point);

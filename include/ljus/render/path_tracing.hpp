@@ -135,9 +135,11 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
                     log.term("shadow ray", "DL", term);
                     sum += term;
                 }
-                const auto next =
-                    sample(material, at.wo, next_3d<T>(stream), Transport::radiance);
-                if (!next) return false;
+                const auto scattered =
+                    scatter(at.surface, material, at.wo, next_3d<T>(stream),
+                            Transport::radiance);
+                if (!scattered) return false;
+                const auto* next = &scattered->sample;
                 // From the last surface a path goes on to the lamp that its shadow ray
                 // left a share of, and to nothing else.
                 if (depth == limits.max_depth && next->specular) return false;
@@ -147,7 +149,7 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
                 from = at.surface.point.position;
                 log.vertex(next->specular ? 'S' : 'D', from, throughput, next->pdf);
                 medium = medium_beyond(medium, material, at.wo, next->wi);
-                ray = ray_from(at.surface.point, to_world(at.surface.frame, next->wi));
+                ray = ray_from(at.surface.point, scattered->wi);
                 return true;
             });
         if (!goes_on || is_black(throughput)) break;

@@ -26,8 +26,9 @@ struct DotLook {
     float brightness = 0.8f; ///< Of its tip; dots that overlap add up.
 };
 
-/// A drawing to put photons on: what each pixel sees, without any light; its own colour,
-/// darker where it is seen at a low angle. Mirrors and glass are grey, lamps are white.
+/// A drawing to put photons on: the own colour of what each pixel sees, without any
+/// light, darker where it is seen at a low angle. Mirrors and glass are grey, lamps
+/// bright.
 /// \param scene   The scene.
 /// \param camera  The camera.
 /// \param width   Of the picture, in pixels.
@@ -71,8 +72,8 @@ template <std::floating_point T>
     return largest > T(0) ? photon.flux / largest : RgbT<T>{T(0)};
 }
 
-/// Where a camera sees a photon: nothing may stand in front of it, glass neither, and it
-/// has to lie on the side of its surface that faces the camera. What hides a photon is
+/// Where a camera sees a photon: nothing may stand in front of it, glass neither, and
+/// it has to lie on the side of its surface that faces the camera. What hides a photon is
 /// nearer by more than a thousandth of the way.
 /// \param scene   The scene of the photon.
 /// \param camera  The camera.

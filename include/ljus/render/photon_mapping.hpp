@@ -33,6 +33,7 @@ struct PhotonMapsT {
     FluxAudit caustics_audit; ///< Where the flux of the caustics pass went.
     FluxAudit general_audit;  ///< Where the flux of the general pass went.
     bool complete = true;     ///< False if the progress callback stopped the pass.
+    std::string remarks{};    ///< Why a pass gave up, if one did: lines.
 };
 
 /// Runs the first pass: the maps that the plan asks for, and no others.
@@ -52,6 +53,7 @@ make_photon_maps(const Scene& scene, const PhotonMapping& settings = {}) {
         map = make_photon_map(traced.photons);
         audit = traced.audit;
         maps.complete = maps.complete && traced.complete;
+        if (!traced.remark.empty()) maps.remarks += traced.remark + "\n";
     };
     if (plan.caustics_map.on)
         run(PhotonLaw::caustics, settings.caustics, maps.caustics, maps.caustics_audit);
@@ -181,23 +183,24 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
                     light_at(mapper, at, material, gather, stream, counts, add);
                 if (depth == settings.max_depth) return false;
 
-                const auto go = [&](PathT<T>& on, const BsdfSampleT<T>& next) {
+                const auto go = [&](PathT<T>& on, const BsdfSampleT<T>& next,
+                                    const Vec3T<T>& wi) {
                     on.throughput *= next.weight;
                     on.squeeze *= next.squeeze;
                     on.medium = medium_beyond(on.medium, material, at.wo, next.wi);
-                    on.ray =
-                        ray_from(at.surface.point, to_world(at.surface.frame, next.wi));
+                    on.ray = ray_from(at.surface.point, wi);
                 };
                 if constexpr (requires {
                                   both_ways(material, at.wo, Transport::radiance);
                               })
-                    if (depth == 1 && settings.split_glass)
+                    if (depth == 1 && settings.split_glass && !at.surface.smooth)
                         if (const auto both =
                                 both_ways(material, at.wo, Transport::radiance)) {
                             other = path;
                             other->bounce = std::uint64_t(1) << 32; // its own numbers
-                            go(*other, (*both)[1]);
-                            go(path, (*both)[0]);
+                            const auto& [back, through] = *both;
+                            go(*other, through, to_world(at.surface.frame, through.wi));
+                            go(path, back, to_world(at.surface.frame, back.wi));
                             log.vertex('S', at.surface.point.position, throughput,
                                        T(0));
                             return true;
@@ -207,11 +210,12 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
                 const bool no_indirect = gather ||
                                          settings.indirect == IndirectLight::photons ||
                                          settings.indirect == IndirectLight::none;
-                const auto next =
-                    sample(material, at.wo, next_3d<T>(stream), Transport::radiance,
-                           no_indirect ? Lobes::specular : Lobes::all);
-                if (!next) return false;
-                go(path, *next);
+                const auto scattered = scatter(
+                    at.surface, material, at.wo, next_3d<T>(stream),
+                    Transport::radiance, no_indirect ? Lobes::specular : Lobes::all);
+                if (!scattered) return false;
+                const auto* next = &scattered->sample;
+                go(path, *next, scattered->wi);
                 met_diffuse = met_diffuse || !next->specular;
                 log.vertex(next->specular ? 'S' : 'D', at.surface.point.position,
                            throughput, next->pdf);

@@ -7,7 +7,7 @@
 
 #include "ljus/math/random.hpp"
 #include "ljus/optics/absorption.hpp"
-#include "ljus/scene/query.hpp"
+#include "ljus/scene/scatter.hpp"
 
 namespace ljus {
 

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "ljus/geometry/mesh.hpp"
 #include "ljus/geometry/pair_triangles.hpp"
 #include "ljus/image/file.hpp"
 #include "ljus/image/image.hpp"
@@ -41,6 +42,8 @@ namespace ljus {
 /// |---------------------|---------------------------------------------------------|
 /// | sphere              | center, radius                                          |
 /// | triangles           | vertices, indices: three numbers a triangle, from 0     |
+/// | mesh                | file: OBJ, beside the scene's; scale (1); normals (file, |
+/// |                     | smooth or flat); see ObjMeshes                          |
 ///
 /// Emission is radiance: of a sphere outwards, of a triangle towards
 /// \f$(V_2 - V_1) \times (V_3 - V_1)\f$. Lengths are within 1e9, radiance within 1e12.
@@ -49,7 +52,7 @@ namespace ljus {
 /// A scene of whatever a scene file may hold.
 template <std::floating_point T>
 using FileSceneT =
-    Scene<Shapes<QuadT<T>, SphereT<T>, TriangleT<T>>,
+    Scene<Shapes<QuadT<T>, SphereT<T>, TriangleT<T>, MeshT<T>>,
           Materials<LambertianT<T>, OrenNayarT<T>, MirrorT<T>, GlassT<T>>>;
 
 /// What a scene file says.
@@ -65,6 +68,18 @@ using LoadedScene = LoadedSceneT<float>; ///< LoadedSceneT in float.
 
 /// The largest file that load_json() takes, in bytes.
 inline constexpr std::size_t max_scene_file = std::size_t(1) << 28;
+
+/// Reads no meshes: what load_json() does unless it is given an ObjMeshes.
+struct NoMeshes {
+    /// \throws std::runtime_error  always.
+    [[noreturn]] void operator()(const std::string& file, double,
+                                 const std::string&) const {
+        throw std::runtime_error(
+            file +
+            ": meshes are not read here; load_json() must be given ObjMeshes, of "
+            "ljus/scene/load_obj.hpp, which needs tinyobjloader.");
+    }
+};
 
 namespace detail {
 
@@ -172,16 +187,37 @@ FlatShapesT<T> read_triangles(const JsonField& field) {
     return pair_triangles<T>(points, triangles);
 }
 
-template <std::floating_point T>
+// The meshes of an object's file.
+template <std::floating_point T, typename LoadMeshes>
+std::vector<MeshT<T>> read_meshes(const JsonField& field, LoadMeshes& load_meshes) {
+    const std::string file = text(member(field, "file"));
+    const auto scale = find(field, "scale");
+    const auto normals = find(field, "normals");
+    if (normals) require_one_of(*normals, {"file", "smooth", "flat"});
+    const double factor = scale ? number(*scale, 1e-9, 1e9, "within [1e-9, 1e9]") : 1.0;
+    const std::size_t slash = field.file.find_last_of("/\\");
+    const bool beside = slash != std::string::npos && file.substr(0, 1) != "/";
+    const std::string path = beside ? field.file.substr(0, slash + 1) + file : file;
+    if constexpr (std::is_same_v<std::remove_cvref_t<LoadMeshes>, NoMeshes>)
+        load_meshes(path, factor, normals ? text(*normals) : "file");
+    else
+        return load_meshes(path, factor, normals ? text(*normals) : "file");
+}
+
+template <std::floating_point T, typename LoadMeshes>
 void read_object(const JsonField& field,
                  const std::map<std::string, MaterialId>& materials,
-                 FileSceneT<T>& scene) {
+                 FileSceneT<T>& scene, LoadMeshes& load_meshes) {
     const JsonField type = member(field, "type");
-    require_one_of(type, {"sphere", "triangles"});
+    require_one_of(type, {"sphere", "triangles", "mesh"});
     const bool sphere = text(type) == "sphere";
+    const bool mesh = text(type) == "mesh";
     if (sphere)
         require_object(field,
                        {"type", "name", "material", "emission", "center", "radius"});
+    else if (mesh)
+        require_object(field, {"type", "name", "material", "emission", "file", "scale",
+                               "normals"});
     else
         require_object(field,
                        {"type", "name", "material", "emission", "vertices", "indices"});
@@ -214,6 +250,8 @@ void read_object(const JsonField& field,
         if (!(static_cast<T>(length) > T(0))) refuse_value(radius, "above 0");
         add(SphereT<T>{.center{point_field(member(field, "center"))},
                        .radius = static_cast<T>(length)});
+    } else if (mesh) {
+        for (const MeshT<T>& part : read_meshes<T>(field, load_meshes)) add(part);
     } else {
         const FlatShapesT<T> shapes = read_triangles<T>(field);
         for (const QuadT<T>& quad : shapes.quads) add(quad);
@@ -226,13 +264,16 @@ void read_object(const JsonField& field,
 /// Reads a scene from the text of a scene file.
 /// \param source  The text.
 /// \param file    What messages call it: the name of the file.
+/// \param load_meshes  Called as load_meshes(path, scale, normals) for each mesh;
+///         returns a vector of meshes.
 /// \return The scene. Two triangles that are one parallelogram have become one quad.
 /// \throws std::runtime_error  with one sentence that names the file, the path of the
 ///         field, its value and what would be right: "scene.json: objects[3].radius is
 ///         -1; it must be above 0."
-template <std::floating_point T = float>
+template <std::floating_point T = float, typename LoadMeshes = NoMeshes>
 [[nodiscard]] LoadedSceneT<T> read_json_scene(std::string_view source,
-                                              const std::string& file) {
+                                              const std::string& file,
+                                              LoadMeshes load_meshes = {}) {
     const nlohmann::json root = parse_json(source, file);
     const JsonField top{root, file, ""};
     require_object(top, {"format", "name", "description", "camera", "image",
@@ -266,7 +307,7 @@ template <std::floating_point T = float>
 
     const JsonField objects = member(top, "objects");
     for (std::size_t i = 0; i < list_size(objects); ++i)
-        detail::read_object(entry(objects, i), materials, loaded.scene);
+        detail::read_object(entry(objects, i), materials, loaded.scene, load_meshes);
     if (loaded.scene.lights.empty())
         refuse(objects, "has no light; at least one needs an emission above 0");
     if (loaded.scene.lights.size() > 65535)
@@ -278,14 +319,16 @@ template <std::floating_point T = float>
 
 /// Loads a scene file.
 /// \param path  The file.
+/// \param load_meshes  As for read_json_scene(): ObjMeshes, or nothing.
 /// \return The scene.
 /// \throws std::runtime_error  as read_json_scene(); or, if the file cannot be read,
 ///         with its name and the reason.
-template <std::floating_point T = float>
-[[nodiscard]] LoadedSceneT<T> load_json(const std::string& path) {
+template <std::floating_point T = float, typename LoadMeshes = NoMeshes>
+[[nodiscard]] LoadedSceneT<T> load_json(const std::string& path,
+                                        LoadMeshes load_meshes = {}) {
     const Bytes bytes = load_file(path, max_scene_file);
     return read_json_scene<T>(
-        {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
+        {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path, load_meshes);
 }
 
 /// \}

@@ -84,29 +84,48 @@ template <typename Compute = void, typename Scene, std::floating_point T>
 template <std::floating_point T>
 struct SurfaceT {
     SurfacePointT<T> point{}; ///< Position, error bound, normal of the outer side.
-    FrameT<T> frame{};        ///< Around the normal; materials work in it.
+    FrameT<T> frame{};        ///< Materials work in it: around the shading normal.
     ObjectT<T> object{};      ///< What it is made of, and whether it shines.
+    bool smooth = false;      ///< Whether frame.normal differs from point.normal.
+    bool turned = false;      ///< Whether the ray came from different sides of the two.
 };
 
 /// The surface at a hit.
+///
+/// The geometric normal decides on which side a direction is. A ray that comes from
+/// different sides of the two normals finds the frame around the geometric one: so the
+/// z of its way back always tells the side, and no surface is seen from behind.
 /// \param scene  The scene.
 /// \param ray    The ray that hit.
 /// \param hit    What closest_hit() returned.
 /// \return The point, its frame, its object.
+// [surface_at]
 template <typename Scene, std::floating_point T>
 [[nodiscard]] SurfaceT<T> surface_at(const Scene& scene, const RayT<T>& ray,
                                      const SceneHitT<T>& hit) {
-    SurfaceT<T> surface{.point = scene.visit_shape(hit.object,
-                                                   [&](const auto& shape) {
-                                                       return surface_point(shape, ray,
-                                                                            hit.at);
-                                                   }),
-                        .frame = {},
-                        .object = scene.object(hit.object)};
-    if (surface.object.inside_out) surface.point.normal = -surface.point.normal;
-    surface.frame = frame_around(surface.point.normal);
+    SurfaceT<T> surface{.object = scene.object(hit.object)};
+    Vec3T<T>& geometric = surface.point.normal;
+    Vec3T<T> normal = scene.visit_shape(hit.object, [&](const auto& shape) {
+        surface.point = surface_point(shape, ray, hit.at);
+        if constexpr (requires { shading_normal(shape, hit.at, geometric); })
+            return shading_normal(shape, hit.at, geometric);
+        else
+            return geometric;
+    });
+    surface.smooth = normal != geometric;
+    if (surface.object.inside_out) {
+        geometric = -geometric;
+        normal = -normal;
+    }
+    if (surface.smooth) {
+        surface.turned = (glm::dot(ray.direction, geometric) < T(0)) !=
+                         (glm::dot(ray.direction, normal) < T(0));
+        surface.smooth = !surface.turned;
+    }
+    surface.frame = frame_around(surface.turned ? geometric : normal);
     return surface;
 }
+// [surface_at]
 
 /// \}
 

@@ -1,0 +1,212 @@
+#pragma once
+
+/// \file ljus/geometry/mesh_data.hpp
+/// \brief What a mesh is made of: vertices and triangles, from a file or from a
+/// formula.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ljus/geometry/sphere.hpp"
+#include "ljus/geometry/triangle.hpp"
+#include "ljus/math/require.hpp"
+
+namespace ljus {
+
+/// \defgroup mesh_data What meshes are made of
+/// \brief Vertices that triangles share. Chapter: \ref ch_triangle.
+/// \{
+
+/// Vertices, and triangles as numbers of vertices, from 0.
+template <std::floating_point T>
+struct MeshDataT {
+    std::vector<Vec3T<T>> positions{}; ///< Of the vertices, in scene units.
+    std::vector<Vec3T<T>> normals{};   ///< Unit, one a vertex; none: flat triangles.
+    std::vector<std::array<std::uint32_t, 3>> triangles{}; ///< Counter-clockwise.
+};
+using MeshData = MeshDataT<float>; ///< MeshDataT in float.
+
+/// A triangle of the data.
+/// \param data  The data.
+/// \param part  Which one.
+template <std::floating_point T>
+[[nodiscard]] TriangleT<T> triangle_of(const MeshDataT<T>& data,
+                                       std::size_t part) noexcept {
+    const auto& corner = data.triangles[part];
+    return {data.positions[corner[0]], data.positions[corner[1]],
+            data.positions[corner[2]]};
+}
+
+/// Refuses data that no mesh can be made of.
+/// \param data  The data.
+/// \throws std::invalid_argument  naming the place and the value.
+template <std::floating_point T>
+void check(const MeshDataT<T>& data) {
+    const auto place = [](const char* list, std::size_t i) {
+        return std::string(list).append("[").append(std::to_string(i)).append("]");
+    };
+    const auto count = [](std::size_t n) { return static_cast<long long>(n); };
+    require(!data.triangles.empty() && data.triangles.size() < 0xffffffffu,
+            "the number of a mesh's triangles", count(data.triangles.size()),
+            "at least 1 and below 2^32 - 1");
+    require(data.normals.empty() || data.normals.size() == data.positions.size(),
+            "the number of a mesh's normals", count(data.normals.size()),
+            "0 or that of its positions, " + std::to_string(data.positions.size()));
+    for (std::size_t i = 0; i < data.positions.size(); ++i)
+        if (!is_finite(data.positions[i]))
+            require_finite(place("mesh.positions", i), data.positions[i]);
+    for (std::size_t i = 0; i < data.normals.size(); ++i)
+        if (!is_finite(data.normals[i]))
+            require_finite(place("mesh.normals", i), data.normals[i]);
+    for (std::size_t i = 0; i < data.triangles.size(); ++i)
+        for (const std::uint32_t corner : data.triangles[i])
+            if (corner >= data.positions.size())
+                require(false, place("mesh.triangles", i) + "'s vertex", count(corner),
+                        "below the number of positions, " +
+                            std::to_string(data.positions.size()));
+}
+
+/// Gives each vertex the mean of its triangles' normals, weighted by their angles
+/// there, so that it does not matter how a flat part is cut into triangles
+/// \cite thurmer1998. Vertices at different numbers stay different, even at the same
+/// point: so edges are kept sharp.
+/// \param data  The data; the old normals are forgotten. A vertex without a triangle
+///              that has an area gets (0, 0, 0), which counts as no normal.
+/// \cost O(n).
+// [smooth]
+template <std::floating_point T>
+void smooth(MeshDataT<T>& data) {
+    using Wide = Vec3T<WideT<T>>;
+    std::vector<Wide> sums(data.positions.size(), Wide{0});
+    for (std::size_t i = 0; i < data.triangles.size(); ++i) {
+        const Wide across = cross_of_edges(triangle_of(data, i));
+        if (!(glm::dot(across, across) > 0)) continue;
+        const Wide normal = glm::normalize(across);
+        const auto& corner = data.triangles[i];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Wide here{data.positions[corner[k]]};
+            const Wide a = Wide{data.positions[corner[(k + 1) % 3]]} - here;
+            const Wide b = Wide{data.positions[corner[(k + 2) % 3]]} - here;
+            const auto angle =
+                std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+            sums[corner[k]] += angle * normal;
+        }
+    }
+    data.normals.clear();
+    for (const Wide& sum : sums) {
+        const bool known = glm::dot(sum, sum) > 0;
+        data.normals.emplace_back(known ? glm::normalize(sum) : Wide{0});
+    }
+}
+// [smooth]
+
+/// \name Meshes from formulas
+/// \{
+
+/// A sphere of triangles: an icosahedron, each triangle cut in four again and again,
+/// its vertices on the sphere, with the sphere's normals.
+/// \param sphere  The sphere; check() holds for it.
+/// \param cuts    How often, 0 to 10: 20 * 4^cuts triangles.
+/// \return The data.
+/// \throws std::invalid_argument  for another number of cuts.
+// [icosphere]
+template <std::floating_point T>
+[[nodiscard]] MeshDataT<T> icosphere(const SphereT<T>& sphere, int cuts) {
+    require(cuts >= 0 && cuts <= 10, "the number of cuts", static_cast<long long>(cuts),
+            "within [0, 10]");
+    using Triple = std::array<std::uint32_t, 3>;
+    const double g = std::numbers::phi;
+    std::vector<glm::dvec3> n;
+    for (const double a : {-1.0, 1.0})
+        for (const double b : {-g, g})
+            for (const glm::dvec3& v :
+                 {glm::dvec3(0, a, b), glm::dvec3(a, b, 0), glm::dvec3(b, 0, a)})
+                n.push_back(glm::normalize(v));
+    // The faces are the triples of neighbours, 2 apart where the circumradius is
+    // sqrt(1 + g^2).
+    const double edge = 2.0 / std::sqrt(1 + g * g);
+    const auto near = [&](std::uint32_t a, std::uint32_t b) {
+        return std::abs(glm::distance(n[a], n[b]) - edge) < 1e-9;
+    };
+    std::vector<Triple> triangles;
+    for (std::uint32_t a = 0; a < 12; ++a)
+        for (std::uint32_t b = a + 1; b < 12; ++b)
+            for (std::uint32_t c = b + 1; c < 12; ++c)
+                if (near(a, b) && near(b, c) && near(c, a)) {
+                    const bool outward = glm::dot(glm::cross(n[a], n[b]), n[c]) > 0;
+                    triangles.push_back(outward ? Triple{a, b, c} : Triple{a, c, b});
+                }
+    for (int cut = 0; cut < cuts; ++cut) {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+        const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+            const auto [at, fresh] = middles.try_emplace(
+                std::minmax(a, b), static_cast<std::uint32_t>(n.size()));
+            if (fresh) n.push_back(glm::normalize(n[a] + n[b]));
+            return at->second;
+        };
+        std::vector<Triple> finer;
+        for (const auto& [a, b, c] : triangles) {
+            const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+            for (const Triple& part : {Triple{a, ab, ca}, Triple{ab, b, bc},
+                                       Triple{ca, bc, c}, Triple{ab, bc, ca}})
+                finer.push_back(part);
+        }
+        triangles = std::move(finer);
+    }
+    MeshDataT<T> data{.triangles = std::move(triangles)};
+    for (const glm::dvec3& normal : n) {
+        data.positions.emplace_back(glm::dvec3(sphere.center) +
+                                    double(sphere.radius) * normal);
+        data.normals.emplace_back(normal);
+    }
+    return data;
+}
+// [icosphere]
+
+/// A ring around the y axis, with its normals.
+/// \param center  Its centre.
+/// \param large   From the centre to the middle of the tube.
+/// \param small   The tube's radius, below `large` for a ring with a hole.
+/// \param around  Pieces around the axis, at least 3.
+/// \param across  Pieces around the tube, at least 3.
+/// \return The data: 2 * around * across triangles.
+/// \throws std::invalid_argument  for fewer pieces.
+template <std::floating_point T>
+[[nodiscard]] MeshDataT<T> torus(const Vec3T<T>& center, T large, T small, int around,
+                                 int across) {
+    require(around >= 3 && around <= 10000 && across >= 3 && across <= 10000,
+            "the smaller number of pieces",
+            static_cast<long long>(around < across ? around : across),
+            "within [3, 10000]");
+    MeshDataT<T> data;
+    const auto number = [&](int i, int k) {
+        return static_cast<std::uint32_t>((i % around) * across + k % across);
+    };
+    for (int i = 0; i < around; ++i)
+        for (int k = 0; k < across; ++k) {
+            const double phi = 2 * std::numbers::pi * i / around;
+            const double theta = 2 * std::numbers::pi * k / across;
+            const glm::dvec3 out(std::cos(phi), 0, -std::sin(phi));
+            const glm::dvec3 normal =
+                std::cos(theta) * out + glm::dvec3(0, std::sin(theta), 0);
+            data.positions.emplace_back(glm::dvec3(center) + double(large) * out +
+                                        double(small) * normal);
+            data.normals.emplace_back(normal);
+            const std::uint32_t a = number(i, k), b = number(i + 1, k);
+            const std::uint32_t c = number(i + 1, k + 1), d = number(i, k + 1);
+            data.triangles.push_back({a, b, c});
+            data.triangles.push_back({a, c, d});
+        }
+    return data;
+}
+/// \}
+
+/// \}
+
+} // namespace ljus

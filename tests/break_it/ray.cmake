@@ -1,0 +1,15 @@
+# Backwards.
+ljus_break_it(NAME ray-at HEADER geometry/ray.hpp TEST ray
+    FROM "ray.origin + t * ray.direction"
+    TO   "ray.origin - t * ray.direction")
+
+# A ray that may look behind itself.
+ljus_break_it(NAME ray-t-min HEADER geometry/ray.hpp TEST ray
+    FROM "T t_min = T(0);"
+    TO   "T t_min = -std::numeric_limits<T>::infinity();")
+
+# A test that starts where the hit was counted: definition 3.1 hits its own surface.
+ljus_break_it(NAME ray-stay HEADER geometry/surface.hpp TEST ray
+    FROM "return {.origin = leave(point, direction), .direction = direction};"
+    TO   "return {.origin = point.position, .direction = direction};"
+    CASES "ray: t >= 0 hits*")

@@ -1,0 +1,316 @@
+// needs: tinyobjloader
+#include <doctest/doctest.h>
+
+#include <cstdio>
+#include <fstream>
+
+#include "ljus/math/random.hpp"
+#include "ljus/scene/load_json.hpp"
+#include "ljus/scene/load_obj.hpp"
+#include "scratch_folder.hpp"
+
+using namespace ljus;
+
+namespace {
+
+/// A cube with outward sides, in polygons of four corners.
+const std::string cube = R"(# a cube
+v -1 -1 -1
+v 1 -1 -1
+v 1 1 -1
+v -1 1 -1
+v -1 -1 1
+v 1 -1 1
+v 1 1 1
+v -1 1 1
+vn 0 0 1
+vn 0 0 -1
+f 1 4 3 2
+f 5//1 6//1 7//1 8//1
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+)";
+
+std::string obj_text(const MeshData& data) {
+    std::string text;
+    for (const Vec3& p : data.positions)
+        text += std::string("v ") + to_text(p.x) + " " + to_text(p.y) + " " +
+                to_text(p.z) + "\n";
+    for (const Vec3& n : data.normals)
+        text += std::string("vn ") + to_text(n.x) + " " + to_text(n.y) + " " +
+                to_text(n.z) + "\n";
+    for (const auto& t : data.triangles) {
+        text += "f";
+        for (const std::uint32_t i : t)
+            text +=
+                std::string(" ") + std::to_string(i + 1) + "//" + std::to_string(i + 1);
+        text += "\n";
+    }
+    return text;
+}
+
+std::string message(const std::string& text, const ObjSettings& settings = {}) {
+    try {
+        (void)read_obj(text, "x.obj", settings);
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+    return "nothing";
+}
+
+ObjCount trouble(const std::string& text, ObjTrouble which) {
+    return read_obj(text, "x.obj").report[which];
+}
+
+double volume(const Mesh& mesh) {
+    double sum = 0;
+    for (std::uint32_t i = 0; i < mesh.size(); ++i) {
+        const auto t = mesh.triangle(i);
+        sum += double(glm::dot(t.v1, glm::cross(t.v2, t.v3))) / 6;
+    }
+    return sum;
+}
+
+} // namespace
+
+TEST_CASE("load_obj: a cube of quads") {
+    const auto loaded = read_obj(cube, "cube.obj", {.scale = 0.5});
+    CHECK(to_text(loaded.report).empty());
+    REQUIRE(loaded.parts.size() == 1);
+    const Mesh& mesh = loaded.parts[0].mesh;
+    CHECK(mesh.size() == 12);
+    CHECK(area(mesh) == doctest::Approx(6));
+    CHECK(volume(mesh) == doctest::Approx(1));
+    // The side with normals has them, the others have none.
+    int smooth_corners = 0;
+    for (const Vec3& n : mesh.data().normals) smooth_corners += n == Vec3{0} ? 0 : 1;
+    CHECK(smooth_corners == 4);
+    CHECK(read_obj(cube, "c", {.normals = ObjNormals::flat})
+              .parts[0]
+              .mesh.data()
+              .normals.empty());
+    const auto round = read_obj(cube, "c", {.normals = ObjNormals::smooth});
+    REQUIRE(round.parts[0].mesh.data().normals.size() == 8);
+    CHECK(round.parts[0].mesh.data().normals[0].x == doctest::Approx(-0.57735));
+}
+
+TEST_CASE("load_obj: what is written is read again, to the last bit") {
+    const MeshData data = icosphere(Sphere{.center{1, 2, 3}, .radius = 0.7f}, 3);
+    const auto loaded = read_obj(obj_text(data), "x.obj");
+    CHECK(to_text(loaded.report).empty());
+    const MeshData& again = loaded.parts[0].mesh.data();
+    REQUIRE(again.triangles.size() == data.triangles.size());
+    CHECK(again.positions.size() == data.positions.size());
+    int other = 0;
+    for (std::size_t i = 0; i < data.triangles.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto a = data.triangles[i][k], b = again.triangles[i][k];
+            other += data.positions[a] == again.positions[b] &&
+                             glm::length(data.normals[a] - again.normals[b]) < 1e-6f
+                         ? 0
+                         : 1;
+        }
+    CHECK(other == 0);
+}
+
+TEST_CASE("load_obj: line ends, numbers from the end, comments, no last line feed") {
+    std::string dos;
+    for (const char c : cube)
+        dos += c == '\n' ? std::string("\r\n") : std::string(1, c);
+    std::string mac = cube;
+    for (char& c : mac) c = c == '\n' ? '\r' : c;
+    for (const std::string& text : {dos, mac, cube.substr(0, cube.size() - 1)})
+        CHECK(read_obj(text, "x").parts[0].mesh.size() == 12);
+    for (const std::string& text : {dos, mac}) // lines are counted alike
+        CHECK(trouble(text + "f 1 2 99\r\n", ObjTrouble::bad_index).line == 18);
+    const auto back = read_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n", "x");
+    CHECK(back.parts[0].mesh.triangle(0).v2 == Vec3{1, 0, 0});
+}
+
+TEST_CASE("load_obj: polygons are cut along their own shape") {
+    // A hollow polygon: a fan from its first corner would leave it.
+    const auto loaded = read_obj("v 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 1 0\nv 0 4 0\n"
+                                 "f 3 4 5 1 2\n",
+                                 "x");
+    const Mesh& mesh = loaded.parts[0].mesh;
+    CHECK(mesh.size() == 3);
+    CHECK(area(mesh) == doctest::Approx(10)); // 16 - 6
+    for (std::uint32_t i = 0; i < mesh.size(); ++i)
+        CHECK(normal(mesh.triangle(i)).z == 1);
+    std::string circle;
+    std::string face = "f";
+    for (int i = 0; i < 1000; ++i) {
+        const double a = 2 * std::numbers::pi * i / 1000;
+        circle += std::string("v ") + to_text(std::cos(a)) + " " +
+                  to_text(std::sin(a)) + " 0\n";
+        face += std::string(" ") + std::to_string(i + 1);
+    }
+    const auto disc = read_obj(circle + face, "x");
+    CHECK(area(disc.parts[0].mesh) == doctest::Approx(std::numbers::pi).epsilon(1e-4));
+    CHECK(message(circle + face + " 1").find("more than 1000 corners") !=
+          std::string::npos);
+}
+
+TEST_CASE("load_obj: each trouble is counted, with its first line") {
+    const auto check = [](const std::string& more, ObjTrouble which, long long count,
+                          long long line) {
+        const ObjCount found = trouble(cube + more, which);
+        CAPTURE(more);
+        CHECK(found.count == count);
+        CHECK(found.line == line);
+    };
+    // The cube has 17 lines.
+    check("v 1 nan 2\nv 1 2\nv 1e999 0 0\nv 1 2 x\n", ObjTrouble::bad_number, 4, 18);
+    check("vn 0 0 0\nvn 1 inf 0\n", ObjTrouble::bad_normal, 2, 18);
+    check("f 1 2 9\nf 0 1 2\nf -9 1 2\nf 1 2 x\nf 1//3 2//1 3//1\n",
+          ObjTrouble::bad_index, 5, 18);
+    check("f 4294967297 2 3\nf 1.5 2 3\nf 1 2 99999999999999999999\n",
+          ObjTrouble::bad_index, 3, 18);
+    check("\nf 1 2\nf 1\n", ObjTrouble::few_corners, 2, 19);
+    check("f 1 1 2\nf 2 2 2\n", ObjTrouble::no_area, 2, 18);
+    check("f 5//2 6//2 7//2\n", ObjTrouble::turned, 1, 18);
+    check("f 1 4 3\n", ObjTrouble::edge_of_many, 3, 12);
+    check("v 9 9 9\nf 1 2 9\n", ObjTrouble::edge_open, 2, 19);
+    check("usemtl none\nusemtl nothing \n", ObjTrouble::no_material, 2, 18);
+    check("mtllib nowhere.mtl\n", ObjTrouble::no_library, 1, 18);
+    const std::string turned = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 3 4\n";
+    CHECK(trouble(turned, ObjTrouble::edge_turned).count == 1);
+    // An edge that is not used twice, but whose faces are there: none of a closed mesh.
+    CHECK(trouble(cube, ObjTrouble::edge_open).count == 0);
+}
+
+TEST_CASE("load_obj: a file without a face is refused with a sentence") {
+    const std::string hint =
+        "x.obj: there is no face that can be used; a mesh file has "
+        "lines such as 'v 0 0 1' and 'f 1 2 3'.";
+    CHECK(message("") == hint);
+    CHECK(message("\n\n# nothing\n") == hint);
+    CHECK(message(std::string(1000, '\0')) == hint);
+    CHECK(message("f 1 2 3\n") == "x.obj: there is no face that can be used; the first "
+                                  "trouble: line 1: 1 faces name a vertex or a normal "
+                                  "that is not there; they are left out.");
+    CHECK(message(cube, {.scale = -1})
+              .find("the scale of a mesh file is -1; it must be") == 0);
+    CHECK(message(cube, {.scale = 1e-40}).find("x.obj: ") == 0);
+    CHECK(message(cube, {.scale = 1e30}).find("x.obj: ") == 0);
+    CHECK(message("v 0 0 0\nv 1e300 0 0\nv 0 1 0\nf 1 2 3\n").find("line 2: 1 vert") !=
+          std::string::npos);
+    const ScratchFolder folder;
+    const auto refused = [](const std::string& path) {
+        try {
+            (void)load_obj(path);
+        } catch (const std::runtime_error& error) {
+            return std::string(error.what()).find(path) != std::string::npos;
+        }
+        return false;
+    };
+    CHECK(refused(folder.file("")));
+    CHECK(refused(folder.file("missing.obj")));
+    std::ofstream(folder.file("empty.obj")).close();
+    CHECK(refused(folder.file("empty.obj")));
+}
+
+TEST_CASE("load_obj: materials of a file, and scenes that use it") {
+    const ScratchFolder folder;
+    std::ofstream(folder.file("m.mtl"))
+        << "newmtl red\nKd 0.8 0.1 0.1\nnewmtl lamp\nKd 0 0 0\nKe 3 2 1\n"
+           "newmtl clear\nillum 7\nNi 1.33\nnewmtl shiny\nillum 3\nKs 0.9 0.8 2\n"
+           "newmtl odd\nKd nan -1 7\nNi -3\nd 9\n";
+    std::string text = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+    for (const char* name : {"red", "lamp", "clear", "shiny", "odd", "red"})
+        text += std::string("usemtl ") + name + "\nf 1 2 3\n";
+    std::ofstream(folder.file("m.obj")) << text;
+    const auto loaded = load_obj(folder.file("m.obj"));
+    REQUIRE(loaded.parts.size() == 5);
+    CHECK(loaded.parts[0].mesh.size() == 2);
+    CHECK(loaded.parts[0].material.diffuse.x == doctest::Approx(0.8));
+    CHECK(loaded.parts[2].material.is_glass());
+    CHECK(loaded.parts[2].material.index == doctest::Approx(1.33));
+    CHECK(loaded.parts[3].material.is_mirror());
+    CHECK(loaded.parts[3].material.specular.z == 1);
+    Scene<Shapes<Mesh>, Materials<Lambertian, Glass, Mirror>> scene;
+    add_obj(scene, loaded);
+    CHECK(scene.size() == 5);
+    REQUIRE(scene.lights.size() == 1);
+    CHECK(scene.lights[0].emission == Rgb{3, 2, 1});
+    CHECK(scene.object({0, 2}).material.type == 1);
+    CHECK(scene.object({0, 3}).material.type == 2);
+    Scene<Shapes<Mesh>, Materials<Lambertian>> plain; // lists neither glass nor mirrors
+    add_obj(plain, loaded);
+    CHECK(plain.size() == 5);
+
+    const std::string json =
+        R"({"camera": {"position": [0, 0, 4], "look_at": [0, 0, 0], "up": [0, 1, 0],
+            "vfov_deg": 40}, "image": {"width": 8, "height": 8},
+            "materials": {"m": {"type": "lambertian", "albedo": [1, 1, 1]}},
+            "objects": [{"type": "mesh", "file": "m.obj", "scale": 2, "material": "m",
+                         "normals": "smooth", "emission": [1, 1, 1]}]})";
+    std::string report;
+    const auto read = read_json_scene(json, folder.file("s.json"), ObjMeshes{&report});
+    CHECK(read.scene.size() == 5);
+    CHECK(read.scene.lights.size() == 5);
+    CHECK(report.find("edges") != std::string::npos);
+    CHECK_THROWS_AS((void)read_json_scene(json, folder.file("s.json")),
+                    std::runtime_error);
+}
+
+TEST_CASE("load_obj: no file crashes it") {
+    // Bytes changed, cut out, doubled and swapped in; each mesh that comes out is asked.
+    const std::string extra = "usemtl a\ng b\no c\ns off\nvt 0 1\nf 1/1 2/1 3/1\n"
+                              "f 1/1/1 2/1/1 3/1/1\nl 1 2\nv 1e30 -1e-30 5\n";
+    const std::string start = cube + extra;
+    const char* const pieces[] = {
+        "-",   "/",         "//",  " ",     "\n",   "\r", "9999999999",
+        "f ",  "v ",        "nan", "1e400", "-0",   "\t", "usemtl ",
+        "vn ", "mtllib x ", "\\",  "#",     "0x10", "+",  "."};
+    RandomStream stream = random_stream(1, Pass::camera, 0, 0);
+    const auto below = [&](std::size_t n) {
+        return static_cast<std::size_t>(next_1d<double>(stream) * double(n));
+    };
+    int used = 0, refused = 0;
+    for (int i = 0; i < 6000; ++i) {
+        std::string text = start;
+        for (std::size_t k = 1 + below(6); k > 0; --k) {
+            const std::size_t at = below(text.size() + 1);
+            switch (below(5)) {
+            case 0:
+                text.insert(at, pieces[below(std::size(pieces))]);
+                break;
+            case 1:
+                text.erase(at, below(20));
+                break;
+            case 2:
+                if (at < text.size()) text[at] = static_cast<char>(below(256));
+                break;
+            case 3:
+                text.insert(at, text.substr(below(text.size()), below(60)));
+                break;
+            default:
+                if (below(10) == 0) text.resize(at);
+            }
+        }
+        try {
+            const auto loaded = read_obj(text, "fuzz.obj");
+            ++used;
+            for (const auto& part : loaded.parts) {
+                const auto hit = intersect(
+                    Ray{.origin{0.1f, 0.2f, 9}, .direction{0, 0, -1}}, part.mesh);
+                if (hit) CHECK(hit->part < part.mesh.size());
+                CHECK(std::isfinite(area(part.mesh)));
+            }
+        } catch (const std::runtime_error& error) {
+            ++refused;
+            CHECK(std::string(error.what()).find("fuzz.obj: ") == 0);
+        }
+    }
+    CHECK(used > 4000);
+    CHECK(refused > 0);
+    // Huge and odd in other ways.
+    CHECK(message("f" + std::string(1 << 20, '/')) != "nothing");
+    CHECK(message(std::string(1 << 20, 'v')) != "nothing");
+    std::string many = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf";
+    for (int i = 0; i < 300000; ++i) many += " 1";
+    CHECK(message(many).find("more than 1000 corners") != std::string::npos);
+}

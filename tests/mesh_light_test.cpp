@@ -1,0 +1,137 @@
+// concept: mesh
+// long: 16 pictures of each of 8 rooms
+#include <doctest/doctest.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "ljus/image/metrics.hpp"
+#include "ljus/render/photon_mapping.hpp"
+#include "ljus/render/render.hpp"
+#include "support/mesh_rooms.hpp"
+
+using namespace ljus;
+using namespace ljus_test;
+
+namespace {
+
+constexpr int size = 48;
+constexpr int seeds = 16;
+const Sphere ball{.center{0.1f, -0.4f, -0.1f}, .radius = 0.45f};
+
+/// The room [-1, 1]^3 with a ball of triangles, or the sphere itself.
+MeshRoom room_with(bool furnace, bool glass, bool triangles) {
+    MeshRoom room;
+    const auto grey = room.add(Lambertian{.albedo = Rgb{0.5f}});
+    const Rgb glow{furnace ? 0.5f : 0.0f};
+    const Vec3 x{2, 0, 0}, y{0, 2, 0}, z{0, 0, 2}, corner{-1, -1, -1};
+    for (const Quad& wall :
+         {Quad{corner, z, x}, Quad{corner + y, x, z}, Quad{corner, x, y},
+          Quad{corner + z, y, x}, Quad{corner, y, z}, Quad{corner + x, z, y}})
+        room.add(wall, grey, glow);
+    if (!furnace) {
+        const auto black = room.add(Lambertian{.albedo = Rgb{0}});
+        room.add(Quad{{-0.6f, 0.98f, -0.55f}, {1, 0, 0}, {0, 0, 1}}, black,
+                 Rgb{4, 4, 3});
+    }
+    // Matt walls at 1/2 glow at 0.5 / (1 - 0.5) = 1; so does a matt ball of any albedo
+    // that glows with the rest.
+    const auto material = glass ? room.add(Glass{.index = 1.5f})
+                                : room.add(Lambertian{.albedo = Rgb{0.5f}});
+    const Rgb own = glass ? Rgb{0} : glow;
+    if (triangles)
+        room.add(Mesh(icosphere(ball, 5)), material, own);
+    else
+        room.add(ball, material, own);
+    return room;
+}
+
+const Camera camera =
+    look_at({.position{0, 0.2f, 0.97f}, .target{0, -0.3f, 0}, .vfov_degrees = 75});
+
+Picture picture(std::uint64_t seed) {
+    return {.width = size, .height = size, .rays = 4, .seed = seed, .threads = 1};
+}
+
+/// The mean of a picture, and those of its 36 blocks.
+struct Blocks {
+    Mean all;
+    std::vector<Mean> parts = std::vector<Mean>(36);
+    void add(const Image& image) {
+        const ImageT<double> means = block_means(image, 8);
+        double sum = 0;
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            const auto& c = means.pixels[i];
+            parts[i].add((c.x + c.y + c.z) / 3);
+            sum += (c.x + c.y + c.z) / 3;
+        }
+        all.add(sum / 36);
+    }
+};
+
+Blocks traced(const MeshRoom& room, std::uint64_t first, int count) {
+    Blocks blocks;
+    for (int i = 0; i < count; ++i)
+        blocks.add(render(make_path_tracer(room), camera,
+                          picture(first + static_cast<std::uint64_t>(i)))
+                       .image);
+    return blocks;
+}
+
+Blocks mapped(const MeshRoom& room, std::uint64_t first, int count) {
+    Blocks blocks;
+    for (int i = 0; i < count; ++i) {
+        const std::uint64_t seed = first + static_cast<std::uint64_t>(i);
+        PhotonMapping settings;
+        settings.caustics = {.photons = 20000, .seed = seed, .threads = 1};
+        settings.gather_caustics = {.radius = 0.03f};
+        const auto maps = make_photon_maps(room, settings);
+        blocks.add(
+            render(make_photon_mapper(room, maps, settings), camera, picture(seed))
+                .image);
+    }
+    return blocks;
+}
+
+} // namespace
+
+// 4 rooms of 36 blocks, each compared twice: of 288 distances chance puts 2 beyond 3
+// standard errors (Student's t, 30 to 45 degrees of freedom) and one beyond 5 in one run
+// of 300. SHOW in the environment prints them.
+TEST_CASE("mesh: a ball of 20480 smooth triangles is a sphere, in both renderers") {
+    int beyond3 = 0, beyond5 = 0;
+    std::uint64_t first = 100;
+    for (const bool furnace : {true, false})
+        for (const bool glass : {false, true}) {
+            const MeshRoom mesh = room_with(furnace, glass, true);
+            const MeshRoom sphere = room_with(furnace, glass, false);
+            first += 1000;
+            const Blocks a = traced(mesh, first, 32);
+            const Blocks b = mapped(mesh, first + 200, seeds);
+            const Blocks c = traced(sphere, first + 400, 32);
+            CAPTURE(furnace);
+            CAPTURE(glass);
+            const double map_off = b.all.mean / a.all.mean - 1;
+            const double sphere_off = a.all.mean / c.all.mean - 1;
+            if (std::getenv("SHOW"))
+                std::printf("furnace %d glass %d: mapped %+.2f%% +- %.2f%%, "
+                            "sphere %+.2f%% +- %.2f%%\n",
+                            furnace, glass, 100 * map_off,
+                            100 * std::hypot(a.all.error(), b.all.error()) / a.all.mean,
+                            100 * sphere_off,
+                            100 * std::hypot(a.all.error(), c.all.error()) /
+                                a.all.mean);
+            CHECK(std::abs(map_off) < 0.01);
+            CHECK(std::abs(sphere_off) < 0.01);
+            if (furnace) CHECK(a.all.mean == doctest::Approx(1).epsilon(0.005));
+            for (std::size_t i = 0; i < a.parts.size(); ++i)
+                for (const Blocks* other : {&b, &c}) {
+                    const double off = std::abs(apart(a.parts[i], other->parts[i]));
+                    beyond3 += off < 3 ? 0 : 1;
+                    beyond5 += off < 5 ? 0 : 1;
+                }
+        }
+    if (std::getenv("SHOW")) std::printf("beyond 3: %d, 5: %d\n", beyond3, beyond5);
+    CHECK(beyond3 <= 6);
+    CHECK(beyond5 == 0);
+}
