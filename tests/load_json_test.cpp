@@ -243,7 +243,7 @@ TEST_CASE("load_json: unknown and missing fields, types and materials are named"
           "a.json: materials.glass.type is \"crystal\"; it must be lambertian, "
           "oren-nayar, mirror or dielectric.");
     CHECK(refusal("\"type\": \"sphere\"", "\"type\": \"cube\"") ==
-          "a.json: objects[2].type is \"cube\"; it must be sphere or triangles.");
+          "a.json: objects[2].type is \"cube\"; it must be sphere, triangles or mesh.");
     CHECK(refusal("\"type\": \"sphere\", ", "") ==
           "a.json: objects[2].type is missing.");
     CHECK(refusal("\"material\": \"glass\"", "\"material\": \"gold\"") ==

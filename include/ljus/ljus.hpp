@@ -81,6 +81,7 @@
 #include "ljus/photons/tracing.hpp"
 #include "ljus/photons/wide_kd_build.hpp"
 #include "ljus/photons/wide_kd_search.hpp"
+#include "ljus/photons/wide_kd_shape.hpp"
 #include "ljus/photons/wide_kd_tree.hpp"
 #include "ljus/render/counts.hpp"
 #include "ljus/render/direct_light.hpp"
