@@ -29,19 +29,19 @@ ljus_break_it(NAME caustics-k HEADER photons/photon_map.hpp TEST caustics
     CASES "caustics: k nearest*")
 
 # Photons that were aimed at one ball and meet another first count for both.
-ljus_break_it(NAME caustics-overlap HEADER photons/tracing.hpp TEST caustics
+ljus_break_it(NAME caustics-overlap HEADER photons/photon_path.hpp TEST caustics
     FROM "hit->object != *target"
     TO   "false"
     CASES "caustics: overlapping targets*")
 
 # The cosine at the lamp, which a point light does not have.
-ljus_break_it(NAME caustics-lamp-cosine HEADER photons/emission.hpp TEST caustics
+ljus_break_it(NAME caustics-lamp-cosine HEADER photons/aiming.hpp TEST caustics
     FROM "cosine * std::numbers::inv_pi_v<T>"
     TO   "std::numbers::inv_pi_v<T>"
     CASES "caustics: overlapping targets*")
 
 # Points of a mirror as if they were directions.
-ljus_break_it(NAME caustics-area HEADER photons/emission.hpp TEST caustics
+ljus_break_it(NAME caustics-area HEADER photons/aiming.hpp TEST caustics
     FROM "pdf = seen.pdf;"
     TO   ""
     CASES "caustics: a mirror ball*")

@@ -101,7 +101,7 @@ both_ways(const GlassT<T>& glass, const Vec3T<T>& wo, Transport transport) noexc
     const auto refracted = refract(wo, eta);
     if (!refracted) return std::nullopt;
     const T f = fresnel(glass.fresnel, std::abs(wo.z), n_i, n_t);
-    const T scale = transport == Transport::radiance ? eta * eta : T(1);
+    const T scale = transport == Transport::flux ? T(1) : eta * eta;
     return std::array{specular_sample(reflect(wo), RgbT<T>{f}),
                       specular_sample(*refracted, RgbT<T>{T(1) - f}, scale)};
 }
