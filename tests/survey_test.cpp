@@ -68,6 +68,12 @@ TEST_CASE("survey: each pass is on or off for a reason that is printed") {
     CHECK_FALSE(survey(matt, settings).general_map.on);
 
     settings = {};
+    settings.indirect = IndirectLight::photons; // no ray, but the map
+    plan = survey(matt, settings);
+    CHECK_FALSE(plan.indirect_rays.on);
+    CHECK(plan.general_map.on);
+
+    settings = {};
     settings.keep_general_map = true;
     CHECK(survey(matt, settings).general_map.on);
 
