@@ -33,20 +33,26 @@ f 3 4 8 7
 f 4 1 5 8
 )";
 
+void append(std::string& text, const char* word, const Vec3& v) {
+    for (const float x : {v.x, v.y, v.z}) {
+        text.append(word).append(to_text(x));
+        word = " ";
+    }
+    text.append("\n");
+}
+
 std::string obj_text(const MeshData& data) {
     std::string text;
-    for (const Vec3& p : data.positions)
-        text += std::string("v ") + to_text(p.x) + " " + to_text(p.y) + " " +
-                to_text(p.z) + "\n";
-    for (const Vec3& n : data.normals)
-        text += std::string("vn ") + to_text(n.x) + " " + to_text(n.y) + " " +
-                to_text(n.z) + "\n";
+    for (const Vec3& p : data.positions) append(text, "v ", p);
+    for (const Vec3& n : data.normals) append(text, "vn ", n);
     for (const auto& t : data.triangles) {
-        text += "f";
-        for (const std::uint32_t i : t)
-            text +=
-                std::string(" ") + std::to_string(i + 1) + "//" + std::to_string(i + 1);
-        text += "\n";
+        const char* word = "f ";
+        for (const std::uint32_t i : t) {
+            const std::string number = std::to_string(i + 1);
+            text.append(word).append(number).append("//").append(number);
+            word = " ";
+        }
+        text.append("\n");
     }
     return text;
 }
@@ -143,9 +149,8 @@ TEST_CASE("load_obj: polygons are cut along their own shape") {
     std::string face = "f";
     for (int i = 0; i < 1000; ++i) {
         const double a = 2 * std::numbers::pi * i / 1000;
-        circle += std::string("v ") + to_text(std::cos(a)) + " " +
-                  to_text(std::sin(a)) + " 0\n";
-        face += std::string(" ") + std::to_string(i + 1);
+        append(circle, "v ", Vec3(std::cos(a), std::sin(a), 0));
+        face.append(" ").append(std::to_string(i + 1));
     }
     const auto disc = read_obj(circle + face, "x");
     CHECK(area(disc.parts[0].mesh) == doctest::Approx(std::numbers::pi).epsilon(1e-4));
@@ -220,7 +225,7 @@ TEST_CASE("load_obj: materials of a file, and scenes that use it") {
            "newmtl odd\nKd nan -1 7\nNi -3\nd 9\n";
     std::string text = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
     for (const char* name : {"red", "lamp", "clear", "shiny", "odd", "red"})
-        text += std::string("usemtl ") + name + "\nf 1 2 3\n";
+        text.append("usemtl ").append(name).append("\nf 1 2 3\n");
     std::ofstream(folder.file("m.obj")) << text;
     const auto loaded = load_obj(folder.file("m.obj"));
     REQUIRE(loaded.parts.size() == 5);

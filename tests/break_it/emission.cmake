@@ -58,7 +58,7 @@ ljus_break_it(NAME aim-stretch HEADER photons/aiming.hpp TEST emission
 ljus_break_it(NAME emission-sun-plane HEADER photons/emission.hpp TEST emission
     FROM "Vec3T<T>{disc.x, disc.y, -back}"
     TO   "Vec3T<T>{disc.x, disc.y, T(0)}"
-    CASES "emission: each kind of light*")
+    CASES "emission: a sun*")
 
 # A spot light as bright at its rim as in its middle, at the flux of the one that fades.
 ljus_break_it(NAME emission-spot-rim HEADER scene/light.hpp TEST emission

@@ -23,15 +23,15 @@ ljus_break_it(NAME wide-kd-tree-border HEADER photons/point_block.hpp TEST wide_
     CASES "wide_kd_tree: the ball is closed*")
 
 # Boxes that are wholly within the ball without being so.
-ljus_break_it(NAME wide-kd-tree-whole HEADER photons/wide_kd_search.hpp TEST wide_kd_tree
+ljus_break_it(NAME wide-kd-tree-whole HEADER photons/wide_kd_shape.hpp TEST wide_kd_tree
     FROM "const T below = high - x;"
     TO   "const T below = x - high;"
     CASES "wide_kd_tree: every search*")
 
 # Of the ones that are hard to tell apart, all: the k-th is then too far.
 ljus_break_it(NAME wide-kd-tree-kth HEADER photons/wide_kd_search.hpp TEST wide_kd_tree
-    FROM "const auto last = std::ptrdiff_t(k - sure - 1);"
-    TO   "const auto last = std::ptrdiff_t(ties - 1);"
+    FROM "static_cast<std::uint32_t>(k - sure - 1)"
+    TO   "static_cast<std::uint32_t>(ties - 1)"
     CASES "wide_kd_tree: every search*")
 
 # The median of a sample taken for that of all.

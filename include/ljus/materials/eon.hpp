@@ -39,7 +39,7 @@ using Eon = EonT<float>; ///< EonT in float.
 template <std::floating_point T>
 [[nodiscard]] T eon_loss(T sine, T cosine) noexcept {
     const T s = sine, mu = cosine;
-    // (1 - s^3)/mu as mu (1 + s + s^2)/(1 + s), which grazing angles do not divide by 0.
+    // (1 - s^3)/mu as mu (1 + s + s^2)/(1 + s): grazing angles do not divide by 0.
     const T steep = mu * (T(1) + s + s * s) / (T(1) + s) - T(1);
     const T g = s * (std::atan2(s, mu) - s * mu) + T(2) / T(3) * s * steep;
     return std::max(T(0), fon_constant<T> - g * std::numbers::inv_pi_v<T>);

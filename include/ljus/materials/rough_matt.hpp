@@ -63,7 +63,8 @@ struct RoughRatiosT {
 
 /// The full model of 1994, equations (30) and (31) of \cite orennayar1994.
 ///
-/// \f[ C_1 + \cos\phi\,C_2 \tan\beta + (1 - |\cos\phi|)\,C_3 \tan\frac{\alpha+\beta}{2},
+/// \f[ C_1 + \cos\phi\,C_2 \tan\beta +
+///     (1 - |\cos\phi|)\,C_3 \tan\frac{\alpha+\beta}{2},
 ///     \quad 0.17 \frac{\sigma^2}{\sigma^2 + 0.13}
 ///     \left(1 - \cos\phi \left(\frac{2\beta}{\pi}\right)^2\right) \f]
 ///

@@ -78,7 +78,8 @@ flux_in_disc(const WideKdTreeT<T>& tree, const PhotonRecordsT<T>& records,
         for_lanes([&](int i) {
             const T towards = record.direction.x[i] * d.x +
                               record.direction.y[i] * d.y + record.direction.z[i] * d.z;
-            const T w = (inside[i] != 0) & (towards < T(0)) ? weight[i] : T(0);
+            const bool lit = (inside[i] != 0) & (towards < T(0));
+            const T w = lit ? weight[i] : T(0);
             part.x[i] += w * record.flux.x[i];
             part.y[i] += w * record.flux.y[i];
             part.z[i] += w * record.flux.z[i];

@@ -16,9 +16,9 @@ namespace ljus {
 /// \brief Section 3.2.2: the first pass, kept for another day.
 ///
 /// One flat file, the same on every machine: 16 letters that say what it is; version,
-/// bytes of a number, photons and checksum; then the photons, in the order in which they
-/// were emitted. The tree is not in it: it is built anew in less time than a disk takes
-/// to read it, and comes out the same.
+/// bytes of a number, photons and checksum; then the photons, in the order in which
+/// they were emitted. The tree is not in it: it is built anew in less time than a disk
+/// takes to read it, and comes out the same.
 /// \{
 
 /// The photons of a map, in the order in which it was given them.

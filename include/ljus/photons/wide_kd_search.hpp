@@ -10,50 +10,7 @@ namespace ljus {
 /// \addtogroup wide_kd_tree
 /// \{
 
-namespace detail {
-
-// The squared distances to the nearest points of eight boxes.
-template <std::floating_point T>
-[[nodiscard]] constexpr LanesT<T> near2(const WideNodeT<T>& node,
-                                        const Vec3T<T>& center) noexcept {
-    LanesT<T> result{};
-    // To the nearest number of an interval.
-    const auto outside = [](T low, T high, T x) {
-        const T above = x < low ? low : x;
-        return x - (above > high ? high : above);
-    };
-    for_lanes([&](int i) {
-        const T x = outside(node.low.x[i], node.high.x[i], center.x);
-        const T y = outside(node.low.y[i], node.high.y[i], center.y);
-        const T z = outside(node.low.z[i], node.high.z[i], center.z);
-        result.lane[i] = x * x + y * y + z * z;
-    });
-    return result;
-}
-
-// The squared distances to their farthest corners.
-template <std::floating_point T>
-[[nodiscard]] constexpr LanesT<T> far2(const WideNodeT<T>& node,
-                                       const Vec3T<T>& center) noexcept {
-    LanesT<T> result{};
-    const auto across = [](T low, T high, T x) {
-        const T above = x - low;
-        const T below = high - x;
-        return above > below ? above : below;
-    };
-    for_lanes([&](int i) {
-        const T x = across(node.low.x[i], node.high.x[i], center.x);
-        const T y = across(node.low.y[i], node.high.y[i], center.y);
-        const T z = across(node.low.z[i], node.high.z[i], center.z);
-        result.lane[i] = x * x + y * y + z * z;
-    });
-    return result;
-}
-
-} // namespace detail
-
 // Ranges of blocks that together hold all points of a ball; until one visit says true.
-// [in ball]
 template <std::floating_point T>
 template <typename Visit>
 bool WideKdTreeT<T>::in_ball(const Vec3T<T>& center, T radius, const ReachT<T>& reach,
@@ -90,11 +47,9 @@ bool WideKdTreeT<T>::in_ball(const Vec3T<T>& center, T radius, const ReachT<T>& 
     }
     return false;
 }
-// [in ball]
 
 // Ranges of blocks, the nearer ones first, as long as they are within reach; a visit
 // may shorten the reach.
-// [towards]
 template <std::floating_point T>
 template <bool in_order, typename Visit>
 void WideKdTreeT<T>::towards(const Vec3T<T>& center, const ReachT<T>& reach,
@@ -147,7 +102,6 @@ void WideKdTreeT<T>::towards(const Vec3T<T>& center, const ReachT<T>& reach,
         children = 255;
     }
 }
-// [towards]
 
 template <std::floating_point T>
 std::optional<Neighbor> WideKdTreeT<T>::nearest(const Vec3T<T>& center,
@@ -224,10 +178,6 @@ std::size_t WideKdTreeT<T>::count_nearest(const Vec3T<T>& center, ReachT<T> reac
     alignas(32) T d2[room + 8];
     std::uint32_t index[room + 8];
     std::uint32_t band[room];
-    struct Tie {
-        double distance2;
-        std::uint32_t index;
-    } tie[room];
     const std::size_t k = found.size();
     std::size_t count = 0;
 
@@ -246,20 +196,19 @@ std::size_t WideKdTreeT<T>::count_nearest(const Vec3T<T>& center, ReachT<T> reac
             sure += x <= kth.sure;
             ties += x > kth.sure && x <= kth.last;
         }
-        for (std::size_t i = 0; i < ties; ++i)
-            tie[i] = {distance2(point(band[i]), center), band[i]};
-        const auto last = std::ptrdiff_t(k - sure - 1);
-        std::nth_element(tie, tie + last, tie + ties, [](const Tie& a, const Tie& b) {
-            return a.distance2 < b.distance2 ||
-                   (a.distance2 == b.distance2 && a.index < b.index);
-        });
+        const auto exact = [&](std::uint32_t i) {
+            return Neighbor{distance2(point(i), center), i};
+        };
+        const std::uint32_t last = static_cast<std::uint32_t>(k - sure - 1);
+        std::nth_element(band, band + last, band + ties,
+                         [&](auto a, auto b) { return exact(a) < exact(b); });
+        const double limit2 = exact(band[last]).distance2;
         for (std::size_t i = 0; sure < k; ++i, ++sure) {
-            d2[sure] =
-                T(std::min(tie[i].distance2, double(std::numeric_limits<T>::max())));
-            index[sure] = tie[i].index;
+            d2[sure] = distances2(blocks_[band[i] / 8], center).lane[band[i] % 8];
+            index[sure] = band[i];
         }
         count = k;
-        reach = ReachT<T>::up_to(tie[last].distance2, true);
+        reach = ReachT<T>::up_to(limit2, true);
     };
 
     std::size_t enough = k;

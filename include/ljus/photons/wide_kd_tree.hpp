@@ -22,8 +22,9 @@ struct FoundBlockT {
     LanesT<T> distance2;     ///< Squared, in T; infinite for those not found.
 };
 
-/// The twin of KdTreeT, with the same answers: a k-d tree of tight boxes, eight to a
-/// node, over leaves of 16 to 32 points in lanes, without a single pointer.
+/// The twin of KdTreeT, with the same answers: a k-d tree \cite bentley1975 of tight
+/// boxes, eight to a node, over leaves of 16 to 32 points in lanes, without a single
+/// pointer.
 ///
 /// Distances are formed in T, eight at a time; those so near to the limit of a search
 /// that T cannot tell are formed once more in double, as everywhere: see ReachT.

@@ -73,8 +73,8 @@ template <std::floating_point T>
 }
 
 /// Where a camera sees a photon: nothing may stand in front of it, glass neither, and
-/// it has to lie on the side of its surface that faces the camera. What hides a photon is
-/// nearer by more than a thousandth of the way.
+/// it has to lie on the side of its surface that faces the camera. What hides a photon
+/// is nearer by more than a thousandth of the way.
 /// \param scene   The scene of the photon.
 /// \param camera  The camera.
 /// \param photon  The photon.
