@@ -99,16 +99,16 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
 
     for (int depth = 1;; ++depth) {
         start_bounce(stream, static_cast<std::uint64_t>(depth));
-        const auto hit = closest_hit(scene, ray);
-        if (!hit) break;
-        const ShadingT<T> at = shading(scene, ray, *hit, medium);
-        throughput *= transmittance(medium, hit->at.t);
+        const auto met = meet(scene, ray, stream);
+        if (!met) break;
+        const ShadingT<T> at = shading(scene, ray, met->hit, medium);
+        throughput *= transmittance(medium, met->distance) * met->arrives();
 
         // Emission, with the weight that the shadow rays left.
         if (at.shines()) {
             T weight = T(1);
             if (bsdf_pdf > T(0) && limits.sample_lights)
-                weight = balance(bsdf_pdf, pdf_of_light(tracer, from, *hit, at));
+                weight = balance(bsdf_pdf, pdf_of_light(tracer, from, met->hit, at));
             const RgbT<T> term = weight * throughput * at.surface.object.emission;
             log.term("emission", "L", term);
             sum += term;

@@ -154,10 +154,10 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
 
     for (int depth = 1; depth <= settings.max_depth; ++depth) {
         start_bounce(stream, static_cast<std::uint64_t>(depth));
-        const auto hit = closest_hit(mapper.scene, ray);
-        if (!hit) break;
-        const ShadingT<T> at = shading(mapper.scene, ray, *hit, medium);
-        throughput *= transmittance(medium, hit->at.t);
+        const auto met = meet(mapper.scene, ray, stream);
+        if (!met) break;
+        const ShadingT<T> at = shading(mapper.scene, ray, met->hit, medium);
+        throughput *= transmittance(medium, met->distance) * met->arrives();
         if (at.shines() && !met_diffuse)
             add("emission", "L", at.surface.object.emission);
 
