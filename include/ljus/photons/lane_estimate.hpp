@@ -68,7 +68,7 @@ flux_in_disc(const WideKdTreeT<T>& tree, const PhotonRecordsT<T>& records,
             x[i] = block.distance2.lane[i] * per_radius2;
             inside[i] = (x[i] < std::numeric_limits<T>::infinity()) & (h <= height) &
                         (-h <= height) & !turned &
-                        static_cast<int>((disc.kinds >> kind) & 1u);
+                        static_cast<int>(disc.kinds >> kind & 1u);
             count += inside[i];
         });
         gathered += static_cast<std::uint64_t>(count);
@@ -78,7 +78,8 @@ flux_in_disc(const WideKdTreeT<T>& tree, const PhotonRecordsT<T>& records,
         for_lanes([&](int i) {
             const T towards = record.direction.x[i] * d.x +
                               record.direction.y[i] * d.y + record.direction.z[i] * d.z;
-            const T w = ((inside[i] != 0) & (towards < T(0))) ? weight[i] : T(0);
+            const bool lit = (inside[i] != 0) & (towards < T(0));
+            const T w = lit ? weight[i] : T(0);
             part.x[i] += w * record.flux.x[i];
             part.y[i] += w * record.flux.y[i];
             part.z[i] += w * record.flux.z[i];

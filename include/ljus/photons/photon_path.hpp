@@ -167,9 +167,8 @@ template <std::floating_point T, typename Material, typename Stream>
         return false;
     }
     const auto& scattered = next->sample;
-    const auto survivor =
-        play_roulette(flight.flux, scattered.weight / photon.chance,
-                      next_1d<T>(stream), audit);
+    const auto survivor = play_roulette(flight.flux, scattered.weight / photon.chance,
+                                        next_1d<T>(stream), audit);
     if (!survivor) return false;
 
     flight.flux = *survivor;

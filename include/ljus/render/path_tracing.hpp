@@ -70,6 +70,96 @@ template <typename Scene, std::floating_point T>
     return pdf * probability_of<T>(tracer.lights, at.surface.object.light);
 }
 
+/// A path from the camera, on its way.
+template <std::floating_point T>
+struct PathT {
+    RayT<T> ray{};         ///< Where it goes.
+    RgbT<T> throughput{1}; ///< What it brings of the radiance that it finds.
+    T squeeze = T(1);      ///< What of that is no loss, see survives().
+    RgbT<T> medium{T(0)};  ///< Absorption of what it is in, per scene unit.
+    Vec3T<T> from{T(0)};   ///< The surface that it comes from.
+    T bsdf_pdf = T(0); ///< Of its direction, per steradian; 0: no other was possible.
+};
+
+/// The light of a lamp that a path has met, with the weight that the shadow ray from
+/// the surface before left it.
+/// \param tracer  The scene and the limits.
+/// \param path    The path.
+/// \param hit     Where it met the lamp.
+/// \param at      The same, ready to be shaded.
+/// \return Radiance, its share of the path's.
+/// \report{Eq. (1)}
+// [emitted]
+template <typename Scene, std::floating_point T>
+[[nodiscard]] RgbT<T> emitted(const PathTracer<Scene>& tracer, const PathT<T>& path,
+                              const SceneHitT<T>& hit, const ShadingT<T>& at) {
+    const bool shared = path.bsdf_pdf > T(0) && tracer.settings.sample_lights;
+    const T weight =
+        shared ? balance(path.bsdf_pdf, pdf_of_light(tracer, path.from, hit, at))
+               : T(1);
+    return weight * path.throughput * at.surface.object.emission;
+}
+// [emitted]
+
+/// The light of one lamp, chosen by power, at a surface of a path: by a shadow ray,
+/// with the weight that it leaves to the path itself.
+/// \param tracer    The scene and the limits.
+/// \param path      The path.
+/// \param at        The surface.
+/// \param material  What it is made of.
+/// \param stream    Three numbers are drawn.
+/// \param counts    Counts the ray.
+/// \return Radiance, its share of the path's.
+/// \report{Section 3.2.3}
+// [sampled]
+template <typename Scene, std::floating_point T, typename Material>
+[[nodiscard]] RgbT<T> light_of_one(const PathTracer<Scene>& tracer,
+                                   const PathT<T>& path, const ShadingT<T>& at,
+                                   const Material& material, RandomStream& stream,
+                                   Counts& counts) {
+    const auto chosen = choose_light(tracer.lights, next_1d<T>(stream));
+    const auto weigh = [&](const LightSampleT<T>& light, const Vec3T<T>& wi) {
+        if (light.pdf == T(0)) return T(1); // no path meets a point light
+        return balance(light.pdf * chosen.probability, pdf(material, at.wo, wi));
+    };
+    return path.throughput *
+           direct_light(tracer.scene, tracer.scene.lights[chosen.light], at, material,
+                        next_2d<T>(stream), weigh, counts) /
+           chosen.probability;
+}
+// [sampled]
+
+/// Sends a path on from a surface, in a direction that the material samples.
+/// \param path      The path.
+/// \param at        The surface.
+/// \param material  What it is made of.
+/// \param last      Whether it is the last surface: from there a path goes on to the
+///                  lamp that its shadow ray left a share of, and to nothing else.
+/// \param stream    Three numbers are drawn.
+/// \param log       Told of the vertex.
+/// \return False if the path ends here.
+/// \report{Section 3.2.4}
+// [send on]
+template <std::floating_point T, typename Material, typename Log>
+[[nodiscard]] bool send_on(PathT<T>& path, const ShadingT<T>& at,
+                           const Material& material, bool last, RandomStream& stream,
+                           Log& log) {
+    const auto scattered =
+        scatter(at.surface, material, at.wo, next_3d<T>(stream), Transport::radiance);
+    if (!scattered) return false;
+    const BsdfSampleT<T>& next = scattered->sample;
+    if (last && next.specular) return false;
+    path.throughput *= next.weight;
+    path.squeeze *= next.squeeze;
+    path.bsdf_pdf = next.pdf;
+    path.from = at.surface.point.position;
+    log.vertex(next.specular ? 'S' : 'D', path.from, path.throughput, next.pdf);
+    path.medium = medium_beyond(path.medium, material, at.wo, next.wi);
+    path.ray = ray_from(at.surface.point, scattered->wi);
+    return true;
+}
+// [send on]
+
 /// The radiance that one random path finds.
 ///
 /// At each diffuse surface a light, chosen by power, is asked by a shadow ray; the path
@@ -85,76 +175,38 @@ template <typename Scene, std::floating_point T>
 /// \report{Eq. (1)}
 // [radiance]
 template <typename Scene, std::floating_point T, typename Log = NoLog>
-[[nodiscard]] RgbT<T> radiance(const PathTracer<Scene>& tracer, RayT<T> ray,
+[[nodiscard]] RgbT<T> radiance(const PathTracer<Scene>& tracer, const RayT<T>& ray,
                                RandomStream& stream, Counts& counts, Log&& log = {}) {
     const auto& scene = tracer.scene;
     const PathTracing& limits = tracer.settings;
     RgbT<T> sum{T(0)};
-    RgbT<T> throughput{T(1)};
-    T squeeze = T(1); // what of the throughput is no loss, see survives()
-    RgbT<T> medium{T(0)};
-    T bsdf_pdf = T(0);   // of the direction the path came in, 0: a delta
-    Vec3T<T> from{T(0)}; // the surface it came from
+    PathT<T> path{.ray = ray};
     log.begin();
+    const auto add = [&](const char* owner, const char* letters, const RgbT<T>& term) {
+        log.term(owner, letters, term);
+        sum += term;
+    };
 
     for (int depth = 1;; ++depth) {
         start_bounce(stream, static_cast<std::uint64_t>(depth));
-        const auto met = meet(scene, ray, stream);
+        const auto met = meet(scene, path.ray, stream);
         if (!met) break;
-        const ShadingT<T> at = shading(scene, ray, met->hit, medium);
-        throughput *= transmittance(medium, met->distance) * met->arrives();
-
-        // Emission, with the weight that the shadow rays left.
-        if (at.shines()) {
-            T weight = T(1);
-            if (bsdf_pdf > T(0) && limits.sample_lights)
-                weight = balance(bsdf_pdf, pdf_of_light(tracer, from, met->hit, at));
-            const RgbT<T> term = weight * throughput * at.surface.object.emission;
-            log.term("emission", "L", term);
-            sum += term;
-        }
+        const ShadingT<T> at = shading(scene, path.ray, met->hit, path.medium);
+        path.throughput *= transmittance(path.medium, met->distance) * met->arrives();
+        if (at.shines()) add("emission", "L", emitted(tracer, path, met->hit, at));
         if (depth > limits.max_depth) break;
 
-        const bool goes_on =
-            scene.visit_material(at.surface.object.material, [&](const auto& material) {
-                if (has(lobes(material), Lobes::diffuse) && limits.sample_lights &&
-                    !scene.lights.empty()) {
-                    const auto chosen = choose_light(tracer.lights, next_1d<T>(stream));
-                    const auto weigh = [&](const LightSampleT<T>& light,
-                                           const Vec3T<T>& wi) {
-                        if (light.pdf == T(0))
-                            return T(1); // no path meets a point light
-                        return balance(light.pdf * chosen.probability,
-                                       pdf(material, at.wo, wi));
-                    };
-                    const RgbT<T> term =
-                        throughput *
-                        direct_light(scene, scene.lights[chosen.light], at, material,
-                                     next_2d<T>(stream), weigh, counts) /
-                        chosen.probability;
-                    log.term("shadow ray", "DL", term);
-                    sum += term;
-                }
-                const auto scattered =
-                    scatter(at.surface, material, at.wo, next_3d<T>(stream),
-                            Transport::radiance);
-                if (!scattered) return false;
-                const auto* next = &scattered->sample;
-                // From the last surface a path goes on to the lamp that its shadow ray
-                // left a share of, and to nothing else.
-                if (depth == limits.max_depth && next->specular) return false;
-                throughput *= next->weight;
-                squeeze *= next->squeeze;
-                bsdf_pdf = next->pdf;
-                from = at.surface.point.position;
-                log.vertex(next->specular ? 'S' : 'D', from, throughput, next->pdf);
-                medium = medium_beyond(medium, material, at.wo, next->wi);
-                ray = ray_from(at.surface.point, scattered->wi);
-                return true;
-            });
-        if (!goes_on || is_black(throughput)) break;
+        const auto at_material = [&](const auto& material) {
+            if (has(lobes(material), Lobes::diffuse) && limits.sample_lights &&
+                !scene.lights.empty())
+                add("shadow ray", "DL",
+                    light_of_one(tracer, path, at, material, stream, counts));
+            return send_on(path, at, material, depth == limits.max_depth, stream, log);
+        };
+        if (!scene.visit_material(at.surface.object.material, at_material)) break;
+        if (is_black(path.throughput)) break;
         if (depth >= limits.roulette_depth &&
-            !survives(throughput, squeeze, next_1d<T>(stream)))
+            !survives(path.throughput, path.squeeze, next_1d<T>(stream)))
             break;
         ++counts.bounce_rays;
     }

@@ -102,30 +102,46 @@ void light_at(const PhotonMapper<Scene>& mapper, const ShadingT<T>& at,
               const Material& material, bool gather, RandomStream& stream,
               Counts& counts, Add& add) {
     const PhotonMapping& settings = mapper.settings;
-    const auto ask = [&](const PhotonMapT<T>& map, const Gather& how) {
-        const auto light = [](PhotonKind kind) { return kind != PhotonKind::shadow; };
+    const auto ask = [&](const PhotonMapT<T>& map, const Gather& how, auto wanted) {
         ++counts.map_queries;
-        return estimate_radiance(map, at.surface, material, at.wo, how, light,
+        return estimate_radiance(map, at.surface, material, at.wo, how, wanted,
                                  counts.map_photons);
     };
+    const auto light = [](PhotonKind kind) { return kind != PhotonKind::shadow; };
+    const auto indirect = [](PhotonKind kind) { return kind == PhotonKind::indirect; };
     if (gather)
         add("general map", "DL|D..DL",
-            ask(mapper.maps.general, settings.gather_general));
+            ask(mapper.maps.general, settings.gather_general, light));
     else
         add("shadow ray", "DL",
             light_of_all(mapper.scene, at, material, settings.shadow_rays, stream,
                          counts));
+    if (settings.indirect == IndirectLight::photons)
+        add("general map", "D..DL",
+            ask(mapper.maps.general, settings.gather_general, indirect));
     if (!mapper.maps.caustics.empty())
         add("caustics map", "DS+L",
-            ask(mapper.maps.caustics, settings.gather_caustics));
+            ask(mapper.maps.caustics, settings.gather_caustics, light));
 }
 // [light_at]
+
+/// A camera path on its way.
+template <std::floating_point T>
+struct MappedPathT {
+    RayT<T> ray{};            ///< Where it goes.
+    RgbT<T> throughput{T(1)}; ///< What of the light at its end comes to the camera.
+    T squeeze = T(1);         ///< What of the throughput is no loss, see survives().
+    RgbT<T> medium{T(0)};     ///< Absorption of what it is in, per scene unit.
+    std::uint64_t bounce = 0; ///< Where its random numbers start.
+};
 
 /// The radiance that one camera path finds with the help of the photon maps.
 ///
 /// At each diffuse surface: one shadow ray to each light, the caustics map, and one
 /// indirect ray; at each mirror or glass: one branch. With IndirectLight::map, the
-/// first diffuse surface that an indirect ray meets answers from the general map.
+/// first diffuse surface that an indirect ray meets answers from the general map; with
+/// IndirectLight::photons, the one that the camera path meets itself. With split_glass
+/// a path goes both ways at the glass that the camera sees.
 /// \param mapper  The scene, the maps, the limits.
 /// \param ray     A primary ray.
 /// \param stream  The numbers of this path.
@@ -142,54 +158,86 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
                                RandomStream& stream, Counts& counts, Log&& log = {}) {
     const PhotonMapping& settings = mapper.settings;
     RgbT<T> sum{T(0)};
-    RgbT<T> throughput{T(1)};
-    T squeeze = T(1); // what of the throughput is no loss, see survives()
-    RgbT<T> medium{T(0)};
-    bool met_diffuse = false;
-    log.begin();
-    const auto add = [&](const char* owner, const char* letters, const RgbT<T>& light) {
-        log.term(owner, letters, throughput * light);
-        sum += throughput * light;
-    };
+    std::optional<MappedPathT<T>> other; // the second way at the first glass
 
-    for (int depth = 1; depth <= settings.max_depth; ++depth) {
-        start_bounce(stream, static_cast<std::uint64_t>(depth));
-        const auto met = meet(mapper.scene, ray, stream);
-        if (!met) break;
-        const ShadingT<T> at = shading(mapper.scene, ray, met->hit, medium);
-        throughput *= transmittance(medium, met->distance) * met->arrives();
-        if (at.shines() && !met_diffuse)
-            add("emission", "L", at.surface.object.emission);
-
-        const bool gather = met_diffuse && settings.indirect == IndirectLight::map;
-        const auto at_material = [&](const auto& material) {
-            if (has(lobes(material), Lobes::diffuse))
-                light_at(mapper, at, material, gather, stream, counts, add);
-            if (depth == settings.max_depth) return false;
-
-            // Go on by one branch; after gathering, by mirrors and glass only.
-            const bool no_indirect = gather || settings.indirect == IndirectLight::none;
-            const auto scattered = scatter(at.surface, material, at.wo,
-                                           next_3d<T>(stream), Transport::radiance,
-                                           no_indirect ? Lobes::specular : Lobes::all);
-            if (!scattered) return false;
-            const auto* next = &scattered->sample;
-            throughput *= next->weight;
-            squeeze *= next->squeeze;
-            met_diffuse = met_diffuse || !next->specular;
-            log.vertex(next->specular ? 'S' : 'D', at.surface.point.position,
-                       throughput, next->pdf);
-            medium = medium_beyond(medium, material, at.wo, next->wi);
-            ray = ray_from(at.surface.point, scattered->wi);
-            return true;
+    const auto follow = [&](MappedPathT<T> path, int first) {
+        RgbT<T>& throughput = path.throughput;
+        bool met_diffuse = false;
+        const auto add = [&](const char* owner, const char* letters,
+                             const RgbT<T>& light) {
+            log.term(owner, letters, throughput * light);
+            sum += throughput * light;
         };
-        if (!mapper.scene.visit_material(at.surface.object.material, at_material))
-            break;
-        if (is_black(throughput)) break;
-        if (depth >= settings.roulette_depth &&
-            !survives(throughput, squeeze, next_1d<T>(stream)))
-            break;
+        for (int depth = first; depth <= settings.max_depth; ++depth) {
+            start_bounce(stream, path.bounce + static_cast<std::uint64_t>(depth));
+            const auto met = meet(mapper.scene, path.ray, stream);
+            if (!met) return;
+            const ShadingT<T> at =
+                shading(mapper.scene, path.ray, met->hit, path.medium);
+            throughput *= transmittance(path.medium, met->distance) * met->arrives();
+            if (at.shines() && !met_diffuse)
+                add("emission", "L", at.surface.object.emission);
+
+            const bool gather = met_diffuse && settings.indirect == IndirectLight::map;
+            const auto at_material = [&](const auto& material) {
+                if (has(lobes(material), Lobes::diffuse))
+                    light_at(mapper, at, material, gather, stream, counts, add);
+                if (depth == settings.max_depth) return false;
+
+                const auto go = [&](MappedPathT<T>& on, const BsdfSampleT<T>& next,
+                                    const Vec3T<T>& wi) {
+                    on.throughput *= next.weight;
+                    on.squeeze *= next.squeeze;
+                    on.medium = medium_beyond(on.medium, material, at.wo, next.wi);
+                    on.ray = ray_from(at.surface.point, wi);
+                };
+                if constexpr (requires {
+                                  both_ways(material, at.wo, Transport::radiance);
+                              })
+                    if (depth == 1 && settings.split_glass && !at.surface.smooth)
+                        if (const auto both =
+                                both_ways(material, at.wo, Transport::radiance)) {
+                            other = path;
+                            other->bounce = std::uint64_t(1) << 32; // its own numbers
+                            const auto& [back, through] = *both;
+                            go(*other, through, to_world(at.surface.frame, through.wi));
+                            go(path, back, to_world(at.surface.frame, back.wi));
+                            log.vertex('S', at.surface.point.position, throughput,
+                                       T(0));
+                            return true;
+                        }
+
+                // Go on by one branch; after gathering, by mirrors and glass only.
+                const bool no_indirect = gather ||
+                                         settings.indirect == IndirectLight::photons ||
+                                         settings.indirect == IndirectLight::none;
+                const auto scattered = scatter(
+                    at.surface, material, at.wo, next_3d<T>(stream),
+                    Transport::radiance, no_indirect ? Lobes::specular : Lobes::all);
+                if (!scattered) return false;
+                const auto* next = &scattered->sample;
+                go(path, *next, scattered->wi);
+                met_diffuse = met_diffuse || !next->specular;
+                log.vertex(next->specular ? 'S' : 'D', at.surface.point.position,
+                           throughput, next->pdf);
+                return true;
+            };
+            if (!mapper.scene.visit_material(at.surface.object.material, at_material))
+                return;
+            if (is_black(throughput)) return;
+            if (depth >= settings.roulette_depth &&
+                !survives(throughput, path.squeeze, next_1d<T>(stream)))
+                return;
+            ++counts.bounce_rays;
+        }
+    };
+    log.begin();
+    follow({.ray = ray}, 1);
+    if (other) {
         ++counts.bounce_rays;
+        log.begin();
+        log.vertex('S', other->ray.origin, other->throughput, T(0));
+        follow(*other, 2);
     }
     return sum;
 }

@@ -100,7 +100,9 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
         radiance += visit_material(material, [](const auto& m) { return emission(m); });
 
         const bool sheet = visit_material(material, [](const auto& m) {
-            return requires { straight(m, Vec3T<Scalar>{}, Vec3T<Scalar>{}); };
+            return requires {
+                straight(m, Vec3T<Scalar>{}, Vec3T<Scalar>{});
+            };
         });
         require(!sheet || is_black(radiance), "the radiance of a thin sheet", radiance,
                 "black: light goes straight on through it");
