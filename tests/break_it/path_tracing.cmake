@@ -13,10 +13,10 @@ ljus_break_it(NAME path-tracing-emission-weight HEADER render/path_tracing.hpp
     CASES "path tracing: in a furnace every*")
 
 # The last surface's lamp, seen by nobody but its shadow ray, which is weighed down.
-ljus_break_it(NAME path-tracing-last-surface HEADER render/path_tracing.hpp
+ljus_break_it(NAME path-tracing-last-surface HEADER render/camera_path.hpp
     TEST path_tracing
-    FROM "!next || (last && next->specular)"
-    TO   "!next || last"
+    FROM "!scattered || (last && scattered->sample.specular)"
+    TO   "!scattered || last"
     CASES "path tracing: in a furnace every*")
 
 # Radiance leaves glass unchanged: only light that starts in the glass notices.

@@ -3,6 +3,7 @@
 /// \file ljus/render/path_tracing.hpp
 /// \brief The rendering equation solved by random paths: the judge of all the others.
 
+#include "ljus/render/camera_path.hpp"
 #include "ljus/render/direct_light.hpp"
 #include "ljus/render/path_log.hpp"
 #include "ljus/scene/indexed_scene.hpp"
@@ -70,17 +71,6 @@ template <typename Scene, std::floating_point T>
     return pdf * probability_of<T>(tracer.lights, at.surface.object.light);
 }
 
-/// A path from the camera, on its way.
-template <std::floating_point T>
-struct PathT {
-    RayT<T> ray{};         ///< Where it goes.
-    RgbT<T> throughput{1}; ///< What it brings of the radiance that it finds.
-    T squeeze = T(1);      ///< What of that is no loss, see survives().
-    RgbT<T> medium{T(0)};  ///< Absorption of what it is in, per scene unit.
-    Vec3T<T> from{T(0)};   ///< The surface that it comes from.
-    T bsdf_pdf = T(0); ///< Of its direction, per steradian; 0: no other was possible.
-};
-
 /// The light of a lamp that a path has met, with the weight that the shadow ray from
 /// the surface before left it.
 /// \param tracer  The scene and the limits.
@@ -129,37 +119,6 @@ template <typename Scene, std::floating_point T, typename Material>
 }
 // [sampled]
 
-/// Sends a path on from a surface, in a direction that the material samples.
-/// \param path      The path.
-/// \param at        The surface.
-/// \param material  What it is made of.
-/// \param last      Whether it is the last surface: from there a path goes on to the
-///                  lamp that its shadow ray left a share of, and to nothing else.
-/// \param stream    Three numbers are drawn.
-/// \param log       Told of the vertex.
-/// \return False if the path ends here.
-/// \report{Section 3.2.4}
-// [send on]
-template <std::floating_point T, typename Material, typename Log>
-[[nodiscard]] bool send_on(PathT<T>& path, const ShadingT<T>& at,
-                           const Material& material, bool last, RandomStream& stream,
-                           Log& log) {
-    const auto scattered =
-        scatter(at.surface, material, at.wo, next_3d<T>(stream), Transport::radiance);
-    if (!scattered) return false;
-    const BsdfSampleT<T>& next = scattered->sample;
-    if (last && next.specular) return false;
-    path.throughput *= next.weight;
-    path.squeeze *= next.squeeze;
-    path.bsdf_pdf = next.pdf;
-    path.from = at.surface.point.position;
-    log.vertex(next.specular ? 'S' : 'D', path.from, path.throughput, next.pdf);
-    path.medium = medium_beyond(path.medium, material, at.wo, next.wi);
-    path.ray = ray_from(at.surface.point, scattered->wi);
-    return true;
-}
-// [send on]
-
 /// The radiance that one random path finds.
 ///
 /// At each diffuse surface a light, chosen by power, is asked by a shadow ray; the path
@@ -201,7 +160,8 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
                 !scene.lights.empty())
                 add("shadow ray", "DL",
                     light_of_one(tracer, path, at, material, stream, counts));
-            return send_on(path, at, material, depth == limits.max_depth, stream, log);
+            return send_on(path, at, material, Lobes::all, depth == limits.max_depth,
+                           stream, log);
         };
         if (!scene.visit_material(at.surface.object.material, at_material)) break;
         if (is_black(path.throughput)) break;

@@ -5,6 +5,7 @@
 
 #include "ljus/photons/photon_map.hpp"
 #include "ljus/photons/tracing.hpp"
+#include "ljus/render/camera_path.hpp"
 #include "ljus/render/direct_light.hpp"
 #include "ljus/render/path_log.hpp"
 #include "ljus/render/survey.hpp"
@@ -125,16 +126,6 @@ void light_at(const PhotonMapper<Scene>& mapper, const ShadingT<T>& at,
 }
 // [light_at]
 
-/// A camera path on its way.
-template <std::floating_point T>
-struct MappedPathT {
-    RayT<T> ray{};            ///< Where it goes.
-    RgbT<T> throughput{T(1)}; ///< What of the light at its end comes to the camera.
-    T squeeze = T(1);         ///< What of the throughput is no loss, see survives().
-    RgbT<T> medium{T(0)};     ///< Absorption of what it is in, per scene unit.
-    std::uint64_t bounce = 0; ///< Where its random numbers start.
-};
-
 /// The radiance that one camera path finds with the help of the photon maps.
 ///
 /// At each diffuse surface: one shadow ray to each light, the caustics map, and one
@@ -158,15 +149,13 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
                                RandomStream& stream, Counts& counts, Log&& log = {}) {
     const PhotonMapping& settings = mapper.settings;
     RgbT<T> sum{T(0)};
-    std::optional<MappedPathT<T>> other; // the second way at the first glass
+    std::optional<PathT<T>> other; // the second way at the first glass
 
-    const auto follow = [&](MappedPathT<T> path, int first) {
-        RgbT<T>& throughput = path.throughput;
-        bool met_diffuse = false;
+    const auto follow = [&](PathT<T> path, int first) {
         const auto add = [&](const char* owner, const char* letters,
                              const RgbT<T>& light) {
-            log.term(owner, letters, throughput * light);
-            sum += throughput * light;
+            log.term(owner, letters, path.throughput * light);
+            sum += path.throughput * light;
         };
         for (int depth = first; depth <= settings.max_depth; ++depth) {
             start_bounce(stream, path.bounce + static_cast<std::uint64_t>(depth));
@@ -174,59 +163,34 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
             if (!met) return;
             const ShadingT<T> at =
                 shading(mapper.scene, path.ray, met->hit, path.medium);
-            throughput *= transmittance(path.medium, met->distance) * met->arrives();
-            if (at.shines() && !met_diffuse)
+            path.throughput *=
+                transmittance(path.medium, met->distance) * met->arrives();
+            if (at.shines() && !path.met_diffuse)
                 add("emission", "L", at.surface.object.emission);
 
-            const bool gather = met_diffuse && settings.indirect == IndirectLight::map;
+            const bool gather =
+                path.met_diffuse && settings.indirect == IndirectLight::map;
             const auto at_material = [&](const auto& material) {
                 if (has(lobes(material), Lobes::diffuse))
                     light_at(mapper, at, material, gather, stream, counts, add);
                 if (depth == settings.max_depth) return false;
-
-                const auto go = [&](MappedPathT<T>& on, const BsdfSampleT<T>& next,
-                                    const Vec3T<T>& wi) {
-                    on.throughput *= next.weight;
-                    on.squeeze *= next.squeeze;
-                    on.medium = medium_beyond(on.medium, material, at.wo, next.wi);
-                    on.ray = ray_from(at.surface.point, wi);
-                };
-                if constexpr (requires {
-                                  both_ways(material, at.wo, Transport::radiance);
-                              })
-                    if (depth == 1 && settings.split_glass && !at.surface.smooth)
-                        if (const auto both =
-                                both_ways(material, at.wo, Transport::radiance)) {
-                            other = path;
-                            other->bounce = std::uint64_t(1) << 32; // its own numbers
-                            const auto& [back, through] = *both;
-                            go(*other, through, to_world(at.surface.frame, through.wi));
-                            go(path, back, to_world(at.surface.frame, back.wi));
-                            log.vertex('S', at.surface.point.position, throughput,
-                                       T(0));
-                            return true;
-                        }
-
+                if (depth == 1 && settings.split_glass) {
+                    other = split(path, at, material, log);
+                    if (other) return true;
+                }
                 // Go on by one branch; after gathering, by mirrors and glass only.
-                const bool no_indirect = gather ||
-                                         settings.indirect == IndirectLight::photons ||
-                                         settings.indirect == IndirectLight::none;
-                const auto scattered = scatter(
-                    at.surface, material, at.wo, next_3d<T>(stream),
-                    Transport::radiance, no_indirect ? Lobes::specular : Lobes::all);
-                if (!scattered) return false;
-                const auto* next = &scattered->sample;
-                go(path, *next, scattered->wi);
-                met_diffuse = met_diffuse || !next->specular;
-                log.vertex(next->specular ? 'S' : 'D', at.surface.point.position,
-                           throughput, next->pdf);
-                return true;
+                const bool by_rays =
+                    !gather && (settings.indirect == IndirectLight::rays ||
+                                settings.indirect == IndirectLight::map);
+                return send_on(path, at, material,
+                               by_rays ? Lobes::all : Lobes::specular, false, stream,
+                               log);
             };
             if (!mapper.scene.visit_material(at.surface.object.material, at_material))
                 return;
-            if (is_black(throughput)) return;
+            if (is_black(path.throughput)) return;
             if (depth >= settings.roulette_depth &&
-                !survives(throughput, path.squeeze, next_1d<T>(stream)))
+                !survives(path.throughput, path.squeeze, next_1d<T>(stream)))
                 return;
             ++counts.bounce_rays;
         }
