@@ -16,8 +16,14 @@ ljus_break_it(NAME thin-glass-tint HEADER materials/thin_glass.hpp TEST thin_gla
     TO   "pane.tint[c]"
     CASES "thin glass: the sum*,thin glass: what textbooks*")
 
-# The probability of the choice forgotten.
-ljus_break_it(NAME thin-glass-choice HEADER materials/thin_glass.hpp TEST thin_glass
-    FROM "shares.transmitted * (sum / through)"
-    TO   "shares.transmitted"
-    CASES "thin glass: samples*")
+# What comes back in place of what goes on.
+ljus_break_it(NAME thin-glass-straight HEADER materials/thin_glass.hpp TEST thin_glass
+    FROM "return pane_shares(pane, std::min(std::abs(wo.z), T(1))).transmitted;"
+    TO   "return pane_shares(pane, std::min(std::abs(wo.z), T(1))).reflected;"
+    CASES "thin glass: samples*,thin glass: a lamp*")
+
+# The texture of a pane asked at no place.
+ljus_break_it(NAME thin-glass-textured HEADER materials/textured.hpp TEST thin_glass
+    FROM "return straight(at_point(textured, position), position, wo);"
+    TO   "return straight(textured.base, position, wo);"
+    CASES "thin glass: a lamp*")

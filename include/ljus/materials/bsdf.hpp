@@ -131,15 +131,18 @@ requires std::floating_point<typename M::Scalar>
     return RgbT<typename M::Scalar>{0};
 }
 
-/// The material of a place, for every material that is the same everywhere: itself. See
-/// Textured.
-/// \param m  The material.
-/// \return m.
+/// A material as it is at a point: itself, or `at_point(m, position)` of one that is
+/// not the same everywhere.
+/// \param m         The material; must outlive the result.
+/// \param position  The point.
+/// \return Something to sample().
 template <typename M>
-requires std::floating_point<typename M::Scalar>
-[[nodiscard]] constexpr const M&
-material_at(const M& m, const Vec3T<typename M::Scalar>&) noexcept {
-    return m;
+[[nodiscard]] constexpr decltype(auto)
+material_at(const M& m, const Vec3T<typename M::Scalar>& position) noexcept {
+    if constexpr (requires { at_point(m, position); })
+        return at_point(m, position);
+    else
+        return (m);
 }
 
 /// Whether a material has specular parts only, so that shadow rays and photon maps have

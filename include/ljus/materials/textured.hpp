@@ -11,8 +11,8 @@ namespace ljus {
 /// \defgroup textured Textured materials
 /// \brief A material that becomes another one at each place.
 ///
-/// Renderers ask material_at(): a plain material answers with itself, a textured one
-/// with its base in the colour of the place. So no plain material knows of textures,
+/// Renderers ask material_at(), which asks at_point(): a plain material has none and is
+/// itself, a textured one answers with its base in the colour of the place. So no plain material knows of textures,
 /// and a scene without them is the same program as before.
 /// \{
 
@@ -44,16 +44,28 @@ colored(Base base, const RgbT<typename Base::Scalar>& color) noexcept {
 
 /// The material of a place: the base in the texture's colour.
 /// \param textured  The material.
-/// \param place     In scene units.
+/// \param position  In scene units.
 /// \return A base material.
 /// \cost color_at() of the texture.
-// [material_at]
+// [at_point]
 template <typename Base, typename Texture>
-[[nodiscard]] Base material_at(const Textured<Base, Texture>& textured,
-                               const Vec3T<typename Base::Scalar>& place) noexcept {
-    return colored(textured.base, color_at(textured.texture, place));
+[[nodiscard]] Base at_point(const Textured<Base, Texture>& textured,
+                            const Vec3T<typename Base::Scalar>& position) noexcept {
+    return colored(textured.base, color_at(textured.texture, position));
 }
-// [material_at]
+// [at_point]
+
+/// What goes straight on through a textured pane; only of a base that is thin.
+/// \param textured  The material.
+/// \param position  Where.
+/// \param wo        Towards where the light goes.
+/// \return Of each channel, what the base lets through there.
+template <typename Base, typename Texture, std::floating_point T>
+[[nodiscard]] auto straight(const Textured<Base, Texture>& textured,
+                            const Vec3T<T>& position, const Vec3T<T>& wo) noexcept
+    -> decltype(straight(textured.base, position, wo)) {
+    return straight(at_point(textured, position), position, wo);
+}
 
 /// \name What the base says
 /// What a renderer asks of no place in particular: lobes() and absorption() to plan its

@@ -16,9 +16,13 @@ namespace ljus {
 
 /// \defgroup thin_glass Thin glass
 /// \brief Section 3.2.5, for a window: two boundaries so close that they are one.
+///
+/// A pane is a *thin sheet*, as a soap film is: what goes on goes straight on, which is
+/// no scattering but visibility. So shadow rays and photons go through, tinted;
+/// sample() knows the reflection only. See \ref thin_sheets.
 /// \{
 
-/// A pane with air on both sides. What goes on goes straight on.
+/// A pane with air on both sides.
 /// \report{Section 3.2.5}
 template <std::floating_point T>
 struct ThinGlassT {
@@ -29,7 +33,7 @@ struct ThinGlassT {
 };
 using ThinGlass = ThinGlassT<float>; ///< ThinGlassT in float.
 
-/// What there is: two specular parts.
+/// What there is: one specular part.
 template <std::floating_point T>
 [[nodiscard]] constexpr Lobes lobes(const ThinGlassT<T>&) noexcept {
     return Lobes::specular;
@@ -91,11 +95,22 @@ template <std::floating_point T>
     return T(0);
 }
 
-/// Reflection or straight on, each as often as its brightest channel carries light.
-/// Radiance is not scaled: there is air on both sides.
+/// What goes straight on through a pane. A material with this function is a thin sheet.
+/// \param pane  The pane.
+/// \param wo    Towards where the light goes.
+/// \return PaneSharesT::transmitted.
+// [pane straight]
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> straight(const ThinGlassT<T>& pane, const Vec3T<T>& /*position*/,
+                               const Vec3T<T>& wo) noexcept {
+    return pane_shares(pane, std::min(std::abs(wo.z), T(1))).transmitted;
+}
+// [pane straight]
+
+/// The mirror direction, with PaneSharesT::reflected as weight. What goes straight on is
+/// not sampled.
 /// \param pane   The pane.
 /// \param wo     Towards where the light goes.
-/// \param u      Point of [0,1)^3; z chooses the branch.
 /// \param which  The parts to sample from.
 /// \return The sample; nothing if `wo` lies on the surface or without Lobes::specular.
 /// \cost pane_shares().
@@ -103,18 +118,12 @@ template <std::floating_point T>
 // [thin glass sample]
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
-sample(const ThinGlassT<T>& pane, const Vec3T<T>& wo, const Vec3T<T>& u,
+sample(const ThinGlassT<T>& pane, const Vec3T<T>& wo, const Vec3T<T>&,
        Transport /*transport*/, Lobes which = Lobes::all) noexcept {
-    if (!has(which, Lobes::specular)) return std::nullopt;
-    if (!(wo.z > T(0) || wo.z < T(0))) return std::nullopt;
-    const auto shares = pane_shares(pane, std::min(std::abs(wo.z), T(1)));
-    const T back = max_component(shares.reflected);
-    const T through = max_component(shares.transmitted);
-    const T sum = back + through;
-    if (!(sum > T(0))) return std::nullopt; // of index 1 and black
-    if (u.z * sum < back)
-        return specular_sample(reflect(wo), shares.reflected * (sum / back));
-    return specular_sample(-wo, shares.transmitted * (sum / through));
+    if (!has(which, Lobes::specular) || !(wo.z > T(0) || wo.z < T(0)))
+        return std::nullopt;
+    const T cos_theta = std::min(std::abs(wo.z), T(1));
+    return specular_sample(reflect(wo), pane_shares(pane, cos_theta).reflected);
 }
 // [thin glass sample]
 

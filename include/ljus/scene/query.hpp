@@ -4,6 +4,7 @@
 /// \brief What a ray meets first, and whether anything is in its way.
 
 #include <optional>
+#include <type_traits>
 
 #include "ljus/scene/scene.hpp"
 
@@ -127,8 +128,9 @@ template <typename Scene, std::floating_point T>
 }
 // [surface_at]
 
-/// Calls f(material) with what a surface is made of where the ray met it: where
-/// visit_material() knows the material, this knows its place as well, for textures.
+/// Calls f(material) with what a surface is made of where the ray met it: what
+/// visit_material() does for an object, this does for a place of it. A textured
+/// material is its base in another colour there; all others are themselves.
 /// \param scene    The scene.
 /// \param surface  Of surface_at().
 /// \param f        Called with the material, as its own type.
@@ -137,7 +139,12 @@ template <typename Scene, std::floating_point T, typename F>
 decltype(auto) visit_material_of(const Scene& scene, const SurfaceT<T>& surface,
                                  F&& f) {
     return scene.visit_material(surface.object.material, [&](const auto& material) {
-        return f(material_at(material, surface.point.position));
+        using Here = decltype(material_at(material, surface.point.position));
+        // A soap film's point is no material: scatter() asks for it.
+        if constexpr (Bsdf<std::remove_cvref_t<Here>>)
+            return f(material_at(material, surface.point.position));
+        else
+            return f(material);
     });
 }
 // [visit_material_of]
