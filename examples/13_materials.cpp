@@ -35,7 +35,7 @@ constexpr int balls = 8;
 
 /// The ball at a place of the row, from the left.
 Sphere ball_at(int place) {
-    return {.center{2.3f * (float(place) - 3.5f), 1, 0}, .radius = 1};
+    return {.center{2.4f * (float(place) - 3.5f), 1, 0}, .radius = 1};
 }
 
 /// The camera of the row; pictures of it are four times as wide as high.
@@ -262,7 +262,8 @@ Image ball_picture(int size, int rays, std::uint64_t seed, const Material& mater
         placed(Quad{{-4, 0, 6}, {0, 0, -10}, {0, 6, 0}}, matt(0.6f, 0.2f, 0.1f)),
         placed(Quad{{4, 0, 6}, {0, 6, 0}, {0, 0, -10}}, matt(0.1f, 0.3f, 0.6f)),
         placed(Quad{{-4, 6, -4}, {8, 0, 0}, {0, 0, 10}}, matt(0.6f, 0.6f, 0.6f)),
-        placed(Quad{{-1, 5.9f, 0}, {2, 0, 0}, {0, 0, 2}}, matt(0, 0, 0), Rgb{14}),
+        placed(Quad{{-4, 0, 6}, {0, 6, 0}, {8, 0, 0}}, matt(0.5f, 0.5f, 0.5f)),
+        placed(Quad{{-1, 5.9f, 0}, {2, 0, 0}, {0, 0, 2}}, matt(0, 0, 0), Rgb{20}),
         placed(Sphere{.center{0, 1, 0}, .radius = 1}, material));
     const auto camera =
         ljus::look_at({.position{0, 2, 5.5f}, .target{0, 1, 0}, .vfov_degrees = 28});
@@ -469,7 +470,7 @@ void picture_mistakes(const examples::Options& options) {
             placed(Quad{{2, 0, 5}, {0, 4, 0}, {0, 0, -7}}, matt(0.1f, 0.4f, 0.1f)),
             placed(Quad{{-2, 4, -2}, {4, 0, 0}, {0, 0, 7}}, matt(0.6f, 0.6f, 0.6f)),
             placed(Quad{{-0.6f, 3.95f, -0.6f}, {1.2f, 0, 0}, {0, 0, 1.2f}},
-                   matt(0, 0, 0), Rgb{9}),
+                   matt(0, 0, 0), Rgb{16}),
             placed(Sphere{.center{0, 1, 0}, .radius = 1}, matt(0.75f, 0.5f, 0.2f)));
         const auto camera = ljus::look_at(
             {.position{0, 2, 8.5f}, .target{0, 1.9f, 0}, .vfov_degrees = 30});

@@ -1,5 +1,4 @@
 // long: 36 pictures of each of 12 rooms, some 30 s
-// concept: materials
 /// \file materials_matrix_test.cpp
 /// \brief Photon mapping equals path tracing for every material that the rooms of
 /// photon_mapping_test.cpp do not have.
