@@ -227,7 +227,7 @@ static std::string with(const std::string& material) {
     return changed("{\"type\": \"dielectric\", \"ior\": 1.5}", material);
 }
 
-TEST_CASE("load_json: metal, rough matt, gloss, panes and checkers") {
+TEST_CASE("load_json: metal, rough matt, gloss and checkers") {
     const auto first = [](const std::string& material, auto type) {
         const LoadedScene loaded = read_json_scene(with(material), "a.json");
         return std::get<std::vector<decltype(type)>>(loaded.scene.materials).at(0);
@@ -243,11 +243,6 @@ TEST_CASE("load_json: metal, rough matt, gloss, panes and checkers") {
               Glossy{});
     CHECK(gloss.reflectance == Rgb{0.5f, 0.25f, 1});
     CHECK(gloss.roughness == 0.25f);
-    const ThinGlass pane =
-        first(R"({"type": "pane", "ior": 1.25, "tint": [0.5, 1, 1]})", ThinGlass{});
-    CHECK(pane.index == 1.25f);
-    CHECK(pane.tint.x == 0.5f);
-    CHECK(first(R"({"type": "pane", "ior": 1.25})", ThinGlass{}).tint == Rgb{1});
     const auto board = first(R"({"type": "checker", "even": [1, 1, 1], "odd": [0, 0, 0],
         "origin": [1, 2, 3], "edge_u": [2, 0, 0], "edge_v": [0, 0, 4]})",
                              Textured<Lambertian, Checker>{});
@@ -264,8 +259,6 @@ TEST_CASE("load_json: metal, rough matt, gloss, panes and checkers") {
           "1].");
     CHECK(refusal(with(R"({"type": "eon", "albedo": [1, 1, 1], "roughness": 2})")) ==
           "a.json: materials.glass.roughness is 2; it must be within [0, 1].");
-    CHECK(refusal(with(R"({"type": "pane", "ior": -1})")) ==
-          "a.json: materials.glass.ior is -1; it must be within [0.001, 1000].");
     CHECK(refusal(with(R"({"type": "checker", "even": [1, 1, 1], "odd": [0, 0, 0],
         "origin": [1, 2, 3], "edge_u": [0, 0, 0], "edge_v": [0, 0, 4]})")) ==
           "a.json: materials.glass.edge_u is [0,0,0]; it must be a vector that is not "
@@ -291,7 +284,7 @@ TEST_CASE("load_json: unknown and missing fields, types and materials are named"
           std::string::npos);
     CHECK(refusal("\"type\": \"dielectric\"", "\"type\": \"crystal\"") ==
           "a.json: materials.glass.type is \"crystal\"; it must be lambertian, "
-          "oren-nayar, mirror, dielectric, eon, metal, glossy, pane or checker.");
+          "oren-nayar, mirror, dielectric, eon, metal, glossy or checker.");
     CHECK(refusal("\"type\": \"sphere\"", "\"type\": \"cube\"") ==
           "a.json: objects[2].type is \"cube\"; it must be sphere, triangles or mesh.");
     CHECK(refusal("\"type\": \"sphere\", ", "") ==

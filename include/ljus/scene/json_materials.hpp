@@ -3,6 +3,7 @@
 /// \file ljus/scene/json_materials.hpp
 /// \brief The materials of a scene file.
 
+#include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -15,7 +16,6 @@
 #include "ljus/materials/mirror.hpp"
 #include "ljus/materials/oren_nayar.hpp"
 #include "ljus/materials/textured.hpp"
-#include "ljus/materials/thin_glass.hpp"
 #include "ljus/scene/json_field.hpp"
 #include "ljus/scene/scene.hpp"
 
@@ -23,6 +23,9 @@ namespace ljus {
 
 /// \defgroup json_materials Materials in scene files
 /// \brief Optional (nlohmann-json): what a file may say of a material.
+///
+/// Thin sheets are not among them: a scene type that lists one asks at every surface
+/// whether it is one.
 ///
 /// | `type`     | its fields                                                        |
 /// |------------|-------------------------------------------------------------------|
@@ -33,7 +36,6 @@ namespace ljus {
 /// | eon        | albedo, roughness                                                 |
 /// | metal      | metal: gold, copper or silver; smooth                             |
 /// | glossy     | reflectance, roughness                                            |
-/// | pane       | ior: thin glass; tint, if it has one                              |
 /// | checker    | even, odd; origin, edge_u, edge_v: two by two fields                |
 /// \{
 
@@ -41,7 +43,7 @@ namespace ljus {
 template <std::floating_point T>
 using FileMaterialsT =
     Materials<LambertianT<T>, OrenNayarT<T>, MirrorT<T>, GlassT<T>, EonT<T>, MetalT<T>,
-              GlossyT<T>, ThinGlassT<T>, Textured<LambertianT<T>, CheckerT<T>>>;
+              GlossyT<T>, Textured<LambertianT<T>, CheckerT<T>>>;
 
 namespace detail {
 
@@ -103,7 +105,7 @@ MaterialId read_material(const JsonField& field, Scene& scene) {
     if (!field.value.is_object()) refuse_value(field, "an object");
     const JsonField type = member(field, "type");
     require_one_of(type, {"lambertian", "oren-nayar", "mirror", "dielectric", "eon",
-                          "metal", "glossy", "pane", "checker"});
+                          "metal", "glossy", "checker"});
     const std::string& name = text(type);
     const auto share = [&](const char* what) {
         return RgbT<T>{share_field(member(field, what))};
@@ -144,12 +146,6 @@ MaterialId read_material(const JsonField& field, Scene& scene) {
             refuse_value(member(field, "roughness"), "0 or within [0.01, 1]");
         return scene.add(
             GlossyT<T>{.reflectance = share("reflectance"), .roughness = rough});
-    }
-    if (name == "pane") {
-        require_object(field, {"type", "ior", "tint"});
-        const bool tinted = find(field, "tint").has_value();
-        return scene.add(ThinGlassT<T>{.index = ior(),
-                                       .tint = tinted ? share("tint") : RgbT<T>{T(1)}});
     }
     if (name == "checker")
         return scene.add(Textured<LambertianT<T>, CheckerT<T>>{
