@@ -185,7 +185,7 @@ struct Studio {
         const auto black = scene.add(ljus::Lambertian{.albedo = Rgb{0}});
         scene.add(ljus::Sphere{}, scene.add(film));
         const auto window = [&](const Vec3& corner, const Vec3& u, const Vec3& v) {
-            scene.add(ljus::Quad{corner, u, v}, black, Rgb{14});
+            scene.add(ljus::Quad{corner, u, v}, black, Rgb{8});
         };
         window({-7, -3, -2}, {0, 8, 0}, {3, 0, 10}); // left
         window({7, -1, -2}, {-3, 0, 10}, {0, 5, 0}); // right
@@ -200,7 +200,7 @@ struct Studio {
         if (!hit) return glm::dvec3(0);
         const auto at = surface_at(scene, ray, *hit);
         const Vec3 wo = to_local(at.frame, -ray.direction);
-        if (hit->object.type == 1) return wo.z > 0 ? glm::dvec3(14) : glm::dvec3(0);
+        if (hit->object.type == 1) return wo.z > 0 ? glm::dvec3(8) : glm::dvec3(0);
         if (depth == 0) return glm::dvec3(0);
         const glm::dvec3 r = color(std::min(1.0, std::abs(double(wo.z))),
                                    double(thickness_at(film, at.point.position)));
