@@ -202,7 +202,7 @@ TEST_CASE("thin sheets: what a path meets, by chance, is in the mean what light 
     const Room room = room_with(&film);
     const Ray ray{.origin{0.2f, -0.9f, -0.2f}, .direction{0, 1, 0}};
     Mean stopped[3], through[3];
-    for (std::uint64_t path = 0; path < 100000; ++path) {
+    for (std::uint64_t path = 0; path < 50000; ++path) {
         auto stream = random_stream(1, Pass::user, 0, path);
         Ray rest = ray;
         const auto met = meet(room, rest, stream);
@@ -245,10 +245,10 @@ TEST_CASE("thin sheets: a bubble in a furnace cannot be seen") {
                            Vec3{0.7f * (u.x - 0.5f), 1, 0.7f * (u.y - 0.5f)})};
         };
         for (int channel = 0; channel < 3; ++channel) {
-            const Mean traced = mean_radiance(tracer, 40000, 3, ray, channel);
-            const Mean mapped = mean_radiance(mapper, 4000, 5, ray, channel);
+            const Mean traced = mean_radiance(tracer, 20000, 3, ray, channel);
+            const Mean mapped = mean_radiance(mapper, 2000, 5, ray, channel);
             CHECK(std::abs(apart(traced, 1.0)) < 4); // one false alarm in 1700 runs
-            CHECK(traced.error() < 0.004);
+            CHECK(traced.error() < 0.006);
             CHECK(mapped.mean == doctest::Approx(1).epsilon(0.02));
         }
     }
@@ -301,47 +301,46 @@ TEST_CASE("thin sheets: who owns which path") {
     CHECK(caustics.photons.size() > 100);
 }
 
-// 24 means (4 bands of 2 pictures, 3 channels) are asked for 4 standard errors, by 16
-// seeds of each renderer: with 30 degrees of freedom one false alarm in 2600 a mean, in
-// 100 runs with new seeds.
+// 12 means (4 bands, 3 channels) are asked for 4 standard errors, by 16 seeds of each
+// renderer: with 30 degrees of freedom one false alarm in 2600 a mean, in 200 runs with
+// new seeds.
 TEST_CASE("thin sheets: photon mapping equals path tracing in a room with a bubble") {
+    // A mirror in the bubble: caustics of both, and of the one through the other.
+    const SoapFilm film = strong();
+    const Room room = room_with(&film, true);
     const auto camera = camera_of_room();
-    for (const bool mirror : {false, true}) {
-        const SoapFilm film = strong();
-        const Room room = room_with(&film, mirror);
-        Mean mapped[4][3], traced[4][3];
-        const auto take = [](const auto& image, auto& bands) {
-            for (int band = 0; band < 4; ++band) {
-                glm::dvec3 sum{0};
-                for (int y = 8 * band; y < 8 * band + 8; ++y)
-                    for (int x = 0; x < 32; ++x) sum += glm::dvec3(pixel(image, x, y));
-                for (int k = 0; k < 3; ++k) bands[band][k].add(sum[k] / 256);
-            }
-        };
-        for (std::uint64_t seed = 1; seed <= 16; ++seed) {
-            const Picture picture{
-                .width = 32, .height = 32, .rays = 36, .seed = seed, .threads = 1};
-            take(render(make_path_tracer(room), camera, picture).image, traced);
-            PhotonMapping settings;
-            settings.caustics = {.photons = 40000, .seed = seed, .threads = 1};
-            settings.gather_caustics.radius = 0.03f;
-            const auto maps = make_photon_maps(room, settings);
-            Picture other = picture;
-            other.seed = seed + 100;
-            other.rays = 9;
-            take(render(make_photon_mapper(room, maps, settings), camera, other).image,
-                 mapped);
+    constexpr int size = 24, high = size / 4;
+    Mean mapped[4][3], traced[4][3];
+    const auto take = [](const auto& image, auto& bands) {
+        for (int band = 0; band < 4; ++band) {
+            glm::dvec3 sum{0};
+            for (int y = high * band; y < high * (band + 1); ++y)
+                for (int x = 0; x < size; ++x) sum += glm::dvec3(pixel(image, x, y));
+            for (int k = 0; k < 3; ++k) bands[band][k].add(sum[k] / (high * size));
         }
-        double worst = 0, relative = 0;
-        for (int band = 0; band < 4; ++band)
-            for (int k = 0; k < 3; ++k) {
-                const auto& a = mapped[band][k];
-                const auto& b = traced[band][k];
-                worst = std::max(worst, std::abs(apart(a, b)));
-                relative = std::max(relative, std::abs(a.mean / b.mean - 1));
-                CHECK(std::abs(apart(a, b)) < 4);
-            }
-        MESSAGE("largest distance ", worst, " standard errors, ", relative);
-        CHECK(relative < 0.03);
+    };
+    for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+        Picture picture{
+            .width = size, .height = size, .rays = 25, .seed = seed, .threads = 1};
+        take(render(make_path_tracer(room), camera, picture).image, traced);
+        PhotonMapping settings;
+        settings.caustics = {.photons = 20000, .seed = seed, .threads = 1};
+        settings.gather_caustics.radius = 0.03f;
+        const auto maps = make_photon_maps(room, settings);
+        picture.seed = seed + 100;
+        picture.rays = 9;
+        take(render(make_photon_mapper(room, maps, settings), camera, picture).image,
+             mapped);
     }
+    double worst = 0, relative = 0;
+    for (int band = 0; band < 4; ++band)
+        for (int k = 0; k < 3; ++k) {
+            const auto& a = mapped[band][k];
+            const auto& b = traced[band][k];
+            worst = std::max(worst, std::abs(apart(a, b)));
+            relative = std::max(relative, std::abs(a.mean / b.mean - 1));
+            CHECK(std::abs(apart(a, b)) < 4);
+        }
+    MESSAGE("largest distance ", worst, " standard errors, ", relative);
+    CHECK(relative < 0.05);
 }

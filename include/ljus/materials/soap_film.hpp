@@ -28,7 +28,7 @@ enum class FilmColor : std::uint8_t {
 
 /// A soap film between air and air, on both sides the same, thinner the higher up:
 /// \f$ d(z) = d_0\, e^{-z/h} \f$, as films are that hang under their own weight
-/// \cite pasquet2023.
+/// \cite pasquet2022.
 template <std::floating_point T>
 struct SoapFilmT {
     using Scalar = T;              ///< The precision of its numbers.
