@@ -388,7 +388,7 @@ void tabulate_trade(const examples::Options& options) {
     const auto add = [&](const char* name, const auto& material) {
         const double evaluating =
             nanoseconds([&](const Vec3& wo, const Vec3& wi, Vec3) {
-                return evaluate(material, wo, wi).x;
+                return evaluate(material_at(material, wi), wo, wi).x;
             });
         const double sampling = nanoseconds([&](const Vec3& wo, Vec3, const Vec3& u) {
             const auto s =

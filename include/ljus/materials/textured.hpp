@@ -12,8 +12,8 @@ namespace ljus {
 /// \brief A material that becomes another one at each place.
 ///
 /// Renderers ask material_at(), which asks at_point(): a plain material has none and is
-/// itself, a textured one answers with its base in the colour of the place. So no plain material knows of textures,
-/// and a scene without them is the same program as before.
+/// itself, a textured one answers with its base in the colour of the place. So no plain
+/// material knows of textures, and a scene without them is the same program as before.
 /// \{
 
 /// A material whose colour is multiplied by a texture's.

@@ -107,8 +107,8 @@ template <std::floating_point T>
 }
 // [pane straight]
 
-/// The mirror direction, with PaneSharesT::reflected as weight. What goes straight on is
-/// not sampled.
+/// The mirror direction, with PaneSharesT::reflected as weight. What goes straight on
+/// is not sampled.
 /// \param pane   The pane.
 /// \param wo     Towards where the light goes.
 /// \param which  The parts to sample from.

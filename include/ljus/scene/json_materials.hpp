@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "ljus/materials/eon.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/glossy.hpp"
