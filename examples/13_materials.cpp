@@ -282,7 +282,7 @@ Image ball_picture(int size, int rays, std::uint64_t seed, const Material& mater
 
 /// Pictures: one gloss after the other.
 void sweep_roughness(const examples::Options& options) {
-    const int size = options.pick(150, 300, 500), rays = options.pick(64, 400, 4000);
+    const int size = options.pick(150, 300, 500), rays = options.pick(20, 400, 4000);
     for (const int percent : {0, 15, 30, 50, 70, 100}) {
         save_png(ball_picture(size, rays, options.seed,
                               ljus::RoughMetal{.reflectance = ljus::gold<float>,
@@ -335,7 +335,8 @@ void plot_gloss(const std::string& folder, int count) {
         .name = "materials-sampling",
         .columns = {"roughness", "visible normals", "cosine-weighted directions"},
         .y_label = "variance of the weight at 60°",
-        .log_y = true};
+        .log_y = true,
+        .more = "set yrange [1e-4:1e5]\n"};
     for (int percent = 5; percent <= 100; percent += 5) {
         const double r = 0.01 * percent;
         const ljus::Glossy white{.reflectance = Rgb{1}, .roughness = float(r)};
@@ -468,7 +469,7 @@ void check(const WrongMatt&) {}
 /// The same room with each mistake; three surfaces on a path, for with the first one
 /// light grows from wall to wall.
 void picture_mistakes(const examples::Options& options) {
-    const int size = options.pick(200, 300, 500), rays = options.pick(36, 256, 2048);
+    const int size = options.pick(200, 300, 500), rays = options.pick(16, 256, 2048);
     const auto picture = [&](const std::string& name, Mistake mistake) {
         const auto matt = [&](float r, float g, float b) {
             return WrongMatt{{r, g, b}, mistake};

@@ -68,40 +68,71 @@ template <typename Base, typename Texture, std::floating_point T>
 }
 
 /// \name What the base says
-/// What a renderer asks of no place in particular: lobes() and absorption() to plan its
-/// passes, emission() when a shape is added. The other three are those of the base, in
-/// the base's colour.
+/// What is asked of no place in particular: by a survey, or when a shape is added.
 /// \{
+
+/// The parts of the base.
+/// \param m  The material.
 template <typename Base, typename Texture>
 [[nodiscard]] constexpr Lobes lobes(const Textured<Base, Texture>& m) noexcept {
     return lobes(m.base);
 }
+
+/// The absorption inside: the base's.
+/// \param m  The material.
+/// \return Per scene unit.
 template <typename Base, typename Texture>
 [[nodiscard]] constexpr RgbT<typename Base::Scalar>
 absorption(const Textured<Base, Texture>& m) noexcept {
     return absorption(m.base);
 }
+
+/// The emitted radiance: the base's, everywhere.
+/// \param m  The material.
+/// \return W/(m^2 sr).
 template <typename Base, typename Texture>
 [[nodiscard]] constexpr RgbT<typename Base::Scalar>
 emission(const Textured<Base, Texture>& m) noexcept {
     return emission(m.base);
 }
+
+/// f of the base in its own colour; that of a place is evaluate(at_point(m, x), ...).
+/// \param m   The material.
+/// \param wo  Towards where the light goes.
+/// \param wi  Towards where it comes from.
+/// \return f in 1/sr, without the cosine.
 template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] RgbT<T> evaluate(const Textured<Base, Texture>& m, const Vec3T<T>& wo,
                                const Vec3T<T>& wi) noexcept {
     return evaluate(m.base, wo, wi);
 }
+
+/// The density of the base's sample().
+/// \param m      The material.
+/// \param wo     Towards where the light goes.
+/// \param wi     Towards where it comes from.
+/// \param which  The parts to sample from.
+/// \return Per steradian.
 template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] T pdf(const Textured<Base, Texture>& m, const Vec3T<T>& wo,
                     const Vec3T<T>& wi, Lobes which = Lobes::all) noexcept {
     return pdf(m.base, wo, wi, which);
 }
+
+/// A sample of the base in its own colour.
+/// \param m          The material.
+/// \param wo         Towards where the light goes.
+/// \param u          Point of [0,1)^3.
+/// \param transport  Radiance or flux.
+/// \param which      The parts to sample from.
+/// \return The sample; nothing as for the base.
 template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const Textured<Base, Texture>& m, const Vec3T<T>& wo, const Vec3T<T>& u,
        Transport transport, Lobes which = Lobes::all) noexcept {
     return sample(m.base, wo, u, transport, which);
 }
+
 /// \}
 
 /// Refuses what the base or the texture refuses.
