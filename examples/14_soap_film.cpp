@@ -1,4 +1,4 @@
-// figures: fig-4 soap_film
+// figures: soap_film
 // smoke: --quality draft --width 24 --height 24 --rays 1
 /// \file 14_soap_film.cpp
 /// \brief Chapter 14: the soap bubble of figure 4, and the colours of thin films by a
@@ -276,7 +276,7 @@ void figure_4(const examples::Options& options, const ljus::FilmTable& table) {
                 .threads = options.threads,
                 .progress = bar});
     examples::stop_if_asked();
-    save_png(result.image, options.path("fig-4-bubble.png"));
+    save_png(result.image, options.path("soap_film-figure-4.png"));
 }
 
 } // namespace
