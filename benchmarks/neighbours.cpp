@@ -1,36 +1,58 @@
 /// \file neighbours.cpp
-/// \brief Points near a point: the k-d tree of the book, and its peers.
+/// \brief Points near a point: the k-d trees of the book, and their peers.
 ///
 /// Each peer stands behind one adapter struct:
 ///
 ///     struct Peer {
 ///         explicit Peer(const std::vector<ljus::Vec3>& points);       // builds
 ///         float sum_within(ljus::Vec3 center, float radius) const;    // visits a ball
+///         float sum_blocks(ljus::Vec3 center, float radius) const;    // for an estimate
 ///         float sum_nearest(ljus::Vec3 center, std::size_t k) const;  // k nearest
+///         float any(ljus::Vec3 center, float radius) const;           // 1 or 0
+///         float one(ljus::Vec3 center) const;                         // the nearest
 ///     };
 ///
 /// The sums are of a payload of the points found, so that no peer gets away without
-/// touching what a photon map reads, and so that all peers can be seen to agree.
+/// touching what a photon map reads, and so that all peers can be seen to agree. What a
+/// peer cannot do is left out. `--table` prints the times of all in one run: processor
+/// time of one thread, peers in turn, the median of seven rounds, and how many times as
+/// long as the wide tree each takes.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <limits>
+#include <memory>
+#include <string>
+#include <tuple>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 
 #include <ljus/math/random.hpp>
 #include <ljus/photons/kd_tree.hpp>
+#include <ljus/photons/wide_kd_tree.hpp>
+
+#include "point_structures.hpp"
 
 #if __has_include(<nanoflann.hpp>)
 #include <nanoflann.hpp>
 #define LJUS_BENCH_NANOFLANN 1
 #endif
+#if __has_include(<kdtree++/kdtree.hpp>)
+#include <kdtree++/kdtree.hpp>
+#define LJUS_BENCH_KDTREEPP 1
+#endif
 
 namespace {
 
 using ljus::Vec3;
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// A number for each point, to be read when it is found.
 std::vector<float> payload(std::size_t count) {
@@ -39,15 +61,65 @@ std::vector<float> payload(std::size_t count) {
     return values;
 }
 
+/// A payload in the order of a tree, filled up to whole blocks.
+template <typename Tree>
+std::vector<float> payload_of(const Tree& tree) {
+    const std::vector<float> all = payload(tree.size());
+    std::vector<float> values;
+    for (const std::uint32_t i : tree.order()) values.push_back(all[i]);
+    values.resize((values.size() + 7) / 8 * 8);
+    return values;
+}
+
+/// The wide tree of the book.
+struct WideTree {
+    ljus::WideKdTree tree;
+    std::vector<float> values; // in the tree's order
+
+    explicit WideTree(const std::vector<Vec3>& points)
+        : tree(points, 1), values(payload_of(tree)) {}
+    float sum_within(Vec3 center, float radius) const {
+        float sum = 0;
+        tree.visit_within(center, radius,
+                          [&](std::uint32_t i, double) { sum += values[i]; });
+        return sum;
+    }
+    float sum_blocks(Vec3 center, float radius) const {
+        ljus::LanesT<float> sums{};
+        tree.visit_blocks(center, radius, [&](const ljus::FoundBlockT<float>& block) {
+            const float* const value = &values[block.first];
+            ljus::for_lanes([&](int i) {
+                sums.lane[i] += block.distance2.lane[i] < infinity ? value[i] : 0.0f;
+            });
+        });
+        float sum = 0;
+        for (const float x : sums.lane) sum += x;
+        return sum;
+    }
+    float sum_nearest(Vec3 center, std::size_t k) const {
+        std::array<ljus::Neighbor, 256> room;
+        const std::span found(room.data(), k);
+        const std::size_t count = tree.nearest(center, infinity, found);
+        float sum = 0;
+        for (std::size_t i = 0; i < count; ++i) sum += values[found[i].index];
+        return sum;
+    }
+    float any(Vec3 center, float radius) const {
+        return tree.any_within(center, radius) ? 1.0f : 0.0f;
+    }
+    float one(Vec3 center) const {
+        const auto found = tree.nearest(center);
+        return found ? values[found->index] : 0.0f;
+    }
+};
+
 /// The plain tree of the book.
 struct PlainTree {
     ljus::KdTree tree;
     std::vector<float> values; // in the tree's order
 
-    explicit PlainTree(const std::vector<Vec3>& points) : tree(points) {
-        const std::vector<float> all = payload(points.size());
-        for (const std::uint32_t i : tree.order()) values.push_back(all[i]);
-    }
+    explicit PlainTree(const std::vector<Vec3>& points)
+        : tree(points), values(payload_of(tree)) {}
     float sum_within(Vec3 center, float radius) const {
         float sum = 0;
         tree.visit_within(center, radius,
@@ -58,12 +130,12 @@ struct PlainTree {
         std::array<ljus::Neighbor, 256> room;
         const std::span found(room.data(), k);
         const std::size_t count =
-            tree.nearest(center, std::numeric_limits<float>::infinity(), found,
-                         [](std::uint32_t) { return true; });
+            tree.nearest(center, infinity, found, ljus::AnyPoint{});
         float sum = 0;
         for (std::size_t i = 0; i < count; ++i) sum += values[found[i].index];
         return sum;
     }
+    float one(Vec3 center) const { return sum_nearest(center, 1); }
 };
 
 #ifdef LJUS_BENCH_NANOFLANN
@@ -91,14 +163,21 @@ struct Nanoflann {
         : cloud{points}, tree(3, cloud, {16}), values(payload(points.size())) {
         tree.buildIndex();
     }
-    float sum_within(Vec3 center, float radius) const {
+    const auto& within(const Vec3& center, float radius) const {
         static thread_local std::vector<std::pair<std::uint32_t, float>> found;
         nanoflann::SearchParams unsorted;
         unsorted.sorted = false;
         tree.radiusSearch(&center.x, radius * radius, found, unsorted);
+        return found;
+    }
+    float sum_within(Vec3 center, float radius) const {
         float sum = 0;
-        for (const auto& [index, distance2] : found) sum += values[index];
+        for (const auto& [index, distance2] : within(center, radius))
+            sum += values[index];
         return sum;
+    }
+    float sum_blocks(Vec3 center, float radius) const {
+        return sum_within(center, radius);
     }
     float sum_nearest(Vec3 center, std::size_t k) const {
         std::array<std::uint32_t, 256> index;
@@ -109,83 +188,327 @@ struct Nanoflann {
         for (std::size_t i = 0; i < count; ++i) sum += values[index[i]];
         return sum;
     }
+    float any(Vec3 center, float radius) const {
+        return within(center, radius).empty() ? 0.0f : 1.0f;
+    }
+    float one(Vec3 center) const { return sum_nearest(center, 1); }
+};
+
+/// nanoflann with a result set of our own, which stops it at the first point found.
+struct NanoflannStopped : Nanoflann {
+    using Nanoflann::Nanoflann;
+    struct First {
+        float radius2;
+        bool found = false;
+        std::size_t size() const { return found ? 1 : 0; }
+        bool full() const { return true; }
+        bool addPoint(float distance2, std::uint32_t) {
+            found = found || distance2 < radius2;
+            return !found;
+        }
+        float worstDist() const { return radius2; }
+    };
+    float any(Vec3 center, float radius) const {
+        First first{radius * radius};
+        tree.findNeighbors(first, &center.x, {});
+        return first.found ? 1.0f : 0.0f;
+    }
 };
 #endif
 
-/// Photons on the six walls of a room of side 10, uniform.
-std::vector<Vec3> on_walls(std::size_t count) {
-    std::vector<Vec3> points;
-    for (std::size_t i = 0; i < count; ++i) {
-        ljus::RandomStream stream = ljus::random_stream(1, ljus::Pass::user, 0, i);
-        Vec3 point = 10.0f * ljus::next_3d(stream);
-        const int wall = static_cast<int>(6.0f * ljus::next_1d(stream));
-        point[wall / 2] = wall % 2 == 0 ? 0.0f : 10.0f;
-        points.push_back(point);
+#ifdef LJUS_BENCH_KDTREEPP
+/// What libkdtree++ calls of an allocator, and C++20 has taken away.
+template <typename T>
+struct OldAllocator : std::allocator<T> {
+    using pointer = T*;
+    using const_pointer = const T*;
+    using reference = T&;
+    using const_reference = const T&;
+    template <typename U>
+    struct rebind {
+        using other = OldAllocator<U>;
+    };
+    OldAllocator() = default;
+    template <typename U>
+    OldAllocator(const OldAllocator<U>&) {}
+    template <typename... Arguments>
+    void construct(T* p, Arguments&&... arguments) {
+        ::new (static_cast<void*>(p)) T(std::forward<Arguments>(arguments)...);
     }
-    return points;
+    void destroy(T* p) { p->~T(); }
+};
+
+/// libkdtree++, which the report uses: its range is a cube, made a ball here.
+struct KdTreePp {
+    struct Item {
+        using value_type = float;
+        Vec3 point;
+        float value;
+        float operator[](std::size_t axis) const { return point[int(axis)]; }
+    };
+    KDTree::KDTree<3, Item, KDTree::_Bracket_accessor<Item>,
+                   KDTree::squared_difference<float, float>, std::less<float>,
+                   OldAllocator<KDTree::_Node<Item>>>
+        tree;
+
+    explicit KdTreePp(const std::vector<Vec3>& points) {
+        const std::vector<float> values = payload(points.size());
+        std::vector<Item> items;
+        for (std::size_t i = 0; i < points.size(); ++i)
+            items.push_back({points[i], values[i]});
+        tree.efficient_replace_and_optimise(items);
+    }
+    float sum_within(Vec3 center, float radius) const {
+        static thread_local std::vector<Item> found;
+        found.clear();
+        tree.find_within_range(Item{center, 0}, radius, std::back_inserter(found));
+        float sum = 0;
+        for (const Item& item : found) {
+            const Vec3 way = item.point - center;
+            if (glm::dot(way, way) <= radius * radius) sum += item.value;
+        }
+        return sum;
+    }
+    float one(Vec3 center) const {
+        const auto found = tree.find_nearest(Item{center, 0});
+        return found.first == tree.end() ? 0.0f : found.first->value;
+    }
+};
+#endif
+
+/// Points of a kind: 0 on walls, 1 in caustics.
+std::vector<Vec3> points_of(int kind, std::size_t count) {
+    ljus::RandomStream stream = ljus::random_stream(1, ljus::Pass::user, 0, 0);
+    const auto unit = [&] { return ljus::next_1d(stream); };
+    return kind == 0 ? structures::on_walls(count, unit)
+                     : structures::in_caustics(count, unit);
 }
 
-/// A radius within which a wall holds about 50 of them.
-float radius_for_50(std::size_t count) {
-    return std::sqrt(50.0f * 600.0f / (3.14159265f * float(count)));
+/// A radius within which about 50 of them lie, in the median.
+float radius_for_50(const std::vector<Vec3>& points) {
+    const ljus::WideKdTree tree(points, 1);
+    std::vector<float> radii;
+    std::array<ljus::Neighbor, 50> room;
+    for (std::size_t i = 0; i < points.size(); i += points.size() / 400 + 1) {
+        (void)tree.nearest(points[i], infinity, std::span(room));
+        radii.push_back(float(std::sqrt(room[0].distance2)));
+    }
+    std::nth_element(radii.begin(), radii.begin() + std::ptrdiff_t(radii.size() / 2),
+                     radii.end());
+    return radii[radii.size() / 2];
+}
+
+enum class Query { within, blocks, nearest_50, nearest_200, any, one };
+constexpr std::array names{"radius",      "blocks", "50 nearest",
+                           "200 nearest", "any",    "nearest"};
+
+/// Whether a peer has a query.
+template <typename Peer, Query query>
+constexpr bool has() {
+    if constexpr (query == Query::within) return requires(const Peer& p) {
+            p.sum_within(Vec3{}, 1.0f);
+        };
+    else if constexpr (query == Query::blocks)
+        return requires(const Peer& p) {
+            p.sum_blocks(Vec3{}, 1.0f);
+        };
+    else if constexpr (query == Query::any)
+        return requires(const Peer& p) {
+            p.any(Vec3{}, 1.0f);
+        };
+    else if constexpr (query == Query::one)
+        return requires(const Peer& p) {
+            p.one(Vec3{});
+        };
+    else
+        return requires(const Peer& p) {
+            p.sum_nearest(Vec3{}, 1);
+        };
+}
+
+/// Asks a peer. `any` and `one` ask beside the points, the others at them.
+template <Query query, typename Peer>
+float ask(const Peer& peer, const Vec3& center, float radius) {
+    const Vec3 beside = center + 0.3f * radius;
+    if constexpr (query == Query::within) return peer.sum_within(center, radius);
+    if constexpr (query == Query::blocks) return peer.sum_blocks(center, radius);
+    if constexpr (query == Query::nearest_50) return peer.sum_nearest(center, 50);
+    if constexpr (query == Query::nearest_200) return peer.sum_nearest(center, 200);
+    if constexpr (query == Query::any) return peer.any(beside, radius);
+    if constexpr (query == Query::one) return peer.one(beside);
 }
 
 template <typename Peer>
 void build(benchmark::State& state) {
-    const auto points = on_walls(static_cast<std::size_t>(state.range(0)));
+    const auto points = points_of(int(state.range(1)), std::size_t(state.range(0)));
     for (auto _ : state) {
         const Peer peer(points);
         benchmark::DoNotOptimize(&peer);
     }
 }
 
-template <typename Peer, bool nearest>
+template <typename Peer, Query which>
 void query(benchmark::State& state) {
-    const auto count = static_cast<std::size_t>(state.range(0));
-    const auto points = on_walls(count);
+    const auto points = points_of(int(state.range(1)), std::size_t(state.range(0)));
     const Peer peer(points);
-    const float radius = radius_for_50(count);
+    const float radius = radius_for_50(points);
     std::size_t i = 0;
     for (auto _ : state) {
-        i = (i + 7919) % count;
-        benchmark::DoNotOptimize(nearest ? peer.sum_nearest(points[i], 50)
-                                         : peer.sum_within(points[i], radius));
+        i = (i + 102947) % points.size();
+        benchmark::DoNotOptimize(ask<which>(peer, points[i], radius));
     }
     state.SetItemsProcessed(state.iterations());
+}
+
+template <typename Peer>
+void register_all(const char* name) {
+    const auto with = [&](const char* what, auto function) {
+        benchmark::RegisterBenchmark((std::string(what) + "/" + name).c_str(), function)
+            ->ArgsProduct({{10000, 1000000}, {0, 1}});
+    };
+    with("build", build<Peer>);
+    if constexpr (has<Peer, Query::within>())
+        with("radius", query<Peer, Query::within>);
+    if constexpr (has<Peer, Query::blocks>())
+        with("blocks", query<Peer, Query::blocks>);
+    if constexpr (has<Peer, Query::nearest_50>()) {
+        with("50_nearest", query<Peer, Query::nearest_50>);
+        with("200_nearest", query<Peer, Query::nearest_200>);
+    }
+    if constexpr (has<Peer, Query::any>()) with("any", query<Peer, Query::any>);
+    if constexpr (has<Peer, Query::one>()) with("nearest", query<Peer, Query::one>);
+}
+
+double cpu_seconds() {
+    return double(std::clock()) / double(CLOCKS_PER_SEC);
+}
+
+/// One line of the table: the median time of each peer, and its ratio to the first.
+template <typename... Times>
+void print_line(const char* what, const std::vector<std::string>& peers, int rounds,
+                Times... times) {
+    std::vector<std::vector<double>> all(sizeof...(times));
+    for (int round = 0; round < rounds; ++round) {
+        std::size_t i = 0;
+        (all[i++].push_back(times()), ...);
+    }
+    std::printf("%-12s", what);
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        std::vector<double> ratio;
+        for (std::size_t r = 0; r < all[i].size(); ++r)
+            ratio.push_back(all[i][r] / all[0][r]);
+        std::sort(ratio.begin(), ratio.end());
+        std::sort(all[i].begin(), all[i].end());
+        const double time = all[i][all[i].size() / 2];
+        if (time < 0)
+            std::printf(" | %-9s %9s %6s", peers[i].c_str(), "-", "-");
+        else
+            std::printf(" | %-9s %9.0f %6.2f", peers[i].c_str(), time,
+                        ratio[ratio.size() / 2]);
+    }
+    std::printf("\n");
+    std::fflush(stdout);
+}
+
+float sink = 0; // what the peers return, so that none is left out
+
+template <typename... Peers>
+void table(int kind, std::size_t count, const std::vector<std::string>& names_of) {
+    const auto points = points_of(kind, count);
+    const float radius = radius_for_50(points);
+    std::printf("%zu points %s; ns, and times the first\n", count,
+                kind == 0 ? "on walls" : "in caustics");
+    const auto built = [&]<typename Peer>() {
+        return [&] {
+            const double start = cpu_seconds();
+            const Peer peer(points);
+            return (cpu_seconds() - start) * 1e9 / double(count);
+        };
+    };
+    print_line("build", names_of, 5, built.template operator()<Peers>()...);
+    const std::tuple<std::unique_ptr<Peers>...> peers{
+        std::make_unique<Peers>(points)...};
+    const auto line = [&]<Query query>() {
+        const auto time = [&](const auto& peer) {
+            return [&] {
+                using Peer = std::remove_cvref_t<decltype(peer)>;
+                if constexpr (!has<Peer, query>()) {
+                    return -1.0;
+                } else {
+                    constexpr int calls = 10000;
+                    std::size_t at = 0;
+                    const double start = cpu_seconds();
+                    for (int i = 0; i < calls; ++i) {
+                        at = (at + 102947) % count;
+                        sink += ask<query>(peer, points[at], radius);
+                    }
+                    return (cpu_seconds() - start) * 1e9 / calls;
+                }
+            };
+        };
+        print_line(names[std::size_t(query)], names_of, 7,
+                   time(*std::get<std::unique_ptr<Peers>>(peers))...);
+    };
+    line.template operator()<Query::within>();
+    line.template operator()<Query::blocks>();
+    line.template operator()<Query::nearest_50>();
+    line.template operator()<Query::nearest_200>();
+    line.template operator()<Query::any>();
+    line.template operator()<Query::one>();
 }
 
 /// Ends the program if two peers disagree on what lies within a ball.
 template <typename A, typename B>
 void must_agree() {
-    const auto points = on_walls(10000);
-    const A a(points);
-    const B b(points);
-    const float radius = radius_for_50(points.size());
-    for (std::size_t i = 0; i < points.size(); i += 97) {
-        const float difference =
-            a.sum_within(points[i], radius) - b.sum_within(points[i], radius);
-        if (std::abs(difference) < 7.0f) continue; // one point on the edge, rounded
-        std::fprintf(stderr, "Two peers find different points near number %zu.\n", i);
-        std::exit(1);
+    for (const int kind : {0, 1}) {
+        const auto points = points_of(kind, 10000);
+        const A a(points);
+        const B b(points);
+        const float radius = radius_for_50(points);
+        for (std::size_t i = 0; i < points.size(); i += 97) {
+            const float difference =
+                a.sum_within(points[i], radius) - b.sum_within(points[i], radius);
+            if (std::abs(difference) < 7.0f) continue; // one on the edge, rounded
+            std::fprintf(stderr, "Two peers find different points near number %zu.\n",
+                         i);
+            std::exit(1);
+        }
     }
+}
+
+/// Calls `f` with all peers that are there.
+template <typename F>
+void with_peers(F f) {
+#if defined(LJUS_BENCH_NANOFLANN) && defined(LJUS_BENCH_KDTREEPP)
+    f.template operator()<WideTree, Nanoflann, NanoflannStopped, KdTreePp, PlainTree>(
+        {"wide", "nanoflann", "  stopped", "kdtree++", "plain"});
+#elif defined(LJUS_BENCH_NANOFLANN)
+    f.template operator()<WideTree, Nanoflann, NanoflannStopped, PlainTree>(
+        {"wide", "nanoflann", "  stopped", "plain"});
+#else
+    f.template operator()<WideTree, PlainTree>({"wide", "plain"});
+#endif
 }
 
 } // namespace
 
-BENCHMARK(build<PlainTree>)->Arg(10000)->Arg(1000000);
-BENCHMARK(query<PlainTree, false>)->Arg(10000)->Arg(1000000);
-BENCHMARK(query<PlainTree, true>)->Arg(10000)->Arg(1000000);
-#ifdef LJUS_BENCH_NANOFLANN
-BENCHMARK(build<Nanoflann>)->Arg(10000)->Arg(1000000);
-BENCHMARK(query<Nanoflann, false>)->Arg(10000)->Arg(1000000);
-BENCHMARK(query<Nanoflann, true>)->Arg(10000)->Arg(1000000);
-#endif
-
-/// Runs the benchmarks.
+/// Runs the benchmarks, or prints the table.
 int main(int argc, char** argv) {
-#ifdef LJUS_BENCH_NANOFLANN
-    must_agree<PlainTree, Nanoflann>();
-#endif
+    with_peers([]<typename... Peers>(const std::vector<std::string>&) {
+        (must_agree<WideTree, Peers>(), ...);
+    });
+    if (argc > 1 && std::strcmp(argv[1], "--table") == 0) {
+        with_peers([]<typename... Peers>(const std::vector<std::string>& of) {
+            for (const std::size_t count : {10000u, 1000000u})
+                for (const int kind : {0, 1}) table<Peers...>(kind, count, of);
+        });
+        return std::isnan(sink) ? 1 : 0;
+    }
+    with_peers([]<typename... Peers>(const std::vector<std::string>& of) {
+        std::size_t i = 0;
+        (register_all<Peers>(of[i++].c_str()), ...);
+    });
     benchmark::Initialize(&argc, argv);
     benchmark::RunSpecifiedBenchmarks();
 }

@@ -2,8 +2,9 @@
 // smoke: --quality draft --photons 500 --paths 2000 --width 40 --height 40
 /// \file 20_photon_emission.cpp
 /// \brief Chapter 20: where photons go, what roulette may not lose, and what aiming
-/// saves.
+/// saves; spots and suns, and photons that are spread evenly.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -315,6 +316,258 @@ void compare_aims(const examples::Options& options, long long paths) {
         }
 }
 
+// --- Spots and suns -------------------------------------------------------------------
+
+/// Photons of one light as dots on a floor, a wall and a ball.
+template <typename Light>
+void picture_of_light(const examples::Options& options, long long photons,
+                      const Light& light, const std::string& name) {
+    using Scene = ljus::Scene<Shapes<Sphere, Quad>, Materials<Lambertian>>;
+    Room<Scene> room;
+    const auto white = room.scene.add(Lambertian{.albedo = Rgb{0.7f}});
+    room.scene.add(Quad{{-2, 0, -2}, {0, 0, 4}, {4, 0, 0}}, white);
+    room.scene.add(Quad{{-2, 0, -2}, {4, 0, 0}, {0, 2.5f, 0}}, white);
+    room.scene.add(Sphere{.center{0.3f, 0.5f, 0}, .radius = 0.5f}, white);
+    room.scene.add(light);
+    room.camera =
+        look_at(View{.position{-1, 3, 5}, .target{0, 0.6f, -0.3f}, .vfov_degrees = 40});
+    const auto traced = trace_photons(
+        room.scene, PhotonLaw::general,
+        {.photons = photons, .seed = options.seed, .shadow_photons = false});
+    Image image = draw(room, options.width, options.height);
+    add_dots(image, room, traced.photons, PhotonKind::direct);
+    save_png(image, options.path("emission-" + name + ".png"));
+}
+
+// --- The choice of a light ------------------------------------------------------------
+
+/// A closed grey room with a square lamp, a weak ball of light and a strong spot.
+Scene<Shapes<Sphere, Quad>, Materials<Lambertian>> small_room(bool lamp_only) {
+    Scene<Shapes<Sphere, Quad>, Materials<Lambertian>> room;
+    const auto grey = room.add(Lambertian{.albedo = Rgb{0.7f}});
+    const auto black = room.add(Lambertian{.albedo = Rgb{0}});
+    const Vec3 x{2, 0, 0}, y{0, 2, 0}, z{0, 0, 2};
+    room.add(Quad{{-1, -1, -1}, z, x}, grey);
+    room.add(Quad{{-1, 1, -1}, x, z}, grey);
+    room.add(Quad{{-1, -1, -1}, x, y}, grey);
+    room.add(Quad{{-1, -1, 1}, y, x}, grey);
+    room.add(Quad{{-1, -1, -1}, y, z}, grey);
+    room.add(Quad{{1, -1, -1}, z, y}, grey);
+    room.add(Quad{{-0.3f, 0.98f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}}, black, Rgb{4});
+    if (lamp_only) return room;
+    room.add(Sphere{.center{-0.7f, -0.6f, 0.6f}, .radius = 0.05f}, black, Rgb{1});
+    room.add(SpotLight{
+        .position{0.9f, 0.5f, 0}, .direction{-1, -1, 0}, .intensity = Rgb{30}});
+    return room;
+}
+
+/// What a photon brings to a patch of the floor, by the number of its surface: direct,
+/// after one bounce, after three.
+constexpr std::size_t orders = 3;
+using Orders = std::array<double, orders>;
+
+template <typename Scene, typename Stream>
+Orders follow(const Scene& room, const LightChoice& choice, Stream stream) {
+    constexpr std::array<std::uint64_t, orders> surface{1, 2, 4};
+    Orders brought{};
+    auto flight = emit(room, choice, stream);
+    FluxAudit audit;
+    for (std::uint64_t number = 1; number <= surface.back(); ++number) {
+        start_bounce(stream, number);
+        const auto hit = closest_hit(room, flight.ray);
+        if (!hit) break;
+        const auto at = surface_at(room, flight.ray, *hit);
+        const Vec3& p = at.point.position;
+        const bool on_patch =
+            p.y < -0.999f && p.x > 0 && p.x < 0.6f && p.z > 0.1f && p.z < 0.7f;
+        for (std::size_t i = 0; i < orders; ++i)
+            if (on_patch && number == surface[i]) brought[i] = double(flight.flux.x);
+        const bool alive =
+            room.visit_material(at.object.material, [&](const auto& material) {
+                const auto next =
+                    sample(material, to_local(at.frame, -flight.ray.direction),
+                           next_3d<float>(stream), Transport::flux);
+                if (!next) return false;
+                const auto survivor = play_roulette(flight.flux, next->weight,
+                                                    next_1d<float>(stream), audit);
+                if (!survivor) return false;
+                flight.flux = *survivor;
+                flight.ray = ray_from(at.point, to_world(at.frame, next->wi));
+                return true;
+            });
+        if (!alive) break;
+    }
+    return brought;
+}
+
+/// The mean of one pass, and how far passes lie apart.
+struct Spread {
+    Orders mean{}, deviation{}; ///< Over the seeds, relative to the mean.
+};
+
+template <typename Scene, typename MakeStream>
+Spread spread_of(const Scene& room, const LightChoice& choice, long long photons,
+                 int seeds, MakeStream make_stream) {
+    Orders sum{}, squares{};
+    for (int seed = 0; seed < seeds; ++seed) {
+        Orders one{};
+        for (long long i = 0; i < photons; ++i) {
+            const Orders brought = follow(room, choice,
+                                          make_stream(static_cast<std::uint64_t>(seed),
+                                                      static_cast<std::uint64_t>(i)));
+            for (std::size_t k = 0; k < orders; ++k)
+                one[k] += brought[k] / double(photons);
+        }
+        for (std::size_t k = 0; k < orders; ++k) {
+            sum[k] += one[k] / seeds;
+            squares[k] += one[k] * one[k] / seeds;
+        }
+    }
+    Spread spread{.mean = sum};
+    for (std::size_t k = 0; k < orders; ++k)
+        spread.deviation[k] = std::sqrt(std::max(0.0, squares[k] - sum[k] * sum[k]) *
+                                        seeds / (seeds - 1)) /
+                              sum[k];
+    return spread;
+}
+
+void compare_choices(const examples::Options& options) {
+    const auto room = small_room(false);
+    const long long photons = 2000;
+    const int seeds = options.pick(48, 400, 2000);
+    examples::Table table{.name = "emission-choice",
+                          .columns = {"the light is chosen", "direct: mean, W",
+                                      "variance, % of the mean squared",
+                                      "one bounce: variance"},
+                          .rows = {}};
+    const auto row = [&](const char* name, const LightChoice& choice) {
+        const Spread s =
+            spread_of(room, choice, photons, seeds, [&](auto seed, auto path) {
+                return random_stream(options.seed, Pass::user, seed, path);
+            });
+        const auto percent = [](double deviation) {
+            return examples::text(100 * deviation * deviation, "%.2f");
+        };
+        table.rows.push_back({name, examples::text(s.mean[0], "%.3f"),
+                              percent(s.deviation[0]), percent(s.deviation[1])});
+    };
+    row("by power", light_choice(room.lights));
+    row("each as often", {.cumulative = {1, 2, 3}});
+    examples::save_table(options.out, table);
+    if (!options.quiet)
+        for (const auto& cells : table.rows)
+            std::printf("%-14s mean %s W, variance %s %% direct, %s %% indirect\n",
+                        cells[0].c_str(), cells[1].c_str(), cells[2].c_str(),
+                        cells[3].c_str());
+}
+
+// --- Evenly spread photons ------------------------------------------------------------
+
+void compare_numbers(const examples::Options& options) {
+    const auto room = small_room(true);
+    const LightChoice choice = light_choice(room.lights);
+    const int last = options.pick(13, 15, 17);
+    const int seeds = options.pick(16, 32, 64);
+    const double none = std::nan("");
+    examples::Plot plot{.name = "emission-numbers",
+                        .columns = {"photons emitted", "direct: random",
+                                    "direct: Sobol", "1 bounce: random",
+                                    "1 bounce: Sobol", "3 bounces: random",
+                                    "3 bounces: Sobol"},
+                        .y_label = "relative error of the flux to a patch",
+                        .rows = {},
+                        .log_x = true,
+                        .log_y = true};
+    examples::Table table{.name = "emission-numbers-table",
+                          .columns = {"photons", "slope, random", "slope, Sobol",
+                                      "variance, random over Sobol"},
+                          .rows = {}};
+    for (int m = 7; m <= last; ++m) {
+        const long long photons = 1LL << m;
+        const Spread random =
+            spread_of(room, choice, photons, seeds, [&](auto seed, auto path) {
+                return random_stream(options.seed, Pass::user, seed, path);
+            });
+        const Spread sobol =
+            spread_of(room, choice, photons, seeds, [&](auto seed, auto path) {
+                return sobol_stream(options.seed, Pass::user, seed, path);
+            });
+        examples::Row row{double(photons)};
+        for (std::size_t k = 0; k < orders; ++k)
+            for (const Spread* s : {&random, &sobol})
+                row.push_back(s->deviation[k] > 0 ? s->deviation[k] : none);
+        plot.rows.push_back(row);
+    }
+    examples::save_plot(options.out, plot);
+
+    // The slope of each curve by least squares.
+    const auto slope = [&](std::size_t column) {
+        double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+        for (const auto& row : plot.rows) {
+            if (std::isnan(row[column])) continue;
+            const double x = std::log(row[0]), y = std::log(row[column]);
+            n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
+        }
+        return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+    };
+    const char* const names[] = {"direct", "after one bounce", "after three bounces"};
+    for (std::size_t k = 0; k < orders; ++k) {
+        const auto& end = plot.rows.back();
+        table.rows.push_back(
+            {names[k], examples::text(slope(1 + 2 * k), "%.2f"),
+             examples::text(slope(2 + 2 * k), "%.2f"),
+             examples::text(std::pow(end[1 + 2 * k] / end[2 + 2 * k], 2), "%.2g")});
+    }
+    examples::save_table(options.out, table);
+    if (!options.quiet)
+        for (const auto& cells : table.rows)
+            std::printf("%-20s slopes %s random, %s Sobol; variance ratio %s\n",
+                        cells[0].c_str(), cells[1].c_str(), cells[2].c_str(),
+                        cells[3].c_str());
+}
+
+// --- Roulette with another probability ------------------------------------------------
+
+/// What arrives of one photon at all surfaces, if it survives each with probability p
+/// and then carries rho / p of what it had.
+void compare_probabilities(const examples::Options& options, long long paths) {
+    const double rho = 0.75;
+    examples::Table table{.name = "emission-probability",
+                          .columns = {"p", "surfaces a photon", "flux that arrives",
+                                      "deviation", "deviation (exact)", "efficiency"},
+                          .rows = {}};
+    const auto variance_of = [&](double p) {
+        const double rest = 1 - rho * rho / p, mean = 1 / (1 - rho);
+        return rest > 0 ? (1 + 2 * rho * mean) / rest - mean * mean : -1.0;
+    };
+    const auto efficiency = [&](double p) { return (1 - p) / variance_of(p); };
+    for (const double p : {0.95, 0.85, 0.75, 0.65, 0.5, 0.25, 0.1}) {
+        double sum = 0, squares = 0;
+        for (long long path = 0; path < paths; ++path) {
+            RandomStream stream = random_stream(options.seed, Pass::user, 7,
+                                                static_cast<std::uint64_t>(path));
+            double flux = 1, arrived = 1;
+            while (next_1d<double>(stream) < p) arrived += flux *= rho / p;
+            sum += arrived / double(paths);
+            squares += arrived * arrived / double(paths);
+        }
+        const double variance = variance_of(p);
+        table.rows.push_back(
+            {examples::text(p, "%.2f"), examples::text(1 / (1 - p), "%.2f"),
+             examples::text(sum, "%.3f"),
+             examples::text(std::sqrt(squares - sum * sum), "%.2f"),
+             variance > 0 ? examples::text(std::sqrt(variance), "%.2f") : "infinite",
+             variance > 0 ? examples::text(efficiency(p) / efficiency(rho), "%.2f")
+                          : "0"});
+    }
+    examples::save_table(options.out, table);
+    if (!options.quiet)
+        for (const auto& cells : table.rows)
+            std::printf("p = %s: %s surfaces, mean %s, deviation %s (%s)\n",
+                        cells[0].c_str(), cells[1].c_str(), cells[2].c_str(),
+                        cells[3].c_str(), cells[4].c_str());
+}
+
 // --- Error against number -------------------------------------------------------------
 
 /// Irradiance on the floor z = 0 from a rectangular lamp (Lambert's formula).
@@ -414,6 +667,17 @@ int main(int argc, char** argv) {
         picture_of_photons(options, sizes.photons);
         compare_roulettes(options, sizes.paths);
         compare_aims(options, sizes.paths);
+        picture_of_light(options, sizes.photons,
+                         SpotLight{.position{-1.5f, 2.5f, 1.5f},
+                                   .direction{1.6f, -2.2f, -1.6f},
+                                   .inner_degrees = 12,
+                                   .outer_degrees = 25},
+                         "spot");
+        picture_of_light(options, sizes.photons, SunLight{.direction{1, -1.3f, -0.7f}},
+                         "sun");
+        compare_choices(options);
+        compare_numbers(options);
+        compare_probabilities(options, sizes.paths);
         plot_error(options);
     });
 }

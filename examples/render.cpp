@@ -5,6 +5,7 @@
 ///     render scene.json --out picture.pfm --renderer path --rays 1000
 ///     render scene.json --plan                 what would run, and why
 ///     render scene.json --explain 120,80       why a pixel has its colour
+///     render scene.json --photons shadow       the photons of a kind, as dots
 
 #include <charconv>
 #include <cinttypes>
@@ -19,6 +20,7 @@
 #include "ljus/image/png.hpp"
 #include "ljus/photons/census.hpp"
 #include "ljus/render/explain.hpp"
+#include "ljus/render/photon_dots.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/scene/load_json.hpp"
 #ifdef LJUS_HAS_TINYOBJLOADER
@@ -50,6 +52,7 @@ struct Request {
     std::string indirect = "rays";
     std::string kernel = "epanechnikov";
     std::string pixel;
+    std::string photons;
     int depth = 1000;
     int roulette = 4;
     int shadow_rays = 1;
@@ -159,6 +162,9 @@ PhotonMapsT<float> photon_pass(const LoadedScene& loaded, PhotonMapping settings
     (caustics ? settings.caustics : settings.general).progress = bar;
     auto maps = make_photon_maps(loaded.scene, settings);
     examples::stop_if_asked();
+    if (!maps.remarks.empty())
+        std::fprintf(stderr, "%s: %s", caustics ? "caustics map" : "general map",
+                     maps.remarks.c_str());
     if (quiet) return maps;
     std::printf("  %-16s %8.2f s  %lld photons emitted; kept:",
                 caustics ? "caustics map" : "general map", watch.seconds(),
@@ -187,6 +193,47 @@ RenderedT<float> render_scene(const LoadedScene& loaded, const Picture& picture,
     maps.general = std::move(general.general);
     const auto mapper = make_photon_mapper(loaded.scene, maps, settings);
     return run(mapper, loaded.camera, picture, request, options.quiet);
+}
+
+constexpr PhotonKind kinds[] = {PhotonKind::direct, PhotonKind::indirect,
+                                PhotonKind::shadow, PhotonKind::caustic};
+
+/// A drawing of the scene, and on it the photons of one kind, or of all.
+Image draw_photons(const LoadedScene& loaded, const Picture& picture,
+                   const Request& request, const examples::Options& options) {
+    const auto scene = index_scene(loaded.scene);
+    Image image = scene_drawing(scene, loaded.camera, picture.width, picture.height);
+    const PhotonMapping settings = settings_of(request, options);
+    for (const PhotonLaw law : {PhotonLaw::general, PhotonLaw::caustics}) {
+        const bool caustics = law == PhotonLaw::caustics;
+        if (request.photons != "all" && (request.photons == "caustic") != caustics)
+            continue;
+        examples::ProgressBar bar(caustics ? "caustics photons" : "general photons",
+                                  options.quiet);
+        PhotonPass pass = caustics ? settings.caustics : settings.general;
+        pass.progress = bar;
+        const auto traced = trace_photons(scene, law, pass);
+        examples::stop_if_asked();
+        const PhotonCensus found = census(traced.photons);
+        for (const PhotonKind kind : kinds) {
+            if (request.photons != "all" && request.photons != name_of(kind)) continue;
+            if ((kind == PhotonKind::caustic) != caustics) continue;
+            const auto color = [kind](const Photon& photon) {
+                return photon.kind == kind ? dot_color(photon) : Rgb{0};
+            };
+            const long long seen =
+                add_photon_dots(image, scene, loaded.camera, traced.photons, {}, color);
+            const RgbT<double>& flux = found[kind].flux;
+            if (!options.quiet)
+                std::printf("  %-16s %10" PRIu64
+                            " stored, %lld seen; %.4g, %.4g, %.4g W of %.4g, %.4g, "
+                            "%.4g W emitted\n",
+                            name_of(kind), found[kind].photons, seen, flux.x, flux.y,
+                            flux.z, traced.audit.emitted.x, traced.audit.emitted.y,
+                            traced.audit.emitted.z);
+        }
+    }
+    return image;
 }
 
 void save(const Image& image, const std::string& path, double exposure) {
@@ -226,6 +273,8 @@ void body(examples::CommandLine& line) {
              {"rays", "map", "none"});
     line.add("--exposure", request.exposure, "Of a PNG file, in stops", -100, 100);
     line.add("--explain", request.pixel, "X,Y: print that pixel's paths, no picture");
+    line.add("--photons", request.photons, "No rendering: photons as dots",
+             {"direct", "indirect", "shadow", "caustic", "all"});
     line.add("--plan", request.plan, "Print what would run and why, no picture");
     const examples::Options options = line.parse();
 
@@ -256,7 +305,9 @@ void body(examples::CommandLine& line) {
         std::printf("%s: %zu objects, %zu lights; %d x %d, %d rays a pixel, %s\n",
                     name.c_str(), loaded.scene.size(), loaded.scene.lights.size(),
                     picture.width, picture.height, picture.rays,
-                    request.renderer == "path" ? "path tracing" : "photon mapping");
+                    !request.photons.empty()     ? "not rendered: photons as dots"
+                    : request.renderer == "path" ? "path tracing"
+                                                 : "photon mapping");
     if (request.plan) {
         if (request.renderer == "photon")
             std::fputs(
@@ -265,6 +316,11 @@ void body(examples::CommandLine& line) {
         return;
     }
 
+    if (!request.photons.empty()) {
+        save(draw_photons(loaded, picture, request, options), path, request.exposure);
+        if (!options.quiet) std::printf("  %s\n", path.c_str());
+        return;
+    }
     const examples::StopWatch watch;
     const RenderedT<float> rendered = render_scene(loaded, picture, request, options);
     if (rendered.image.pixels.empty()) return;

@@ -119,6 +119,24 @@ TEST_CASE("box: what the slabs say exactly, enter() says too, and little more") 
     CHECK(more < hits / 20);
 }
 
+TEST_CASE("box: no ray at an edge is lost to rounding") {
+    Numbers n;
+    int hits = 0;
+    for (int k = 0; k < 200000; ++k) {
+        const Vec3 place(n.point(k % 2 ? 100 : 0)), a(n.point(2)), b(n.point(2));
+        const Box box{place + glm::min(a, b), place + glm::max(a, b)};
+        Vec3 edge = box.low + float(n.next()) * (box.high - box.low);
+        for (int axis = 0; axis < 2 + n.below(2); ++axis)
+            edge[axis] = n.below(2) ? box.low[axis] : box.high[axis];
+        const Vec3 origin = place + Vec3(n.point(4));
+        const Ray ray{.origin = origin, .direction = edge - origin};
+        if (!meets(ray, box)) continue;
+        ++hits;
+        REQUIRE(entry(ray, box));
+    }
+    CHECK(hits > 50000);
+}
+
 TEST_CASE("box: along an axis, the sign of zero does not matter") {
     const Box box{{-1, -1, -5}, {1, 1, -3}};
     for (const float zero : {0.0f, -0.0f})

@@ -123,6 +123,9 @@ TEST_CASE_TEMPLATE("camera: what a ray meets is projected back to its pixel", T,
         // Wide angles magnify the rounding of the direction at the border.
         const double allowed = (sizeof(T) == 4 ? 1e-4 : 1e-11) * (width + height);
         REQUIRE(glm::distance(back, pixel) < allowed);
+        const auto place = project(camera, Vec3T<T>(point), width, height);
+        REQUIRE(place);
+        REQUIRE(glm::distance(glm::dvec2(*place), back) < 10 * allowed);
 
         // Its axes are orthonormal and right-handed; up is on the side of view.up.
         REQUIRE(double(glm::dot(camera.right, camera.up)) ==
@@ -186,4 +189,18 @@ TEST_CASE("camera: a view that shows nothing is refused with a sentence") {
         CHECK(starts(refusal({.vfov_degrees = angle}), "camera.vfov_degrees is "));
     CHECK(refusal({.vfov_degrees = -1}) ==
           "camera.vfov_degrees is -1; it must be above 0 and below 180.");
+}
+
+TEST_CASE("camera: what lies beside or behind the camera has no place in the picture") {
+    const Camera camera = look_at({.position{1, 2, 3}, .target{1, 2, -7}});
+    CHECK(project(camera, Vec3{1, 2, 2}, 200, 100) == Vec2{100, 50});
+    CHECK_FALSE(project(camera, Vec3{1, 2, 4}, 200, 100));
+    CHECK_FALSE(project(camera, Vec3{1, 2, 3}, 200, 100)); // the pinhole itself
+    CHECK_FALSE(project(camera, Vec3{7, 2, 3}, 200, 100));
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const float infinity = std::numeric_limits<float>::infinity();
+    CHECK_FALSE(project(camera, Vec3{nan, 2, 2}, 200, 100));
+    CHECK_FALSE(project(camera, Vec3{1, 2, -infinity}, 200, 100));
+    CHECK_FALSE(
+        project(camera, Vec3{1e38f, 2, 2.9f}, 200, 100)); // out of float's range
 }

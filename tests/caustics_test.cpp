@@ -17,6 +17,7 @@
 #include "ljus/materials/mirror.hpp"
 #include "ljus/photons/photon_map.hpp"
 #include "ljus/photons/tracing.hpp"
+#include "ljus/render/photon_mapping.hpp"
 #include "ljus/scene/scene.hpp"
 #include "support/ball_caustic.hpp"
 #include "support/mean.hpp"
@@ -605,4 +606,27 @@ TEST_CASE("caustics: with an edge in the picture the best error falls with N^(-1
     }
     CAPTURE(slope(best));
     CHECK(std::abs(slope(best) + 1.0 / 3) < 0.05);
+}
+
+TEST_CASE("caustics: both ways at the first glass are one way in the mean") {
+    // A ball under a square lamp, looked at so that some paths mirror the lamp.
+    double flux = 0;
+    const Room room =
+        library_room(OwnRoom{{{{0, 0, 0}, 0.5, 1.5}}, -1, {0, 2, 0}, 0.8}, flux);
+    std::array<Mean, 2> means;
+    for (const bool split : {false, true}) {
+        PhotonMapping settings{.split_glass = split};
+        settings.caustics = {.photons = 20000, .threads = 1};
+        const auto maps = make_photon_maps(room, settings);
+        const auto mapper = make_photon_mapper(room, maps, settings);
+        means[split ? 1 : 0] =
+            ljus_test::mean_radiance(mapper, 40000, 3, [](RandomStream& stream) {
+                const Vec2 u = next_2d<float>(stream) - 0.5f;
+                return Ray{.origin{0.3f * u.x, 1.5f, 0.3f * u.y}, .direction{0, -1, 0}};
+            });
+    }
+    CAPTURE(means[0].mean);
+    CAPTURE(means[1].mean);
+    CHECK(std::abs(apart(means[0], means[1])) < 3);
+    CHECK(means[1].error() < means[0].error());
 }

@@ -5,18 +5,20 @@
 /// Counts are held against chi-square, which gives a false alarm once in a million; means
 /// within 4.5 standard errors, once in 150 000.
 
-#include "ljus/photons/emission.hpp"
+#include "ljus/photons/aiming.hpp"
 
 #include <doctest/doctest.h>
 
 #include <array>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "ljus/geometry/shape.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
+#include "ljus/scene/query.hpp"
 #include "support/photon_samples.hpp"
 
 using namespace ljus;
@@ -542,4 +544,283 @@ TEST_CASE("emission: the light of an aimed photon has its colour and its number"
         CHECK((aimed->flight.flux.x > 0) == (aimed->flight.light == 0));
         CHECK((aimed->flight.flux.y > 0) == (aimed->flight.light == 1));
     }
+}
+
+namespace {
+
+/// A scene with one light and a black floor z = 0 of [-2, 2]^2 below it.
+using LitFloor = Scene<Shapes<Quad, Sphere, Triangle>, Materials<Lambertian>>;
+
+LitFloor lit_floor() {
+    LitFloor scene;
+    const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
+    scene.add(Quad{.corner{-2, -2, 0}, .edge_u{4, 0, 0}, .edge_v{0, 4, 0}}, black);
+    return scene;
+}
+
+/// What the photons of many seeds bring to the patch [0, 0.8] x [-0.2, 0.5] of the
+/// floor; one number a seed.
+template <typename MakeStream>
+Mean flux_on_patch(const LitFloor& scene, MakeStream make_stream) {
+    const LightChoice choice = light_choice(scene.lights);
+    Mean mean;
+    constexpr int photons = 4096;
+    for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+        double sum = 0;
+        for (std::uint64_t i = 0; i < photons; ++i) {
+            auto stream = make_stream(seed, i);
+            const auto flight = emit(scene, choice, stream);
+            const auto hit = closest_hit(scene, flight.ray);
+            if (!hit || hit->object != ObjectId{0, 0}) continue;
+            const Vec3 p = flight.ray.origin + hit->at.t * flight.ray.direction;
+            if (p.x >= 0 && p.x < 0.8f && p.y >= -0.2f && p.y < 0.5f)
+                sum += double(flight.flux.x) / photons;
+        }
+        mean.add(sum);
+    }
+    return mean;
+}
+
+/// The same by quadrature.
+template <typename Irradiance>
+double patch_integral(Irradiance irradiance, int pieces = 1) {
+    return integrate(0, 0.8, pieces, [&](double x) {
+        return integrate(-0.2, 0.5, pieces, [&](double y) {
+            return irradiance(D3{x, y, 0});
+        });
+    });
+}
+
+} // namespace
+
+TEST_CASE(
+    "emission: each kind of light brings its irradiance to a floor, by chance and "
+    "evenly spread") {
+    // 3 standard errors of 16 seeds: Student's t with 15 degrees puts 0.9 % beyond; 14
+    // numbers, were the seeds new, 12 %.
+    const auto compare = [](const char* name, const LitFloor& scene, double right) {
+        const Mean chance = flux_on_patch(scene, [](auto seed, auto i) {
+            return random_stream(seed, Pass::user, 0, i);
+        });
+        const Mean even = flux_on_patch(scene, [](auto seed, auto i) {
+            return sobol_stream(seed, Pass::user, 0, i);
+        });
+        CAPTURE(name);
+        CAPTURE(right);
+        CAPTURE(chance.mean);
+        CAPTURE(even.mean);
+        CHECK(std::abs(chance.sigmas(right)) < 3);
+        CHECK(std::abs(even.sigmas(right)) < 3);
+        CHECK(std::sqrt(chance.variance() / 16) < 0.1 * right);
+        // And the even ones are known better, by far.
+        CHECK(even.variance() < 0.5 * chance.variance());
+    };
+    {
+        LitFloor scene = lit_floor();
+        scene.add(lamp, scene.add(Lambertian{}), Rgb{1});
+        const D3 c{lamp.corner}, u{lamp.edge_u}, v{lamp.edge_v};
+        compare("quad", scene, patch_integral([&](D3 at) {
+                    return polygon_irradiance({c, c + u, c + u + v, c + v}, at,
+                                              {0, 0, 1}, 1);
+                }));
+    }
+    {
+        LitFloor scene = lit_floor();
+        const D3 a{-0.5, -0.6, 1}, b{0.1, 0.9, 1.3}, c{0.9, -0.4, 0.8};
+        scene.add(Triangle{Vec3(a), Vec3(b), Vec3(c)}, scene.add(Lambertian{}), Rgb{1});
+        compare(
+            "triangle", scene, patch_integral([&](D3 at) {
+                return polygon_irradiance({a, b, c, (c + a) / 2.0}, at, {0, 0, 1}, 1);
+            }));
+    }
+    {
+        LitFloor scene = lit_floor();
+        scene.add(Sphere{.center{0.2f, 0.1f, 1}, .radius = 0.4f},
+                  scene.add(Lambertian{}), Rgb{1});
+        compare("sphere", scene, patch_integral([&](D3 at) {
+                    const D3 way = D3{0.2f, 0.1f, 1} - at;
+                    const double d2 = glm::dot(way, way);
+                    return pi * 0.16 / d2 * way.z / std::sqrt(d2);
+                }));
+    }
+    const D3 above{0.3, -0.4, 1.2};
+    {
+        LitFloor scene = lit_floor();
+        scene.add(PointLight{.position = Vec3(above), .intensity = Rgb{2}});
+        compare("point", scene, patch_integral([&](D3 at) {
+                    const D3 way = above - at;
+                    const double d2 = glm::dot(way, way);
+                    return 2 * way.z / (d2 * std::sqrt(d2));
+                }));
+    }
+    for (const double inner : {0.0, 15.0, 30.0}) {
+        LitFloor scene = lit_floor();
+        const D3 axis = glm::normalize(D3{0.1, 0.3, -1});
+        scene.add(SpotLight{.position = Vec3(above),
+                            .direction{0.3f, 0.9f, -3},
+                            .intensity = Rgb{2},
+                            .inner_degrees = float(inner),
+                            .outer_degrees = 30});
+        compare("spot", scene,
+                patch_integral(
+                    [&](D3 at) {
+                        const D3 way = above - at;
+                        const double d = glm::length(way);
+                        const double ci = std::cos(inner * pi / 180);
+                        const double co = std::cos(30 * pi / 180);
+                        const double c = -glm::dot(way, axis) / d;
+                        const double share = c >= ci  ? 1
+                                             : c > co ? (c - co) / (ci - co)
+                                                      : 0;
+                        return share * 2 * way.z / (d * d * d);
+                    },
+                    60));
+    }
+    for (const Vec3 way : {Vec3{0, 0, -1}, Vec3{1, 2, -1}}) {
+        LitFloor scene = lit_floor();
+        scene.add(SunLight{.direction = way, .irradiance = Rgb{5}});
+        const double cosine = 1 / glm::length(D3(way));
+        compare("sun", scene, 5 * cosine * 0.8 * 0.7);
+    }
+}
+
+TEST_CASE("emission: a spot light's directions go with its intensity, in cones of any "
+          "width") {
+    for (const auto& [inner, outer] :
+         {std::pair{0.0, 30.0}, std::pair{20.0, 30.0}, std::pair{60.0, 60.0},
+          std::pair{0.0, 180.0}, std::pair{179.0, 180.0}, std::pair{0.02, 0.1}}) {
+        Stage stage;
+        const D3 axis = glm::normalize(D3{1, -2, 0.5});
+        stage.scene.add(SpotLight{.position{1, 2, 3},
+                                  .direction{2, -4, 1},
+                                  .intensity = Rgb{3},
+                                  .inner_degrees = float(inner),
+                                  .outer_degrees = float(outer)});
+        const auto lifted = [](double degrees) {
+            const double sine = std::sin(degrees * pi / 360);
+            return 2 * sine * sine; // 1 - cos
+        };
+        const double wi = lifted(inner), wo = lifted(outer);
+        const LightChoice choice = light_choice(stage.scene.lights);
+        CHECK(double(stage.scene.lights[0].flux.x) ==
+              doctest::Approx(3 * pi * (wi + wo)).epsilon(1e-5));
+        const D3 side = glm::normalize(glm::cross(axis, D3{0, 0, 1}));
+        const D3 up = glm::cross(side, axis);
+        constexpr int rings = 12, slices = 8, photons = 60000;
+        std::vector<double> counts(rings * slices), expected(counts.size());
+        for (long long i = 0; i < photons; ++i) {
+            RandomStream stream = stream_of(i);
+            const auto flight = emit(stage.scene, choice, stream);
+            REQUIRE(flight.ray.origin == Vec3{1, 2, 3});
+            const D3 d = glm::normalize(D3(flight.ray.direction)) - axis;
+            const double w = glm::dot(d, d) / 2;
+            REQUIRE(w < wo * (1 + 1e-3) + 1e-9);
+            const int ring = std::min(rings - 1, int(w / wo * rings));
+            const double phi = std::atan2(glm::dot(d, up), glm::dot(d, side));
+            const int slice =
+                std::clamp(int((phi / (2 * pi) + 0.5) * slices), 0, slices - 1);
+            ++counts[std::size_t(ring * slices + slice)];
+        }
+        for (int ring = 0; ring < rings; ++ring) {
+            // The area below the curve from one ring's w to the next, piece by piece.
+            const double part = integrate(
+                wo * ring / rings, wo * (ring + 1) / rings, 200,
+                [&](double w) { return w <= wi ? 1.0 : (wo - w) / (wo - wi); });
+            for (int slice = 0; slice < slices; ++slice)
+                expected[std::size_t(ring * slices + slice)] =
+                    photons * part / ((wi + wo) / 2) / slices;
+        }
+        const auto result = photon_test::chi_square(counts, expected);
+        CAPTURE(inner);
+        CAPTURE(outer);
+        CAPTURE(result.sum);
+        CHECK(result.sum < result.limit());
+    }
+}
+
+TEST_CASE(
+    "emission: a sun's photons are parallel, even over the scene, and begin before "
+    "it; they know what is added later") {
+    Stage stage;
+    stage.scene.add(SunLight{.direction{0, 0, -3}, .irradiance = Rgb{2}});
+    CHECK(stage.scene.lights[0].flux.x == 0.0f); // nothing to shine on yet
+    stage.scene.add(Sphere{.center{1, 0, 0}, .radius = 1}, stage.matt);
+    const float small = stage.scene.lights[0].flux.x;
+    stage.scene.add(Sphere{.center{-1, 0, 5}, .radius = 0.5f}, stage.matt);
+    CHECK(stage.scene.lights[0].flux.x > small);
+    const double radius = double(stage.scene.lights[0].radius);
+    const D3 middle{stage.scene.lights[0].position};
+    CHECK(double(stage.scene.lights[0].flux.x) ==
+          doctest::Approx(2 * pi * radius * radius).epsilon(1e-5));
+    const LightChoice choice = light_choice(stage.scene.lights);
+    std::vector<double> counts(10 * 12), expected(counts.size(), 60000.0 / 120);
+    for (long long i = 0; i < 60000; ++i) {
+        RandomStream stream = stream_of(i);
+        const auto flight = emit(stage.scene, choice, stream);
+        REQUIRE(flight.ray.direction == Vec3{0, 0, -1});
+        REQUIRE(flight.ray.origin.z > 5.5f);
+        const D3 p = (D3(flight.ray.origin) - middle) / radius;
+        const double r2 = p.x * p.x + p.y * p.y; // uniform over a disc
+        REQUIRE(r2 < 1 + 1e-5);
+        const int ring = std::min(9, int(r2 * 10));
+        const int slice =
+            std::clamp(int((std::atan2(p.y, p.x) / (2 * pi) + 0.5) * 12), 0, 11);
+        ++counts[std::size_t(ring * 12 + slice)];
+    }
+    const auto result = photon_test::chi_square(counts, expected);
+    CAPTURE(result.sum);
+    CHECK(result.sum < result.limit());
+}
+
+TEST_CASE("emission: aimed photons bring as much from spots and suns as those sent "
+          "everywhere") {
+    for (const int kind : {0, 1, 2, 3}) {
+        Stage stage;
+        stage.scene.add(Sphere{.center{0, 0, 0.5f}, .radius = 0.5f}, stage.glass);
+        stage.scene.add(Sphere{.center{0.9f, 0, 1.5f}, .radius = 0.6f}, stage.mirror);
+        stage.scene.add(
+            Quad{.corner{-1, -1, -0.5f}, .edge_u{2, 0, 0}, .edge_v{0, 2, 0}},
+            stage.mirror);
+        if (kind < 3) // wide, narrower than its targets, and within the ball
+            stage.scene.add(SpotLight{.position{0.1f, 0.2f, kind == 2 ? 0.6f : 3.0f},
+                                      .direction{0.2f, -0.1f, -1},
+                                      .inner_degrees = kind == 1 ? 2.0f : 20.0f,
+                                      .outer_degrees = kind == 1 ? 6.0f : 50.0f});
+        else
+            stage.scene.add(SunLight{.direction{0.3f, 0.1f, -1}});
+        const AimedFlux aimed = aim_at_all(stage.scene, 60000);
+        const auto everywhere = emit_to(stage.scene, aimed.targets, 60000);
+        for (std::size_t i = 0; i < 3; ++i) {
+            CAPTURE(kind);
+            CAPTURE(i);
+            const Mean& a = aimed.means[i][0];
+            const Mean& b = everywhere[i];
+            CAPTURE(a.mean);
+            CAPTURE(b.mean);
+            const double error =
+                std::sqrt(a.variance() / a.count + b.variance() / b.count);
+            CHECK(std::abs(a.mean - b.mean) <= 4.5 * error);
+            CHECK(error <= 0.06 * b.mean + 1e-6);
+        }
+    }
+}
+
+TEST_CASE("emission: chosen by power all photons weigh the same; chosen evenly they do "
+          "not, and the flux that arrives is known worse") {
+    LitFloor scene = lit_floor();
+    for (const float strength : {0.1f, 1.0f, 30.0f})
+        scene.add(PointLight{.position{0.1f, 0.2f, 1}, .intensity = Rgb{strength}});
+    const LightChoice by_power = light_choice(scene.lights);
+    const LightChoice even{.cumulative = {1, 2, 3}};
+    Mean weight[2];
+    for (const int i : {0, 1})
+        for (long long path = 0; path < 3000; ++path) {
+            RandomStream stream = stream_of(path);
+            weight[i].add(double(emit(scene, i == 0 ? by_power : even, stream).flux.x));
+        }
+    const double flux = 4 * pi * 31.1;
+    CHECK(weight[0].mean == doctest::Approx(flux).epsilon(1e-5));
+    CHECK(weight[0].variance() < 1e-10 * flux * flux);
+    CHECK(std::abs(weight[1].sigmas(flux)) < 4.5);
+    CHECK(weight[1].variance() > flux * flux);
 }

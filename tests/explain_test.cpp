@@ -69,8 +69,8 @@ TEST_CASE("explain: the sums by path add up to the pixel as it is rendered") {
     SUBCASE("path tracing without shadow rays") {
         check_sums(make_path_tracer(room.scene, {.sample_lights = false}), room.camera);
     }
-    for (const auto indirect :
-         {IndirectLight::rays, IndirectLight::map, IndirectLight::none}) {
+    for (const auto indirect : {IndirectLight::rays, IndirectLight::map,
+                                IndirectLight::photons, IndirectLight::none}) {
         const PhotonMapping settings{.max_depth = 6,
                                      .indirect = indirect,
                                      .caustics = {.photons = 2000},

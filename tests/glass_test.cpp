@@ -217,3 +217,29 @@ TEST_CASE("glass: what no glass can be is refused by name and value") {
               .find("glass.absorption is (0, -1, 0)") == 0);
     CHECK(refusal(Glass{.absorption = {0, NAN, 0}}).find("glass.absorption") == 0);
 }
+
+TEST_CASE("glass: both ways at once are what one way is in the mean") {
+    for (const double index : {1.0, 1.5, 2.4})
+        for (const double cosine : {-1.0, -0.8, -0.3, 0.05, 0.5, 1.0}) {
+            CAPTURE(index);
+            CAPTURE(cosine);
+            const GlassT<double> m{.index = index};
+            const Vec3T<double> wo{std::sqrt(1 - cosine * cosine), 0, cosine};
+            const auto both = both_ways(m, wo, Transport::radiance);
+            const double share = reflected_share(m, wo);
+            if (!both) {
+                CHECK(share == doctest::Approx(1)); // total reflection
+                continue;
+            }
+            const auto& [reflected, refracted] = *both;
+            CHECK(reflected.weight.x == doctest::Approx(share).epsilon(1e-9));
+            CHECK(refracted.weight.x ==
+                  doctest::Approx((1 - share) * refracted.squeeze).epsilon(1e-9));
+            CHECK(refracted.squeeze ==
+                  doctest::Approx(cosine > 0 ? 1 / (index * index) : index * index));
+            const auto down = sample(m, wo, {0.5, 0.5, 0.9999999}, Transport::radiance);
+            REQUIRE(down);
+            CHECK(glm::distance(down->wi, refracted.wi) < 1e-12);
+            CHECK(both_ways(m, wo, Transport::flux)->at(1).squeeze == 1);
+        }
+}

@@ -135,3 +135,65 @@ TEST_CASE("light: an observer on the lamp or beside it gets no light, no NaN") {
             CHECK_FALSE(sample);
         }
 }
+
+TEST_CASE("light: a spot light is a point light within its cone, fades and ends") {
+    const auto scene = make_scene(placed(Sphere{.center{99, 0, 0}}, Lambertian{}),
+                                  SpotLight{.position{0, 2, 0},
+                                            .direction{0, -7, 0},
+                                            .intensity = Rgb{4},
+                                            .inner_degrees = 30,
+                                            .outer_degrees = 60});
+    const double inner = std::cos(pi / 6), outer = 0.5;
+    for (const double angle : {0.0, 10.0, 29.9, 35.0, 45.0, 59.0, 61.0, 120.0, 180.0}) {
+        const double a = angle * pi / 180;
+        const Vec3 at{float(3 * std::sin(a)), float(2 - 3 * std::cos(a)), 0};
+        const auto s = sample_light(scene, scene.lights[0], at, Vec2{0.5f});
+        const double share =
+            std::cos(a) >= inner ? 1 : (std::cos(a) - outer) / (inner - outer);
+        CAPTURE(angle);
+        CHECK(s.has_value() == (share > 0));
+        if (s)
+            CHECK(double(s->weight.x) == doctest::Approx(share * 4 / 9).epsilon(1e-5));
+        if (s) CHECK(s->pdf == 0.0f);
+    }
+}
+
+TEST_CASE("light: a sun shines alike on all, from one side") {
+    const auto scene = make_scene(SunLight{.direction{0, -2, 0}, .irradiance = Rgb{3}},
+                                  placed(Sphere{.radius = 5}, Lambertian{}));
+    for (const Vec3 at : {Vec3{0}, Vec3{5, 0, 0}, Vec3{0, 5, 0}, Vec3{0, -5, 0}}) {
+        const auto s = sample_light(scene, scene.lights[0], at, Vec2{0.5f});
+        REQUIRE(s);
+        CHECK(s->wi == Vec3{0, 1, 0});
+        CHECK(s->weight == Rgb{3});
+        CHECK(s->point.position.y > 5); // its shadow ray leaves the scene
+    }
+}
+
+TEST_CASE("light: a spot or a sun that makes no sense is refused in a sentence") {
+    Scene<Shapes<Sphere>, Materials<Lambertian>> scene;
+    const float nan = std::nanf("");
+    CHECK_THROWS_WITH_AS(scene.add(SpotLight{.direction{0, 0, 0}}),
+                         doctest::Contains("spot light.direction"),
+                         std::invalid_argument);
+    CHECK_THROWS_AS(scene.add(SpotLight{.direction{0, nan, 0}}), std::invalid_argument);
+    CHECK_THROWS_AS(scene.add(SpotLight{.position{nan, 0, 0}}), std::invalid_argument);
+    CHECK_THROWS_AS(scene.add(SpotLight{.intensity = Rgb{-1}}), std::invalid_argument);
+    CHECK_THROWS_AS(scene.add(SpotLight{.intensity = Rgb{nan}}), std::invalid_argument);
+    for (const float angle : {0.0f, -1.0f, 181.0f, nan})
+        CHECK_THROWS_AS(
+            scene.add(SpotLight{.inner_degrees = 0, .outer_degrees = angle}),
+            std::invalid_argument);
+    for (const float angle : {-1.0f, 31.0f, nan})
+        CHECK_THROWS_AS(
+            scene.add(SpotLight{.inner_degrees = angle, .outer_degrees = 30}),
+            std::invalid_argument);
+    CHECK_THROWS_AS(scene.add(SunLight{.direction = Vec3{0}}), std::invalid_argument);
+    CHECK_THROWS_AS(scene.add(SunLight{.irradiance = Rgb{-1}}), std::invalid_argument);
+    scene.add(SunLight{.irradiance = Rgb{0}}); // dark: no light
+    scene.add(SpotLight{.intensity = Rgb{0}});
+    CHECK(scene.lights.empty());
+    // A direction of any length.
+    scene.add(SpotLight{.direction{0, 1e-30f, 0}});
+    CHECK(scene.lights[0].direction == Vec3{0, 1, 0});
+}

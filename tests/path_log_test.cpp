@@ -70,15 +70,19 @@ PathLog log_of(const Renderer& renderer, std::uint64_t seed, std::uint64_t path,
 
 /// Whether a term's path may be carried by this owner, by the table of the photon
 /// mapper. `indirect` is rays or map.
-bool owned(const std::string& owner, const std::string& path, bool map) {
+bool owned(const std::string& owner, const std::string& path, IndirectLight indirect) {
     static const std::regex emission("ES*L"), shadow("E[SD]*DL"),
         caustics("E[SD]*DS\\+L");
     if (owner == "emission") return std::regex_match(path, emission);
     if (owner == "shadow ray")
-        return std::regex_match(path, map ? std::regex("ES*DL") : shadow);
+        return std::regex_match(
+            path, indirect == IndirectLight::rays ? shadow : std::regex("ES*DL"));
     if (owner == "caustics map") return std::regex_match(path, caustics);
     if (owner == "general map")
-        return map && std::regex_match(path, std::regex("ES*DS*DL\\|D\\.\\.DL"));
+        return (indirect == IndirectLight::map &&
+                std::regex_match(path, std::regex("ES*DS*DL\\|D\\.\\.DL"))) ||
+               (indirect == IndirectLight::photons &&
+                std::regex_match(path, std::regex("ES*D\\.\\.DL")));
     return false;
 }
 
@@ -120,10 +124,11 @@ TEST_CASE("path log: the letters of a path that is known") {
 
 TEST_CASE("path log: each term of the photon mapper has the one owner of the table") {
     const Room room = mixed_room();
-    for (const IndirectLight indirect :
-         {IndirectLight::rays, IndirectLight::map, IndirectLight::none}) {
+    for (const IndirectLight indirect : {IndirectLight::rays, IndirectLight::map,
+                                         IndirectLight::photons, IndirectLight::none}) {
         PhotonMapping settings;
         settings.indirect = indirect;
+        settings.split_glass = indirect != IndirectLight::map;
         settings.caustics = {.photons = 20000, .threads = 1};
         settings.general = {.photons = 20000, .threads = 1};
         const auto maps = make_photon_maps(room, settings);
@@ -138,7 +143,7 @@ TEST_CASE("path log: each term of the photon mapper has the one owner of the tab
                 if (line.what == "vertex") continue;
                 CAPTURE(line.what);
                 CAPTURE(line.path);
-                CHECK(owned(line.what, line.path, indirect == IndirectLight::map));
+                CHECK(owned(line.what, line.path, indirect));
                 owners[line.path].insert(line.what);
                 ++terms[line.what];
                 if (indirect == IndirectLight::none)
@@ -153,7 +158,8 @@ TEST_CASE("path log: each term of the photon mapper has the one owner of the tab
         CHECK(terms["emission"] > 10); // by the mirror; no lamp is in view
         CHECK(terms["shadow ray"] > 2000);
         CHECK(terms["caustics map"] > 1000);
-        CHECK((terms["general map"] > 1000) == (indirect == IndirectLight::map));
+        CHECK((terms["general map"] > 1000) ==
+              (indirect == IndirectLight::map || indirect == IndirectLight::photons));
     }
 }
 

@@ -40,7 +40,11 @@ TEST_CASE("survey: each pass is on or off for a reason that is printed") {
     CHECK_FALSE(plan.general_map.on);
     CHECK(plan.general_map.why == "no ray asks it");
     CHECK_FALSE(plan.shadow_photons.on);
-    CHECK(plan.flat_loop.on);
+    CHECK_FALSE(plan.flat_loop.on);
+    CHECK(plan.flat_loop.why == "8 objects, a tree is faster from 2 on");
+    Room one;
+    one.add(Sphere{}, one.add(Lambertian{}));
+    CHECK(survey(one, settings).flat_loop.on);
 
     plan = survey(matt, settings);
     CHECK_FALSE(plan.caustics_map.on);
@@ -62,6 +66,12 @@ TEST_CASE("survey: each pass is on or off for a reason that is printed") {
     CHECK_FALSE(plan.shadow_photons.on);
     settings.general.photons = 0;
     CHECK_FALSE(survey(matt, settings).general_map.on);
+
+    settings = {};
+    settings.indirect = IndirectLight::photons; // no ray, but the map
+    plan = survey(matt, settings);
+    CHECK_FALSE(plan.indirect_rays.on);
+    CHECK(plan.general_map.on);
 
     settings = {};
     settings.keep_general_map = true;

@@ -415,8 +415,7 @@ TEST_CASE("tracing: the kinds of photons are those of their paths") {
     CHECK(seen[2] > 100);
 }
 
-TEST_CASE("tracing: shadow photons lie behind the first surface, where it faces the "
-          "light") {
+TEST_CASE("tracing: shadow photons lie behind the first surface") {
     const Room room = make_room<float>(Ball::glass, Lamp::sphere, 2);
     const auto traced =
         trace_photons(room, PhotonLaw::general, {.photons = 2000, .threads = 1});
@@ -450,4 +449,273 @@ TEST_CASE("tracing: no photons, no light, no target") {
     add_walls(dark);
     CHECK_THROWS_AS((void)trace_photons(dark, PhotonLaw::general, {}),
                     std::invalid_argument);
+}
+
+namespace {
+
+/// Whether two passes brought the same photons, number by number.
+bool same(const TracedPhotonsT<float>& a, const TracedPhotonsT<float>& b) {
+    if (a.photons.size() != b.photons.size()) return false;
+    for (std::size_t i = 0; i < a.photons.size(); ++i) {
+        const Photon &x = a.photons[i], &y = b.photons[i];
+        if (x.position != y.position || x.direction != y.direction ||
+            x.flux != y.flux || x.light != y.light || x.kind != y.kind)
+            return false;
+    }
+    return a.audit.absorbed == b.audit.absorbed && a.audit.emitted == b.audit.emitted &&
+           a.audit.roulette == b.audit.roulette;
+}
+
+} // namespace
+
+TEST_CASE("tracing: the same photons for 1 to 4 threads, by chance and evenly spread") {
+    const Room room = make_room<float>(Ball::glass, Lamp::quad, 2);
+    for (const PhotonLaw law : {PhotonLaw::general, PhotonLaw::caustics})
+        for (const PhotonNumbers numbers :
+             {PhotonNumbers::random, PhotonNumbers::sobol}) {
+            PhotonPass pass{.photons = 5000, .numbers = numbers, .threads = 1};
+            const auto one = trace_photons(room, law, pass);
+            check_balance(one.audit);
+            CHECK(one.photons.size() > 1000);
+            for (pass.threads = 2; pass.threads <= 4; ++pass.threads)
+                CHECK(same(one, trace_photons(room, law, pass)));
+            pass.seed = 2;
+            CHECK_FALSE(same(one, trace_photons(room, law, pass)));
+        }
+}
+
+TEST_CASE("tracing: spots and suns balance, and their photons are what paths find") {
+    // A floor patch beside a matt ball and a wall, lit by a sun and a spot: all photons
+    // that are stored on it, against the path tracer's rule by hand: the mean over the
+    // patch of E, direct and after one bounce and more.
+    RoomT<float> open;
+    const auto grey = open.add(Lambertian{.albedo = Rgb{0.6f}});
+    open.add(Quad{.corner{-2, 0, -2}, .edge_u{0, 0, 4}, .edge_v{4, 0, 0}}, grey);
+    open.add(Quad{.corner{-2, 0, -2}, .edge_u{4, 0, 0}, .edge_v{0, 2, 0}}, grey);
+    open.add(Sphere{.center{0.2f, 0.5f, 0}, .radius = 0.4f}, grey);
+    open.add(SunLight{.direction{-1, -2, -0.5f}, .irradiance{3, 2, 1}});
+    open.add(SpotLight{.position{-1, 1.5f, 1},
+                       .direction{1, -1.2f, -1},
+                       .intensity{1, 2, 4},
+                       .inner_degrees = 15,
+                       .outer_degrees = 35});
+    const auto on_patch = [](const Vec3& p) {
+        return p.y < 1e-3f && p.x > -1 && p.x < 0 && p.z > -1 && p.z < 0;
+    };
+    for (const PhotonNumbers numbers : {PhotonNumbers::random, PhotonNumbers::sobol}) {
+        Mean photons[2]; // direct and indirect
+        for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+            const auto traced = trace_photons(open, PhotonLaw::general,
+                                              {.photons = 20000,
+                                               .seed = seed,
+                                               .shadow_photons = false,
+                                               .numbers = numbers,
+                                               .threads = 1});
+            check_balance(traced.audit);
+            double sum[2] = {};
+            for (const Photon& photon : traced.photons)
+                if (on_patch(photon.position))
+                    sum[photon.kind == PhotonKind::indirect] += double(photon.flux.y);
+            for (const int i : {0, 1}) photons[i].add(sum[i]);
+        }
+        Mean paths[2];
+        for (std::uint64_t path = 0; path < 100000; ++path) {
+            auto stream = random_stream(9, Pass::user, 0, path);
+            const Vec2 u = next_2d<float>(stream);
+            Ray ray{.origin{u.x - 1, 0.05f, u.y - 1}, .direction{0, -1, 0}};
+            double weight = 1, found[2] = {};
+            for (std::uint64_t depth = 1; depth < 12; ++depth) {
+                start_bounce(stream, depth);
+                const auto hit = closest_hit(open, ray);
+                if (!hit) break;
+                const auto at = surface_at(open, ray, *hit);
+                const Vec3 n =
+                    at.frame.normal *
+                    (glm::dot(at.frame.normal, ray.direction) < 0 ? 1.0f : -1.0f);
+                for (const auto& light : open.lights) {
+                    const auto s =
+                        sample_light(open, light, at.point.position, Vec2{0.5f});
+                    if (!s || !(glm::dot(s->wi, n) > 0)) continue;
+                    if (occluded(open, ray_between(at.point, s->point))) continue;
+                    found[depth > 1] +=
+                        weight * double(s->weight.y * glm::dot(s->wi, n));
+                }
+                // E of the next surface, cosine-weighted: what it sends back is 0.6 E/pi.
+                weight *= 0.6;
+                const Vec3 way = to_world(
+                    frame_around(n), sample_cosine_hemisphere(next_2d<float>(stream)));
+                ray = ray_from(at.point, way);
+            }
+            for (const int i : {0, 1}) paths[i].add(found[i]);
+        }
+        for (const int i : {0, 1}) {
+            CAPTURE(i);
+            CAPTURE(photons[i].mean);
+            CAPTURE(paths[i].mean);
+            CHECK(std::abs(apart(photons[i], paths[i])) < 3);
+            CHECK(photons[i].error() < 0.11 * photons[i].mean);
+        }
+    }
+}
+
+TEST_CASE("tracing: through a ball of glass a sun sends what parallel light does") {
+    Room scene;
+    const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
+    const auto glass = scene.add(Glass{.index = 1.5f});
+    scene.add(Sphere{.center{0, 0, 0}, .radius = 1}, glass);
+    scene.add(
+        Quad{.corner{-1.2f, -1.5f, -1.2f}, .edge_u{0, 0, 2.4f}, .edge_v{2.4f, 0, 0}},
+        black);
+    scene.add(SunLight{.direction{0, -1, 0}, .irradiance = Rgb{1}});
+    for (const PhotonNumbers numbers : {PhotonNumbers::random, PhotonNumbers::sobol}) {
+        const Mean through =
+            stored_flux(scene, PhotonLaw::caustics,
+                        {.photons = 20000, .numbers = numbers, .threads = 1}, 16,
+                        [&](const Photon& p) {
+                            return double(p.position.x * p.position.x +
+                                          p.position.z * p.position.z) < 0.16;
+                        });
+        const double right = pi * straight_through(1.5, 1.5, 0.4);
+        CAPTURE(through.mean);
+        CAPTURE(right);
+        CHECK(through.mean > right - 3 * through.error());
+        CHECK(through.mean < 1.005 * right + 3 * through.error());
+        CHECK(through.error() < 0.005 * right);
+    }
+}
+
+TEST_CASE("tracing: roulette leaves the flux in a furnace as it is, over 100 seeds") {
+    // Walls that reflect rho: the power that arrives is 1/(1 - rho) of the lamp's.
+    for (const float rho : {0.3f, 0.75f, 0.9f}) {
+        RoomT<float> room;
+        const auto wall = room.add(Lambertian{.albedo = Rgb{rho}});
+        room.add(Sphere{.radius = 1}, wall, Rgb{0}, true);
+        room.add(PointLight{.position{0.3f, 0, 0},
+                            .intensity = Rgb{float(0.25 / std::numbers::pi)}});
+        Mean arrived;
+        for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+            const auto traced = trace_photons(
+                room, PhotonLaw::general,
+                {.photons = 1000, .seed = seed, .shadow_photons = false, .threads = 1});
+            double sum = 0;
+            for (const Photon& photon : traced.photons) sum += double(photon.flux.x);
+            arrived.add(sum);
+        }
+        CAPTURE(rho);
+        CAPTURE(arrived.mean);
+        CHECK(std::abs(apart(arrived, 1 / (1 - double(rho)))) < 3);
+        // A geometric number of surfaces has the variance rho / (1 - rho)^2.
+        const double right = std::sqrt(double(rho) / 1000) / (1 - double(rho)) / 10;
+        CHECK(arrived.error() == doctest::Approx(right).epsilon(0.25));
+    }
+}
+
+TEST_CASE("tracing: memory is foretold, and refused in a sentence before it is taken") {
+    const Room room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    for (const PhotonLaw law : {PhotonLaw::general, PhotonLaw::caustics})
+        for (const PhotonNumbers numbers :
+             {PhotonNumbers::random, PhotonNumbers::sobol})
+            for (const long long photons : {1000000000000LL, 9223372036854775807LL})
+                CHECK_THROWS_WITH_AS(
+                    (void)trace_photons(room, law,
+                                        {.photons = photons, .numbers = numbers}),
+                    doctest::Contains("max_memory allows 4 GB"), std::invalid_argument);
+    // What the pilot stored tells what all of them will: both sides of the limit.
+    const auto few = trace_photons(room, PhotonLaw::general, {.photons = pilot_paths});
+    const double mean = double(few.photons.size()) / double(pilot_paths);
+    const double bytes = expected_bytes<float>(20000, mean);
+    PhotonPass pass{.photons = 20000, .max_memory = 1.05 * bytes};
+    const auto all = trace_photons(room, PhotonLaw::general, pass);
+    CHECK(double(all.photons.size()) * 2 * sizeof(Photon) ==
+          doctest::Approx(bytes).epsilon(0.05));
+    pass.max_memory = 0.95 * bytes;
+    CHECK_THROWS_AS((void)trace_photons(room, PhotonLaw::general, pass),
+                    std::invalid_argument);
+}
+
+TEST_CASE("tracing: a pass that stores nothing gives up and says why") {
+    const auto sentence = [](const Room& room, PhotonLaw law) {
+        const PhotonPass pass{.photons = 1000000, .give_up = 4096};
+        const auto traced = trace_photons(room, law, pass);
+        CHECK(traced.photons.empty());
+        CHECK(traced.complete);
+        CHECK(traced.emitted == 4096);
+        check_balance(traced.audit);
+        return traced.remark;
+    };
+    Room hidden; // a wall between the lamp and the glass
+    const auto grey = hidden.add(Lambertian{});
+    hidden.add(Sphere{.center{0, 0, 0}, .radius = 0.2f}, hidden.add(Glass{}));
+    hidden.add(Quad{.corner{-2, 1, -2}, .edge_u{4, 0, 0}, .edge_v{0, 0, 4}}, grey);
+    hidden.add(PointLight{.position{0, 2, 0}});
+    CHECK(sentence(hidden, PhotonLaw::caustics).find("100 % met something else") !=
+          std::string::npos);
+
+    Room away; // a lamp that turns its back to the glass
+    away.add(Sphere{.center{0, 0, 0}, .radius = 0.2f}, away.add(Glass{}));
+    away.add(Quad{.corner{-2, 1, -2}, .edge_u{0, 0, 4}, .edge_v{4, 0, 0}},
+             away.add(Lambertian{}), Rgb{1});
+    CHECK(sentence(away, PhotonLaw::caustics).find("100 % could not be sent") !=
+          std::string::npos);
+
+    Room nowhere; // a lamp that looks at nothing
+    nowhere.add(Quad{.corner{-2, 1, -2}, .edge_u{0, 0, 4}, .edge_v{4, 0, 0}},
+                nowhere.add(Lambertian{}), Rgb{1});
+    CHECK(sentence(nowhere, PhotonLaw::general).find("100 % left the scene") !=
+          std::string::npos);
+    // A pass that has stored one photon goes on; one that ends before it says nothing.
+    const Room room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    const auto all =
+        trace_photons(room, PhotonLaw::general, {.photons = 6000, .give_up = 1});
+    CHECK(all.emitted == 6000);
+    CHECK(all.remark.empty());
+    CHECK(trace_photons(nowhere, PhotonLaw::general, {.photons = 4000}).remark.empty());
+}
+
+TEST_CASE("tracing: lamps and scenes of any size") {
+    double share[2] = {}; // of the emitted flux that the floor gets first
+    for (const double scale : {1.0, 1e-6, 1e-3, 1e3, 1e6})
+        for (const double lamp : {1.0, 1e-4}) {
+            const auto s = static_cast<float>(scale), r = static_cast<float>(lamp);
+            Room room;
+            const auto grey = room.add(Lambertian{});
+            room.add(Quad{.corner = s * Vec3{-1, 0, -1},
+                          .edge_u{0, 0, 2 * s},
+                          .edge_v{2 * s, 0, 0}},
+                     grey);
+            room.add(Sphere{.center = s * Vec3{0, 1.2f, 0}, .radius = s * r}, grey,
+                     Rgb{1});
+            const auto traced = trace_photons(
+                room, PhotonLaw::general,
+                {.photons = 20000, .shadow_photons = false, .threads = 1});
+            check_balance(traced.audit);
+            double direct = 0;
+            for (const Photon& photon : traced.photons)
+                if (photon.kind == PhotonKind::direct) direct += double(photon.flux.x);
+            double& right = share[lamp < 1];
+            const double now = direct / traced.audit.emitted.x;
+            CAPTURE(scale);
+            CAPTURE(lamp);
+            if (right == 0) right = now;
+            CHECK(now == doctest::Approx(right).epsilon(1e-3));
+            CHECK(now > 0.1);
+        }
+}
+
+TEST_CASE("tracing: one photon, and numbers that make no sense") {
+    const Room room = make_room<float>(Ball::lambertian, Lamp::quad, 1);
+    const auto one = trace_photons(room, PhotonLaw::general, {.photons = 1});
+    REQUIRE(!one.photons.empty());
+    CHECK(one.photons[0].flux == room.lights[0].flux);
+    for (const PhotonPass& pass :
+         {PhotonPass{.photons = -1}, PhotonPass{.max_bounces = 0},
+          PhotonPass{.max_memory = 0}, PhotonPass{.max_memory = std::nan("")},
+          PhotonPass{.give_up = 0}})
+        CHECK_THROWS_AS((void)trace_photons(room, PhotonLaw::general, pass),
+                        std::invalid_argument);
+    Scene<Shapes<Sphere>, Materials<Lambertian>> empty;
+    empty.add(SunLight{});
+    CHECK_THROWS_WITH_AS((void)trace_photons(empty, PhotonLaw::general, {}),
+                         doctest::Contains("power of all lights"),
+                         std::invalid_argument);
 }

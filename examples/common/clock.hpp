@@ -4,6 +4,7 @@
 /// \brief How long things take.
 
 #include <chrono>
+#include <ctime>
 
 namespace examples {
 
@@ -22,5 +23,11 @@ private:
     using Clock = std::chrono::steady_clock;
     Clock::time_point start_ = Clock::now();
 };
+
+/// Seconds that the processors have worked for this program, all threads together: what
+/// the work costs, also on a machine that has other things to do.
+[[nodiscard]] inline double processor_seconds() {
+    return double(std::clock()) / double(CLOCKS_PER_SEC);
+}
 
 } // namespace examples

@@ -1,8 +1,8 @@
 # The report's program: the flux times the cosine that the density already holds.
 ljus_break_it(NAME emission-cosine HEADER photons/emission.hpp TEST emission
-    FROM "to_world(frame, sample_cosine_hemisphere(u_direction)));"
-    TO   "to_world(frame, sample_cosine_hemisphere(u_direction)));
-    flight.flux *= glm::dot(flight.ray.direction, point.normal);"
+    FROM ".flux = light.flux / chosen.probability,"
+    TO   ".flux = light.flux * sample_cosine_hemisphere(u_direction).z /
+                    chosen.probability,"
     CASES "emission: photons of a quad*")
 
 # Directions uniform over the hemisphere, at unchanged flux.
@@ -24,32 +24,50 @@ ljus_break_it(NAME emission-inside-out HEADER photons/emission.hpp TEST emission
     CASES "emission: a room*")
 
 # The report's program: aimed photons as if they had been sent everywhere.
-ljus_break_it(NAME aim-weight HEADER photons/emission.hpp TEST emission
+ljus_break_it(NAME aim-weight HEADER photons/aiming.hpp TEST emission
     FROM "(emitted / (pdf * chosen.probability))"
     TO   "(T(1) / chosen.probability)"
     CASES "emission: aimed at a sphere*")
 
 # The density of the chosen cone alone, without the choice.
-ljus_break_it(NAME aim-choice HEADER photons/emission.hpp TEST emission
-    FROM "pdf *= at.size / sum;"
+ljus_break_it(NAME aim-choice HEADER photons/aiming.hpp TEST emission
+    FROM "pdf *= at.size / aimed->sum;"
     TO   ""
     CASES "emission: where cones overlap*")
 
 # The cosine at the lamp, forgotten: right for a point light only.
-ljus_break_it(NAME aim-cosine HEADER photons/emission.hpp TEST emission
+ljus_break_it(NAME aim-cosine HEADER photons/aiming.hpp TEST emission
     FROM "cosine * std::numbers::inv_pi_v<T>"
     TO   "std::numbers::inv_pi_v<T>"
     CASES "emission: aimed at a sphere*")
 
 # Within the bound of its target a lamp needs its whole hemisphere.
-ljus_break_it(NAME aim-inside HEADER photons/emission.hpp TEST emission
+ljus_break_it(NAME aim-inside HEADER photons/aiming.hpp TEST emission
     FROM "{{from.normal, T(1)}, false, T(1)}"
     TO   "{{from.normal, T(0.5)}, false, T(0.5)}"
     CASES "emission: a lamp within*")
 
 # A target takes the place of the one before with its share, but u is not stretched: the
 # first ones are chosen too often, and the others never.
-ljus_break_it(NAME aim-stretch HEADER photons/emission.hpp TEST emission
+ljus_break_it(NAME aim-stretch HEADER photons/aiming.hpp TEST emission
     FROM "u_target = (u_target - share) / (T(1) - share);"
     TO   ""
     CASES "emission: where cones overlap*")
+
+# A sun whose rays start within the ball that they should reach.
+ljus_break_it(NAME emission-sun-plane HEADER photons/emission.hpp TEST emission
+    FROM "Vec3T<T>{disc.x, disc.y, -back}"
+    TO   "Vec3T<T>{disc.x, disc.y, T(0)}"
+    CASES "emission: a sun*")
+
+# A spot light as bright at its rim as in its middle, at the flux of the one that fades.
+ljus_break_it(NAME emission-spot-rim HEADER scene/light.hpp TEST emission
+    FROM "return light.outer - std::sqrt(beyond);"
+    TO   "return light.outer - beyond / both;"
+    CASES "emission: a spot light*")
+
+# Aimed at by a sun, a disc is paid for its own area only.
+ljus_break_it(NAME aim-sun HEADER photons/aiming.hpp TEST emission
+    FROM "return std::numbers::pi_v<T> * radius * radius;"
+    TO   "return radius * radius;"
+    CASES "emission: aimed photons bring*")

@@ -30,7 +30,7 @@ ljus_break_it(NAME kd-tree-one-axis HEADER photons/kd_tree.hpp TEST kd_tree
     CASES "kd_tree: no set*")
 
 # Ties that count as nearer: each of a thousand equal points is tried.
-ljus_break_it(NAME kd-tree-ties HEADER photons/kd_tree.hpp TEST kd_tree
+ljus_break_it(NAME kd-tree-ties HEADER photons/neighbor.hpp TEST kd_tree
     FROM "distance2 < found[0].distance2"
     TO   "distance2 <= found[0].distance2"
     CASES "kd_tree: no set*")

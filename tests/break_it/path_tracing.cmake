@@ -8,15 +8,15 @@ ljus_break_it(NAME path-tracing-light-choice HEADER render/path_tracing.hpp
 # A lamp that is met counts in full, though shadow rays have counted it.
 ljus_break_it(NAME path-tracing-emission-weight HEADER render/path_tracing.hpp
     TEST path_tracing
-    FROM "weight = balance(bsdf_pdf, pdf_of_light(tracer, from, *hit, at));"
-    TO   "weight = T(1);"
+    FROM "balance(path.bsdf_pdf, pdf_of_light(tracer, path.from, hit, at))"
+    TO   "T(1)"
     CASES "path tracing: in a furnace every*")
 
 # The last surface's lamp, seen by nobody but its shadow ray, which is weighed down.
-ljus_break_it(NAME path-tracing-last-surface HEADER render/path_tracing.hpp
+ljus_break_it(NAME path-tracing-last-surface HEADER render/camera_path.hpp
     TEST path_tracing
-    FROM "depth == limits.max_depth && next->specular"
-    TO   "depth == limits.max_depth"
+    FROM "!scattered || (last && scattered->sample.specular)"
+    TO   "!scattered || last"
     CASES "path tracing: in a furnace every*")
 
 # Radiance leaves glass unchanged: only light that starts in the glass notices.
@@ -27,6 +27,6 @@ ljus_break_it(NAME path-tracing-n2 HEADER materials/glass.hpp TEST path_tracing
 
 # The way through glass is not measured.
 ljus_break_it(NAME path-tracing-medium HEADER render/path_tracing.hpp TEST path_tracing
-    FROM "throughput *= transmittance(medium, hit->at.t);"
+    FROM "path.throughput *= transmittance(path.medium, hit->at.t);"
     TO   ""
     CASES "path tracing: a slab*")

@@ -5,9 +5,9 @@ ljus_break_it(NAME photon-mapping-n2 HEADER materials/glass.hpp TEST photon_mapp
     CASES "photon mapping: a matt ball embedded*")
 
 # Flux that enters glass as if it were radiance.
-ljus_break_it(NAME photon-mapping-flux HEADER photons/tracing.hpp TEST photon_mapping
-    FROM "sample(material, wo, u, Transport::flux,"
-    TO   "sample(material, wo, u, Transport::radiance,"
+ljus_break_it(NAME photon-mapping-flux HEADER photons/photon_path.hpp TEST photon_mapping
+    FROM "scatter(surface, material, wo, u, Transport::flux,"
+    TO   "scatter(surface, material, wo, u, Transport::radiance,"
     CASES "photon mapping: a matt ball embedded*")
 
 # A cosine in the estimate, which the arriving flux holds already.
@@ -30,7 +30,7 @@ ljus_break_it(NAME photon-mapping-shadow HEADER render/photon_mapping.hpp
     CASES "photon mapping: the general map*")
 
 # A lamp within coloured glass shines as if the glass were clear.
-ljus_break_it(NAME photon-mapping-start HEADER photons/tracing.hpp TEST photon_mapping
-    FROM "bounce == 1 && wo.z < T(0)"
+ljus_break_it(NAME photon-mapping-start HEADER photons/photon_path.hpp TEST photon_mapping
+    FROM "glm::dot(surface.frame.normal, ray.direction) > T(0)"
     TO   "false"
     CASES "photon mapping: lamps and matt balls*")

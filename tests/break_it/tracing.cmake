@@ -1,35 +1,31 @@
 # As the report's program has it: survivors carry no more than before.
-ljus_break_it(NAME tracing-roulette HEADER photons/tracing.hpp TEST tracing
+ljus_break_it(NAME tracing-roulette HEADER photons/photon_path.hpp TEST tracing
     FROM "reflected / probability"
     TO   "reflected"
     CASES "tracing: all the lights' flux*")
 
 # Photons share the flux among those that were stored, not those that were emitted.
 ljus_break_it(NAME tracing-stored HEADER photons/tracing.hpp TEST tracing
-    FROM [[        block = {};
-    }
-]]
-    TO   [[        block = {};
-    }
+    FROM "const long long unsent = join(blocks, result);"
+    TO   "const long long unsent = join(blocks, result);
     for (auto& photon : result.photons)
-        photon.flux *= T(pass.photons) / T(result.photons.size());
-]]
+        photon.flux *= T(pass.photons) / T(result.photons.size());"
     CASES "tracing: a caustic has*")
 
 # What the glass has focused is kept by both maps.
-ljus_break_it(NAME tracing-owner HEADER photons/tracing.hpp TEST tracing
+ljus_break_it(NAME tracing-owner HEADER photons/photon_path.hpp TEST tracing
     FROM "const bool owned = (kind == PhotonKind::caustic) == caustics;"
     TO   "const bool owned = true;"
     CASES "tracing: the kinds*")
 
 # Where cones overlap, photons count for whatever they meet.
-ljus_break_it(NAME tracing-target HEADER photons/tracing.hpp TEST tracing
+ljus_break_it(NAME tracing-target HEADER photons/photon_path.hpp TEST tracing
     FROM "bounce == 1 && target && hit->object != *target"
     TO   "false"
     CASES "tracing: aimed photons*")
 
 # Aimed photons carry as much as blind ones.
-ljus_break_it(NAME tracing-aim HEADER photons/emission.hpp TEST tracing
+ljus_break_it(NAME tracing-aim HEADER photons/aiming.hpp TEST tracing
     FROM "light.flux * (emitted / (pdf * chosen.probability))"
     TO   "light.flux / chosen.probability"
     CASES "tracing: a caustic has*")
@@ -45,3 +41,15 @@ ljus_break_it(NAME tracing-cosine HEADER photons/emission.hpp TEST tracing
     FROM "to_world(frame, sample_cosine_hemisphere(u_direction))"
     TO   "to_world(frame, sample_uniform_hemisphere(u_direction))"
     CASES "tracing: the first hits*")
+
+# Memory is asked for before anybody has reckoned how much.
+ljus_break_it(NAME tracing-memory HEADER photons/photon_pass.hpp TEST tracing
+    FROM "if (bytes <= pass.max_memory) return;"
+    TO   "if (bytes <= 1e3 * pass.max_memory) return;"
+    CASES "tracing: memory*")
+
+# Goes on for ever after nothing.
+ljus_break_it(NAME tracing-give-up HEADER photons/tracing.hpp TEST tracing
+    FROM "if (nothing && result.emitted >= pass.give_up) break;"
+    TO   ""
+    CASES "tracing: a pass that stores nothing*")

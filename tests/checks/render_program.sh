@@ -47,6 +47,15 @@ cmp t1.pfm t2.pfm && cmp t1.pfm t3.pfm || wrong "threads change the picture"
 "$render" "$scene" "${few[@]}" --seed 2 --quiet --out seed.pfm
 ! cmp -s t1.pfm seed.pfm || wrong "--seed changes nothing"
 
+# Photons as dots, of each kind and of all.
+for kind in direct indirect shadow caustic all; do
+    "$render" "$scene" "${few[@]}" --general-photons 500 --photons $kind \
+        --out $kind.png >out.txt
+    [ -s $kind.png ] || wrong "no $kind.png"
+    [ $kind = all ] || grep -q "^  $kind .*stored" out.txt || wrong "no count of $kind photons"
+done
+cmp -s direct.png indirect.png && wrong "--photons does not tell kinds apart"
+
 # The plan and a pixel's paths; neither writes a file.
 mkdir readonly
 (cd readonly && "$render" "$scene" --plan >../plan.txt && "$render" "$scene" \

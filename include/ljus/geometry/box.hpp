@@ -89,8 +89,8 @@ using BoxRay = BoxRayT<float>; ///< BoxRayT in float.
 /// shape's test needs them too.
 /// \param ray  The ray.
 /// \param all  A box around all boxes that the ray will be asked about.
-/// \return The ray; nothing if its direction is too long or too short, or its origin too
-///         far away, for numbers of this precision: then ask the shapes themselves.
+/// \return The ray; nothing if its direction is too long or too short, or its origin
+///         too far away, for numbers of this precision: then ask the shapes themselves.
 // [box_ray]
 template <std::floating_point T>
 [[nodiscard]] std::optional<BoxRayT<T>> box_ray(const RayT<T>& ray,

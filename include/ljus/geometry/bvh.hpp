@@ -20,8 +20,8 @@ struct NoWatch {
     constexpr void operator()() const noexcept {}
 };
 
-/// The nearest hit so far; of several that are as near, that of the thing with the least
-/// number: what asking all of them in turn would find.
+/// The nearest hit so far; of several that are as near, that of the thing with the
+/// least number: what asking all of them in turn would find.
 // [nearest]
 template <std::floating_point T>
 struct NearestHitT {
@@ -29,8 +29,9 @@ struct NearestHitT {
     std::uint32_t number = std::numeric_limits<std::uint32_t>::max(); ///< Of what.
     bool found = false; ///< Whether there is one.
 
-    /// Takes a hit, if it is nearer, and shortens the ray to it: but for one unit in the
-    /// last place, because a thing at the same t, computed in double, may seem farther.
+    /// Takes a hit, if it is nearer, and shortens the ray to it: but for one unit in
+    /// the last place, because a thing at the same t, computed in double, may seem
+    /// farther.
     /// \return Whether it was nearer.
     bool offer(const FlatHitT<T>& hit, std::uint32_t of, RayT<T>& ray) noexcept {
         if (found && !(hit.t < at.t || (hit.t == at.t && of < number))) return false;
@@ -46,9 +47,9 @@ struct NearestHitT {
 // [nearest]
 using NearestHit = NearestHitT<float>; ///< NearestHitT in float.
 
-/// A binary tree of boxes over any things that have one \cite rubin1980. What the things
-/// are, and where, is the caller's: a search calls back with a thing's *place* in the
-/// tree's order, and order() says which one that is.
+/// A binary tree of boxes over any things that have one \cite rubin1980. What the
+/// things are, and where, is the caller's: a search calls back with a thing's *place*
+/// in the tree's order, and order() says which one that is.
 ///
 ///     std::vector<Box> boxes;
 ///     for (const Triangle& triangle : triangles) boxes.push_back(bounds(triangle));
@@ -88,8 +89,8 @@ public:
     /// Asks the things that a ray may meet, the nearer ones first.
     /// \param ray    The ray.
     /// \param test   Called as test(place, ray) for things whose box the ray meets; it
-    ///               may shorten the ray, as NearestHitT does, so that what lies farther
-    ///               is left out; what is as far is still asked.
+    ///               may shorten the ray, as NearestHitT does, so that what lies
+    ///               farther is left out; what is as far is still asked.
     /// \param watch  Called for each node on the way.
     /// \cost In the mean O(log n) calls, in the worst case n.
     template <typename Test, typename Watch = NoWatch>

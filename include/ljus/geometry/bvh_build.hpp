@@ -41,7 +41,8 @@ struct BvhNodesT {
 /// How a tree is built.
 struct BvhBuild {
     std::uint32_t leaf_size = 4; ///< No leaf has more, at least 1.
-    float node_cost = 1;         ///< Of a step down, in tests of a thing.
+    std::uint32_t at_a_time = 1; ///< How many things one test asks, side by side.
+    float node_cost = 1;         ///< Of a step down, in tests.
     int threads = 0;             ///< 0: all that there are.
 };
 
@@ -182,6 +183,10 @@ private:
         }
     };
 
+    [[nodiscard]] double tests(std::uint32_t count) const noexcept {
+        return (count + settings_.at_a_time - 1) / settings_.at_a_time;
+    }
+
     // The cut that makes the expected cost of a ray least \cite macdonald1990: a ray
     // that meets a box meets one within it with the ratio of their surfaces.
     // [best_cut]
@@ -205,13 +210,15 @@ private:
             for (int i = bins - 1; i > 0; --i) {
                 upper.sides.grow(all[i].sides);
                 upper.count += all[i].count;
-                above[i] = upper.count == 0 ? 0 : upper.sides.half_area() * upper.count;
+                above[i] =
+                    upper.count == 0 ? 0 : upper.sides.half_area() * tests(upper.count);
             }
             for (int i = 1; i < bins; ++i) {
                 lower.sides.grow(all[i - 1].sides);
                 lower.count += all[i - 1].count;
                 if (lower.count == 0 || lower.count == range.size()) continue;
-                const double cost = lower.sides.half_area() * lower.count + above[i];
+                const double cost =
+                    lower.sides.half_area() * tests(lower.count) + above[i];
                 if (cost < best.cost) best = {axis, i, cost};
             }
         }
@@ -259,7 +266,7 @@ private:
         const Cut cut = count == 1 || deep ? Cut{} : best_cut(range);
         const double area = range.sides.half_area();
         const bool divided_is_better =
-            cut.cost + double(settings_.node_cost) * area < count * area;
+            cut.cost + double(settings_.node_cost) * area < tests(count) * area;
         if (count == 1 || (count <= settings_.leaf_size && !divided_is_better)) {
             nodes[node].first = range.first;
             nodes[node].count = count;
@@ -310,6 +317,8 @@ template <std::floating_point T>
             static_cast<long long>(boxes.size()), "below 2^31");
     require(settings.leaf_size >= 1, "leaf_size",
             static_cast<long long>(settings.leaf_size), "at least 1");
+    require(settings.at_a_time >= 1, "at_a_time",
+            static_cast<long long>(settings.at_a_time), "at least 1");
     return detail::BvhBuilder<T>(boxes, settings).build();
 }
 

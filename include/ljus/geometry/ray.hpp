@@ -44,8 +44,8 @@ template <std::floating_point T>
 // [at]
 
 /// \name What a test prepares
-/// A loop over many shapes is told its test once, as one template argument: a precision,
-/// or the name of a test.
+/// A loop over many shapes is told its test once, as one template argument: a
+/// precision, or the name of a test.
 ///
 ///     const auto prepared = prepare<Test>(ray);
 ///     for (const Triangle& triangle : mesh) intersect<Test>(ray, triangle, prepared);

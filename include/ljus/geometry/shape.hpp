@@ -122,25 +122,48 @@ void check(const QuadT<T>& quad) {
 
 /// The precision of a shape's data.
 template <typename S>
-using ScalarOf = decltype(area(std::declval<const S&>()));
+using ScalarOf = decltype(bounding_sphere(std::declval<const S&>()).radius);
 
-/// What has an area; asked first, so that the message for what is no shape is short.
+/// What has bounds; asked first, so that the message for what is no shape is short.
 template <typename S>
-concept HasArea = requires(const S& shape) {
-    area(shape);
+concept HasBounds = requires(const S& shape) {
+    bounding_sphere(shape);
 };
 
 /// What a scene asks of a shape.
+// [shape]
 template <typename S>
-concept Shape = HasArea<S> &&
-    requires(const S& shape, RayT<ScalarOf<S>> ray, Vec2T<ScalarOf<S>> u,
-             FlatHitT<ScalarOf<S>> hit) {
+concept Shape = HasBounds<S> &&
+    requires(const S& shape, RayT<ScalarOf<S>> ray, FlatHitT<ScalarOf<S>> hit) {
     as_hit(*intersect(ray, shape));
     { surface_point(shape, ray, hit) } -> std::same_as<SurfacePointT<ScalarOf<S>>>;
-    { sample_area(shape, u) } -> std::same_as<SurfacePointT<ScalarOf<S>>>;
     { bounding_sphere(shape) } -> std::same_as<SphereT<ScalarOf<S>>>;
     check(shape);
 };
+
+/// Whether the area of a shape is known. One without, such as metaballs, can be lit but
+/// cannot be a light.
+template <typename S>
+concept HasArea = requires(const S& shape) {
+    { area(shape) } -> std::same_as<ScalarOf<S>>;
+};
+
+/// What a shape needs besides to be a light: points chosen evenly over its area.
+template <typename S>
+concept Samplable = Shape<S> && HasArea<S> &&
+    requires(const S& shape, Vec2T<ScalarOf<S>> u) {
+    { sample_area(shape, u) } -> std::same_as<SurfacePointT<ScalarOf<S>>>;
+};
+// [shape]
+
+/// A shape without an area has no points to choose. A scene refuses it as a light, so
+/// that none is ever asked for.
+/// \return A point of no use.
+template <Shape S>
+requires(!HasArea<S>) [[nodiscard]] SurfacePointT<ScalarOf<S>> sample_area(
+    const S&, const Vec2T<ScalarOf<S>>&) noexcept {
+    return {};
+}
 
 /// \}
 

@@ -71,23 +71,30 @@ template <std::floating_point T>
 /// \param shape  The shape.
 /// \param from   The observer.
 /// \param u      Point of the unit square.
-/// \return The point and its density per steradian of the observer.
+/// \return The point and its density per steradian of the observer: 0 for a shape
+///         without an area, which is no light.
 template <Shape S, std::floating_point T>
 [[nodiscard]] SeenPointT<T> sample_towards(const S& shape, const Vec3T<T>& from,
                                            const Vec2T<T>& u) noexcept {
-    const SurfacePointT<T> point = sample_area(shape, u);
-    return {.point = point, .pdf = pdf_from_area(from, point, area(shape))};
+    if constexpr (HasArea<S>) {
+        const SurfacePointT<T> point = sample_area(shape, u);
+        return {.point = point, .pdf = pdf_from_area(from, point, area(shape))};
+    } else
+        return {};
 }
 
 /// The density of sample_towards() at a point of the shape.
 /// \param shape  The shape.
 /// \param from   The observer.
 /// \param point  The point of the shape in question.
-/// \return Per steradian.
+/// \return Per steradian; 0 for a shape without an area.
 template <Shape S, std::floating_point T>
 [[nodiscard]] T pdf_towards(const S& shape, const Vec3T<T>& from,
                             const SurfacePointT<T>& point) noexcept {
-    return pdf_from_area(from, point, area(shape));
+    if constexpr (HasArea<S>)
+        return pdf_from_area(from, point, area(shape));
+    else
+        return T(0);
 }
 
 /// A point of the near side of a sphere, uniform over the cone in which it is seen;

@@ -40,8 +40,8 @@ struct FlatHitT {
 /// How far the rounding of moller_trumbore() may move u, v and u + v.
 ///
 /// Their numerators are sums of products with at most 8 roundings on the way, none
-/// larger than \f$ |D|\,|E|\,|T| \f$ with \f$ |X| = |X_x| + |X_y| + |X_z| \f$; u + v has
-/// both. Where that is no small part of the shape, nothing is known, and nothing gained.
+/// larger than \f$ |D|\,|E|\,|T| \f$ with \f$ |X| = |X_x| + |X_y| + |X_z| \f$; u + v
+/// has both. Where that is no small part of the shape, nothing is known.
 /// \param d        D.
 /// \param to       T.
 /// \param e1       \f$E_1\f$.

@@ -35,8 +35,8 @@ struct ShearT {
 
 /// The shear that turns a ray into the z axis.
 /// \tparam Test  Watertight.
-/// \param ray    A ray. A direction of zero, NaN or infinity gives NaN or an sz of 0: no
-///               hit.
+/// \param ray    A ray. A direction of zero, NaN or infinity gives NaN or an sz of 0,
+///               and no hit.
 /// \return Axes and factors.
 // [prepare]
 template <std::same_as<Watertight> Test, std::floating_point T>
@@ -113,30 +113,23 @@ template <std::same_as<Watertight> Test, std::floating_point T>
 }
 // [intersect]
 
-/// The same for one triangle alone: prepares what a loop prepares once.
-/// \tparam Test     Watertight.
-/// \param ray       Any length of direction but zero; hits count in [t_min, t_max].
-/// \param triangle  Any three vertices; one without an area is never hit.
-/// \return t, and the barycentric u, v; nothing for a miss or a non-finite input.
-/// \cost Two divisions more.
+// Doxygen takes these two for their namesakes with another precision.
+/// \cond
+// The same for one triangle alone: two divisions more, which a loop prepares once.
 template <std::same_as<Watertight> Test, std::floating_point T>
 [[nodiscard]] std::optional<FlatHitT<T>>
 intersect(const RayT<T>& ray, const TriangleT<T>& triangle) noexcept {
     return intersect<Test>(ray, triangle, prepare<Test>(ray));
 }
 
-/// Where a ray meets a quad, for a scene that asks for watertight triangles: in double.
-/// Quads have edges of their own, rounded for each: what their data leave open, no test
-/// can close.
-/// \tparam Test  Watertight.
-/// \param ray    Any length of direction but zero; hits count in [t_min, t_max].
-/// \param quad   Any two edges; parallel ones are never hit.
-/// \return t, and the coordinates u, v along the edges; nothing for a miss.
+// Quads have edges of their own, rounded for each: what their data leave open, no test
+// can close. In double their borders are closed as well as can be.
 template <std::same_as<Watertight> Test, std::floating_point T>
 [[nodiscard]] std::optional<FlatHitT<T>> intersect(const RayT<T>& ray,
                                                    const QuadT<T>& quad) noexcept {
     return intersect<WideT<T>>(ray, quad);
 }
+/// \endcond
 
 /// \}
 

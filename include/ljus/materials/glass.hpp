@@ -3,6 +3,8 @@
 /// \file ljus/materials/glass.hpp
 /// \brief Clear or coloured glass with a smooth surface.
 
+#include <array>
+
 #include "ljus/materials/bsdf.hpp"
 #include "ljus/math/require.hpp"
 #include "ljus/optics/fresnel.hpp"
@@ -81,6 +83,29 @@ sample(const GlassT<T>& glass, const Vec3T<T>& wo, const Vec3T<T>& u,
     return specular_sample(*refracted, RgbT<T>{T(1)}, scale);
 }
 // [glass sample]
+
+/// Both branches, each with its share: for a path that goes both ways. What sample()
+/// makes noise of, a lamp mirrored in a ball, is then the same in each path.
+/// \param glass      The glass.
+/// \param wo         Towards where the light goes; z < 0 is inside.
+/// \param transport  Radiance or flux.
+/// \return The reflected and the refracted sample; nothing if there is only one.
+// [both ways]
+template <std::floating_point T>
+[[nodiscard]] std::optional<std::array<BsdfSampleT<T>, 2>>
+both_ways(const GlassT<T>& glass, const Vec3T<T>& wo, Transport transport) noexcept {
+    const bool outside = wo.z > T(0);
+    const T n_i = outside ? T(1) : glass.index;
+    const T n_t = outside ? glass.index : T(1);
+    const T eta = n_i / n_t;
+    const auto refracted = refract(wo, eta);
+    if (!refracted) return std::nullopt;
+    const T f = fresnel(glass.fresnel, std::abs(wo.z), n_i, n_t);
+    const T scale = transport == Transport::flux ? T(1) : eta * eta;
+    return std::array{specular_sample(reflect(wo), RgbT<T>{f}),
+                      specular_sample(*refracted, RgbT<T>{T(1) - f}, scale)};
+}
+// [both ways]
 
 /// The absorption inside, per scene unit; see transmittance().
 /// \param glass  The glass.

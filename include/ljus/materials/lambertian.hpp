@@ -5,9 +5,8 @@
 
 #include <numbers>
 
-#include "ljus/materials/bsdf.hpp"
+#include "ljus/materials/cosine_lobe.hpp"
 #include "ljus/math/require.hpp"
-#include "ljus/math/sampling.hpp"
 
 namespace ljus {
 
@@ -49,19 +48,12 @@ template <std::floating_point T>
 }
 // [lambertian]
 
-/// The density of sample().
-/// \param surface  The surface.
-/// \param wo       Towards where the light goes.
-/// \param wi       Towards where it comes from.
-/// \param which    The parts to sample from.
-/// \return |cos(theta)|/pi per steradian on the side of `wo`; 0 elsewhere, and 0
-///         without Lobes::diffuse.
+/// The density of sample(): pdf_cosine_lobe().
+/// \return Per steradian.
 template <std::floating_point T>
-[[nodiscard]] constexpr T pdf([[maybe_unused]] const LambertianT<T>& surface,
-                              const Vec3T<T>& wo, const Vec3T<T>& wi,
-                              Lobes which = Lobes::all) noexcept {
-    if (!has(which, Lobes::diffuse) || !same_side(wo, wi)) return T(0);
-    return (wi.z < T(0) ? -wi.z : wi.z) * std::numbers::inv_pi_v<T>;
+[[nodiscard]] constexpr T pdf(const LambertianT<T>&, const Vec3T<T>& wo,
+                              const Vec3T<T>& wi, Lobes which = Lobes::all) noexcept {
+    return pdf_cosine_lobe(wo, wi, which);
 }
 
 /// A direction with density cos/pi: the weight f cos/pdf is then the albedo alone.
@@ -78,13 +70,9 @@ template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const LambertianT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
        Transport /*transport*/, Lobes which = Lobes::all) noexcept {
-    if (!has(which, Lobes::diffuse)) return std::nullopt;
     if (is_black(surface.albedo)) return std::nullopt;
-    if (!(wo.z > T(0) || wo.z < T(0))) return std::nullopt;
-    Vec3T<T> wi = sample_cosine_hemisphere(Vec2T<T>{u.x, u.y});
-    const T density = pdf_cosine_hemisphere(wi);
-    wi.z = std::copysign(wi.z, wo.z);
-    return diffuse_sample(wi, surface.albedo, density);
+    return sample_cosine_lobe(wo, u, which,
+                              [&](const Vec3T<T>&) { return surface.albedo; });
 }
 // [lambertian sample]
 

@@ -3,7 +3,10 @@
 /// \file ljus/math/lanes.hpp
 /// \brief Eight floats at a time, without a line of assembly.
 
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "ljus/math/vector.hpp"
@@ -115,6 +118,28 @@ template <typename F, typename... B>
     std::int32_t bits = 0;
     for (int i = 0; i < lane_count; ++i) bits |= mask.lane[i];
     return bits != 0;
+}
+
+/// The lanes that say yes, as a number to take them from one by one: eight bits a lane.
+/// Written in the two steps that compilers know: to bytes, and those into one register.
+/// \param mask  The answers.
+/// \return 0 for none.
+// [yes_lanes]
+[[nodiscard]] constexpr std::uint64_t yes_lanes(const LaneMask& mask) noexcept {
+    std::array<std::int8_t, lane_count> bytes{};
+    for (std::size_t i = 0; i < lane_count; ++i)
+        bytes[i] = static_cast<std::int8_t>(mask.lane[i]);
+    return std::bit_cast<std::uint64_t>(bytes) & 0x0101010101010101u;
+}
+// [yes_lanes]
+
+/// Takes a lane out of what yes_lanes() returned.
+/// \param lanes  Not 0; becomes what is left.
+/// \return The lane's place.
+[[nodiscard]] constexpr std::size_t take_lane(std::uint64_t& lanes) noexcept {
+    const auto place = static_cast<std::size_t>(std::countr_zero(lanes)) / 8;
+    lanes &= lanes - 1;
+    return std::endian::native == std::endian::little ? place : lane_count - 1 - place;
 }
 
 /// a where the mask says yes, b elsewhere.

@@ -35,8 +35,8 @@ template <std::floating_point T>
 using RgbT = glm::vec<3, T>;
 using Rgb = RgbT<float>; ///< RgbT in float.
 
-/// The precision of a computation: what the caller asked for, or that of the data, if he
-/// asked for none (void) or for something that is no precision.
+/// The precision of a computation: what the caller asked for, or that of the data, if
+/// that was none (void) or something that is no precision.
 template <typename Compute, std::floating_point T>
 using ComputeT = std::conditional_t<std::is_floating_point_v<Compute>, Compute, T>;
 

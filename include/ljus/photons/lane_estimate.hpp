@@ -57,7 +57,7 @@ flux_in_disc(const WideKdTreeT<T>& tree, const PhotonRecordsT<T>& records,
         T x[lane_count], weight[lane_count];
         std::int32_t inside[lane_count];
         std::int32_t count = 0;
-        for (int i = 0; i < lane_count; ++i) {
+        for_lanes([&](int i) {
             const T h = (block.points.x[i] - c.x) * n.x +
                         (block.points.y[i] - c.y) * n.y +
                         (block.points.z[i] - c.z) * n.z;
@@ -70,18 +70,20 @@ flux_in_disc(const WideKdTreeT<T>& tree, const PhotonRecordsT<T>& records,
                         (-h <= height) & !turned &
                         static_cast<int>(disc.kinds >> kind & 1u);
             count += inside[i];
-        }
+        });
         gathered += static_cast<std::uint64_t>(count);
-        for (int i = 0; i < lane_count; ++i)
+        for_lanes([&](int i) {
             weight[i] = kernel_weight(disc.kernel, inside[i] != 0 ? x[i] : T(0));
-        for (int i = 0; i < lane_count; ++i) {
+        });
+        for_lanes([&](int i) {
             const T towards = record.direction.x[i] * d.x +
                               record.direction.y[i] * d.y + record.direction.z[i] * d.z;
-            const T w = (inside[i] != 0) & (towards < T(0)) ? weight[i] : T(0);
+            const bool lit = (inside[i] != 0) & (towards < T(0));
+            const T w = lit ? weight[i] : T(0);
             part.x[i] += w * record.flux.x[i];
             part.y[i] += w * record.flux.y[i];
             part.z[i] += w * record.flux.z[i];
-        }
+        });
         if (++parts == 16) add_part();
     };
     tree.visit_blocks(c, disc.radius, visit);

@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "ljus/math/lanes.hpp"
+#include "ljus/photons/point_block.hpp"
 
 namespace ljus {
 
@@ -47,9 +47,8 @@ template <std::floating_point T>
                                                 T threshold) noexcept {
     using Count = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
     Count counts[lane_count] = {};
-    for (std::size_t i = 0; i < count; i += lane_count)
-        for (std::size_t j = 0; j < lane_count; ++j)
-            counts[j] += values[i + j] <= threshold ? 1 : 0;
+    for (const T* block = values; block < values + count; block += lane_count)
+        for_lanes([&](int j) { counts[j] += block[j] <= threshold ? 1 : 0; });
     Count sum = 0;
     for (const Count lane : counts) sum += lane;
     return static_cast<std::size_t>(sum);
@@ -68,14 +67,14 @@ smallest_and_largest(const T* values, std::size_t count, T above, T up_to) noexc
     constexpr T infinity = std::numeric_limits<T>::infinity();
     T low[lane_count], high[lane_count];
     for (std::size_t j = 0; j < lane_count; ++j) low[j] = infinity, high[j] = -infinity;
-    for (std::size_t i = 0; i < count; i += lane_count)
-        for (std::size_t j = 0; j < lane_count; ++j) {
-            const T x = values[i + j];
+    for (const T* block = values; block < values + count; block += lane_count)
+        for_lanes([&](int j) {
+            const T x = block[j];
             const T for_low = x > above ? x : infinity;
             const T for_high = x <= up_to ? x : -infinity;
             low[j] = for_low < low[j] ? for_low : low[j];
             high[j] = for_high > high[j] ? for_high : high[j];
-        }
+        });
     std::pair<T, T> result{low[0], high[0]};
     for (std::size_t j = 1; j < lane_count; ++j) {
         result.first = low[j] < result.first ? low[j] : result.first;

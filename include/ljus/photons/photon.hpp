@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "ljus/math/vector.hpp"
 
@@ -64,6 +65,18 @@ struct PhotonT {
 };
 using Photon = PhotonT<float>; ///< PhotonT in float: 44 bytes.
 
+/// The side of a surface that a photon has come to.
+/// \param direction  The way the photon travels.
+/// \param normal     Of the surface.
+/// \return +1 if it is the side that the normal points to, -1 if it is the other.
+// [photon_side]
+template <std::floating_point T>
+[[nodiscard]] int photon_side(const Vec3T<T>& direction,
+                              const Vec3T<T>& normal) noexcept {
+    return glm::dot(direction, normal) < T(0) ? 1 : -1;
+}
+// [photon_side]
+
 /// Where the emitted flux of a photon pass has gone; in W, added in double.
 ///
 /// Path by path, absorbed + escaped + cut + roulette = emitted: the first three are
@@ -83,6 +96,16 @@ struct FluxAudit {
         escaped += other.escaped;
         cut += other.cut;
         roulette += other.roulette;
+        return *this;
+    }
+
+    /// As if so many times as much had been emitted.
+    FluxAudit& operator*=(double factor) noexcept {
+        emitted *= factor;
+        absorbed *= factor;
+        escaped *= factor;
+        cut *= factor;
+        roulette *= factor;
         return *this;
     }
 };

@@ -95,8 +95,8 @@ template <typename Material>
 /// Only photons of the same surface count: those whose surface is not turned_away(), in
 /// a disc of the thickness. On a ball the cap within r of a point of it has the area
 /// \f$ \pi r^2 \f$, as a plane has, so that nothing is lost on a ball of radius r or
-/// more. At a surface's edge half of the disc lies beside it, in a corner three quarters,
-/// and the estimate reads 1/2 and 1/4 of what it should.
+/// more. At a surface's edge half of the disc lies beside it, in a corner three
+/// quarters, and the estimate reads 1/2 and 1/4 of what it should.
 ///
 /// \param map       The photons.
 /// \param surface   Where they are gathered.

@@ -16,6 +16,19 @@ namespace ljus {
 /// \addtogroup wide_kd_tree
 /// \{
 
+/// Calls `body(i)` for each of eight lanes, in a loop that stays one.
+///
+/// A compiler that unrolls the loop before it looks for vectors, as g++ does inside of
+/// other loops, finds eight separate numbers and no vector any more.
+/// \param body  Called with an int in [0, 8).
+// [for lanes]
+template <typename Body>
+constexpr void for_lanes(Body&& body) noexcept {
+#pragma GCC unroll 1
+    for (int i = 0; i < lane_count; ++i) body(i);
+}
+// [for lanes]
+
 /// Eight numbers of any precision.
 template <std::floating_point T>
 struct alignas(32) LanesT {
@@ -52,13 +65,26 @@ template <std::floating_point T>
 [[nodiscard]] constexpr LanesT<T> distances2(const BlockT<T>& points,
                                              const Vec3T<T>& center) noexcept {
     LanesT<T> result{};
-    for (int i = 0; i < lane_count; ++i) {
+    for_lanes([&](int i) {
         const T x = points.x[i] - center.x;
         const T y = points.y[i] - center.y;
         const T z = points.z[i] - center.z;
         result.lane[i] = x * x + y * y + z * z;
-    }
+    });
     return result;
+}
+
+/// Which of eight numbers are at most so large.
+/// \param numbers  The numbers.
+/// \param bound    How large.
+/// \return A bit each, the first number's the lowest; none for NaN.
+template <std::floating_point T>
+[[nodiscard]] constexpr std::uint32_t lanes_up_to(const LanesT<T>& numbers,
+                                                  T bound) noexcept {
+    constexpr std::int32_t bit[lane_count] = {1, 2, 4, 8, 16, 32, 64, 128};
+    std::int32_t bits = 0;
+    for_lanes([&](int i) { bits |= numbers.lane[i] <= bound ? bit[i] : 0; });
+    return static_cast<std::uint32_t>(bits);
 }
 
 /// How far a search reaches: a limit in double that decides, and two bounds in T that
@@ -95,15 +121,6 @@ struct ReachT {
     [[nodiscard]] constexpr bool holds(double d2) const noexcept {
         return open ? d2 < limit2 : d2 <= limit2;
     }
-    /// Which of eight distances may be within reach, a bit each; and, 8 bits further
-    /// up, which surely are.
-    [[nodiscard]] constexpr std::uint32_t bits(const LanesT<T>& d2) const noexcept {
-        std::uint32_t result = 0;
-        for (int i = 0; i < lane_count; ++i)
-            result |= (d2.lane[i] <= last ? 1u << i : 0u) |
-                      (d2.lane[i] <= sure ? 256u << i : 0u);
-        return result;
-    }
     /// Which of eight points are within reach, exactly.
     /// \param points  The points.
     /// \param center  The centre of the search.
@@ -113,10 +130,9 @@ struct ReachT {
     [[nodiscard]] constexpr std::uint32_t within(const BlockT<T>& points,
                                                  const Vec3T<T>& center,
                                                  const LanesT<T>& d2) const noexcept {
-        const std::uint32_t both = bits(d2);
-        const std::uint32_t sure_ones = both >> lane_count;
-        std::uint32_t found = both & 255u;
-        for (std::uint32_t rest = found & ~sure_ones; rest != 0; rest &= rest - 1) {
+        std::uint32_t found = lanes_up_to(d2, last);
+        for (std::uint32_t rest = found & ~lanes_up_to(d2, sure); rest != 0;
+             rest &= rest - 1) {
             const int i = std::countr_zero(rest);
             if (!holds(distance2(points[std::size_t(i)], center))) found &= ~(1u << i);
         }

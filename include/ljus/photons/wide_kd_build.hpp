@@ -13,58 +13,12 @@
 #include "ljus/math/require.hpp"
 #include "ljus/parallel.hpp"
 #include "ljus/photons/lane_select.hpp"
-#include "ljus/photons/point_block.hpp"
+#include "ljus/photons/wide_kd_shape.hpp"
 
 namespace ljus {
 
 /// \addtogroup wide_kd_tree
 /// \{
-
-/// Eight boxes side by side: the children of a node.
-template <std::floating_point T>
-struct WideNodeT {
-    BlockT<T> low;  ///< Corners with the smallest coordinates.
-    BlockT<T> high; ///< Opposite corners.
-};
-
-/// Where everything lies in a wide tree: a matter of arithmetic, without a pointer.
-///
-/// The points stand in blocks of eight, the blocks in leaves of `leaf_blocks` at most,
-/// and the leaves, a power of two of them, share the blocks evenly. Three halvings make
-/// one level of nodes with eight children; at the root there may be fewer.
-struct WideShape {
-    static constexpr int leaf_blocks = 4; ///< The most blocks of a leaf: 32 points.
-
-    std::uint64_t points = 0; ///< How many.
-    std::uint64_t blocks = 0; ///< How many blocks hold them.
-    int halvings = 0;         ///< From all points to a leaf.
-    int levels = 0;           ///< Of nodes.
-    std::array<std::uint32_t, 12>
-        first{}; ///< The first node of each level, and the end.
-
-    /// The shape for so many points.
-    [[nodiscard]] static constexpr WideShape of(std::uint64_t points) noexcept {
-        WideShape shape{.points = points, .blocks = (points + 7) / 8};
-        while ((std::uint64_t(leaf_blocks) << shape.halvings) < shape.blocks)
-            ++shape.halvings;
-        shape.levels = (shape.halvings + 2) / 3;
-        for (int level = 0; level < shape.levels; ++level)
-            shape.first[std::size_t(level + 1)] =
-                shape.first[std::size_t(level)] +
-                (level == 0 ? 1u : 1u << (shape.halvings - 3 * (shape.levels - level)));
-        return shape;
-    }
-    /// How many children the root has.
-    [[nodiscard]] constexpr std::uint32_t root_children() const noexcept {
-        return 1u << (halvings - 3 * (levels - 1));
-    }
-    /// The first block of range number `number` after so many halvings; the last one
-    /// ends where the next range begins.
-    [[nodiscard]] constexpr std::uint64_t first_block(int depth,
-                                                      std::uint64_t number) const {
-        return ((number << (halvings - depth)) * blocks) >> halvings;
-    }
-};
 
 namespace detail {
 

@@ -10,51 +10,7 @@ namespace ljus {
 /// \addtogroup wide_kd_tree
 /// \{
 
-namespace detail {
-
-// The squared distances to the nearest points of eight boxes.
-template <std::floating_point T>
-[[nodiscard]] constexpr LanesT<T> near2(const WideNodeT<T>& node,
-                                        const Vec3T<T>& center) noexcept {
-    LanesT<T> result{};
-    const auto outside = [](T low, T high, T x) {
-        const T below = low - x;
-        const T above = x - high;
-        const T more = below > above ? below : above;
-        return more > T(0) ? more : T(0);
-    };
-    for (int i = 0; i < lane_count; ++i) {
-        const T x = outside(node.low.x[i], node.high.x[i], center.x);
-        const T y = outside(node.low.y[i], node.high.y[i], center.y);
-        const T z = outside(node.low.z[i], node.high.z[i], center.z);
-        result.lane[i] = x * x + y * y + z * z;
-    }
-    return result;
-}
-
-// The squared distances to their farthest corners.
-template <std::floating_point T>
-[[nodiscard]] constexpr LanesT<T> far2(const WideNodeT<T>& node,
-                                       const Vec3T<T>& center) noexcept {
-    LanesT<T> result{};
-    const auto across = [](T low, T high, T x) {
-        const T above = x - low;
-        const T below = high - x;
-        return above > below ? above : below;
-    };
-    for (int i = 0; i < lane_count; ++i) {
-        const T x = across(node.low.x[i], node.high.x[i], center.x);
-        const T y = across(node.low.y[i], node.high.y[i], center.y);
-        const T z = across(node.low.z[i], node.high.z[i], center.z);
-        result.lane[i] = x * x + y * y + z * z;
-    }
-    return result;
-}
-
-} // namespace detail
-
 // Ranges of blocks that together hold all points of a ball; until one visit says true.
-// [in ball]
 template <std::floating_point T>
 template <typename Visit>
 bool WideKdTreeT<T>::in_ball(const Vec3T<T>& center, T radius, const ReachT<T>& reach,
@@ -72,20 +28,16 @@ bool WideKdTreeT<T>::in_ball(const Vec3T<T>& center, T radius, const ReachT<T>& 
     while (size > 0) {
         const auto [level, number] = stack[--size];
         const WideNodeT<T>& node = nodes_[shape_.first[std::size_t(level)] + number];
-        LanesT<T> near = detail::near2(node, center);
-        const LanesT<T> far = detail::far2(node, center);
-        std::uint32_t both = 0;
-        for (int i = 0; i < lane_count; ++i)
-            both |= (near.lane[i] <= reach.last ? 1u << i : 0u) |
-                    (far.lane[i] <= reach.sure ? 256u << i : 0u);
-        std::uint32_t some = both & children;
+        const std::uint32_t whole = lanes_up_to(detail::far2(node, center), reach.sure);
+        std::uint32_t some =
+            lanes_up_to(detail::near2(node, center), reach.last) & children;
         children = 255;
         const int below = shape_.levels - 1 - level; // levels between these and leaves
         const int depth = shape_.halvings - 3 * below;
         for (; some != 0; some &= some - 1) {
             const auto i = static_cast<std::uint32_t>(std::countr_zero(some));
             const std::uint32_t child = 8 * number + i;
-            if (below > 0 && (both >> (8 + i) & 1u) == 0) {
+            if (below > 0 && (whole >> i & 1u) == 0) {
                 stack[size++] = {level + 1, child};
             } else if (visit(shape_.first_block(depth, child),
                              shape_.first_block(depth, child + 1))) {
@@ -95,13 +47,11 @@ bool WideKdTreeT<T>::in_ball(const Vec3T<T>& center, T radius, const ReachT<T>& 
     }
     return false;
 }
-// [in ball]
 
 // Ranges of blocks, the nearer ones first, as long as they are within reach; a visit
 // may shorten the reach.
-// [towards]
 template <std::floating_point T>
-template <typename Visit>
+template <bool in_order, typename Visit>
 void WideKdTreeT<T>::towards(const Vec3T<T>& center, const ReachT<T>& reach,
                              Visit visit) const {
     if (shape_.levels == 0) return visit(std::size_t(0), blocks_.size());
@@ -132,20 +82,26 @@ void WideKdTreeT<T>::towards(const Vec3T<T>& center, const ReachT<T>& reach,
         const LanesT<T> near = detail::near2(
             nodes_[shape_.first[std::size_t(at.level)] + at.number], center);
         const int base = size;
-        for (std::uint32_t some = reach.bits(near) & children; some != 0;
+        for (std::uint32_t some = lanes_up_to(near, reach.last) & children; some != 0;
              some &= some - 1) {
             const auto i = static_cast<std::uint32_t>(std::countr_zero(some));
             const Entry entry{near.lane[i], at.level + 1, 8 * at.number + i};
+            // In order, the nearest on top; or on top the nearest only, where what is
+            // found there will put most others out of reach.
             int place = size++;
-            for (; place > base && stack[place - 1].distance2 < entry.distance2;
-                 --place)
+            if constexpr (in_order) {
+                for (; place > base && stack[place - 1].distance2 < entry.distance2;
+                     --place)
+                    stack[place] = stack[place - 1];
+            } else if (place > base && stack[place - 1].distance2 < entry.distance2) {
                 stack[place] = stack[place - 1];
+                --place;
+            }
             stack[place] = entry;
         }
         children = 255;
     }
 }
-// [towards]
 
 template <std::floating_point T>
 std::optional<Neighbor> WideKdTreeT<T>::nearest(const Vec3T<T>& center,
@@ -153,14 +109,15 @@ std::optional<Neighbor> WideKdTreeT<T>::nearest(const Vec3T<T>& center,
     if (!(radius >= T(0)) || size() == 0) return std::nullopt;
     auto reach = ReachT<T>::up_to(double(radius) * double(radius), false);
     std::optional<Neighbor> best;
-    towards(center, reach, [&](std::size_t first, std::size_t last) {
+    towards<false>(center, reach, [&](std::size_t first, std::size_t last) {
         // The smallest distance in T; only what is as small may be the nearest.
         LanesT<T> least;
         for (T& x : least.lane) x = std::numeric_limits<T>::infinity();
         for (std::size_t b = first; b < last; ++b) {
             const LanesT<T> d2 = distances2(blocks_[b], center);
-            for (int i = 0; i < lane_count; ++i)
+            for_lanes([&](int i) {
                 least.lane[i] = d2.lane[i] < least.lane[i] ? d2.lane[i] : least.lane[i];
+            });
         }
         T smallest = least.lane[0];
         for (const T x : least.lane) smallest = x < smallest ? x : smallest;
@@ -169,7 +126,7 @@ std::optional<Neighbor> WideKdTreeT<T>::nearest(const Vec3T<T>& center,
         close.last = std::min(close.last, reach.last);
         for (std::size_t b = first; b < last; ++b) {
             const LanesT<T> d2 = distances2(blocks_[b], center);
-            for (std::uint32_t some = close.bits(d2) & 255u; some != 0;
+            for (std::uint32_t some = lanes_up_to(d2, close.last); some != 0;
                  some &= some - 1) {
                 const auto i = std::size_t(std::countr_zero(some));
                 const double exact = distance2(blocks_[b][i], center);
@@ -193,7 +150,7 @@ std::size_t WideKdTreeT<T>::nearest(const Vec3T<T>& center, T radius,
         return count_nearest(center, reach, found, wanted);
 
     Nearest best{.found = found, .limit2 = reach.limit2};
-    towards(center, reach, [&](std::size_t first, std::size_t last) {
+    towards<true>(center, reach, [&](std::size_t first, std::size_t last) {
         for (std::size_t b = first; b < last; ++b) {
             std::uint32_t some =
                 reach.within(blocks_[b], center, distances2(blocks_[b], center));
@@ -221,7 +178,6 @@ std::size_t WideKdTreeT<T>::count_nearest(const Vec3T<T>& center, ReachT<T> reac
     alignas(32) T d2[room + 8];
     std::uint32_t index[room + 8];
     std::uint32_t band[room];
-    Neighbor tie[room];
     const std::size_t k = found.size();
     std::size_t count = 0;
 
@@ -240,21 +196,23 @@ std::size_t WideKdTreeT<T>::count_nearest(const Vec3T<T>& center, ReachT<T> reac
             sure += x <= kth.sure;
             ties += x > kth.sure && x <= kth.last;
         }
-        for (std::size_t i = 0; i < ties; ++i)
-            tie[i] = {distance2(point(band[i]), center), band[i]};
-        const auto last = std::ptrdiff_t(k - sure - 1);
-        std::nth_element(tie, tie + last, tie + ties);
+        const auto exact = [&](std::uint32_t i) {
+            return Neighbor{distance2(point(i), center), i};
+        };
+        const std::uint32_t last = static_cast<std::uint32_t>(k - sure - 1);
+        std::nth_element(band, band + last, band + ties,
+                         [&](auto a, auto b) { return exact(a) < exact(b); });
+        const double limit2 = exact(band[last]).distance2;
         for (std::size_t i = 0; sure < k; ++i, ++sure) {
-            d2[sure] =
-                T(std::min(tie[i].distance2, double(std::numeric_limits<T>::max())));
-            index[sure] = tie[i].index;
+            d2[sure] = distances2(blocks_[band[i] / 8], center).lane[band[i] % 8];
+            index[sure] = band[i];
         }
         count = k;
-        reach = ReachT<T>::up_to(tie[last].distance2, true);
+        reach = ReachT<T>::up_to(limit2, true);
     };
 
     std::size_t enough = k;
-    towards(center, reach, [&](std::size_t first, std::size_t last) {
+    towards<true>(center, reach, [&](std::size_t first, std::size_t last) {
         for (std::size_t b = first; b < last; ++b) {
             const LanesT<T> far = distances2(blocks_[b], center);
             const std::uint32_t some = reach.within(blocks_[b], center, far);

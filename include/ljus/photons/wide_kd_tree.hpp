@@ -22,8 +22,9 @@ struct FoundBlockT {
     LanesT<T> distance2;     ///< Squared, in T; infinite for those not found.
 };
 
-/// The twin of KdTreeT, with the same answers: a k-d tree of tight boxes, eight to a
-/// node, over leaves of 16 to 32 points in lanes, without a single pointer.
+/// The twin of KdTreeT, with the same answers: a k-d tree \cite bentley1975 of tight
+/// boxes, eight to a node, over leaves of 16 to 32 points in lanes, without a single
+/// pointer.
 ///
 /// Distances are formed in T, eight at a time; those so near to the limit of a search
 /// that T cannot tell are formed once more in double, as everywhere: see ReachT.
@@ -94,16 +95,17 @@ public:
     void visit_blocks(const Vec3T<T>& center, T radius, Visit&& visit) const {
         constexpr T infinity = std::numeric_limits<T>::infinity();
         constexpr T most = std::numeric_limits<T>::max();
+        constexpr std::uint32_t bit[lane_count] = {1, 2, 4, 8, 16, 32, 64, 128};
         const auto reach = ReachT<T>::up_to(double(radius) * double(radius), false);
         in_ball(center, radius, reach, [&](std::size_t first, std::size_t last) {
             for (std::size_t b = first; b < last; ++b) {
                 LanesT<T> d2 = distances2(blocks_[b], center);
                 const std::uint32_t found = reach.within(blocks_[b], center, d2);
                 if (found == 0) continue;
-                for (int i = 0; i < lane_count; ++i)
-                    d2.lane[i] = (found >> i & 1u) == 0 ? infinity
-                                 : d2.lane[i] < most    ? d2.lane[i]
-                                                        : most;
+                for_lanes([&](int i) {
+                    const T x = d2.lane[i] < most ? d2.lane[i] : most;
+                    d2.lane[i] = (found & bit[i]) != 0 ? x : infinity;
+                });
                 visit(FoundBlockT<T>{8 * b, found, blocks_[b], d2});
             }
             return false;
@@ -177,7 +179,7 @@ private:
     template <typename Visit>
     bool in_ball(const Vec3T<T>& center, T radius, const ReachT<T>& reach,
                  Visit visit) const;
-    template <typename Visit>
+    template <bool in_order, typename Visit>
     void towards(const Vec3T<T>& center, const ReachT<T>& reach, Visit visit) const;
     template <typename Wanted>
     std::size_t count_nearest(const Vec3T<T>& center, ReachT<T> reach,

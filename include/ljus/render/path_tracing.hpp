@@ -3,6 +3,7 @@
 /// \file ljus/render/path_tracing.hpp
 /// \brief The rendering equation solved by random paths: the judge of all the others.
 
+#include "ljus/render/camera_path.hpp"
 #include "ljus/render/direct_light.hpp"
 #include "ljus/render/path_log.hpp"
 #include "ljus/scene/indexed_scene.hpp"
@@ -70,6 +71,54 @@ template <typename Scene, std::floating_point T>
     return pdf * probability_of<T>(tracer.lights, at.surface.object.light);
 }
 
+/// The light of a lamp that a path has met, with the weight that the shadow ray from
+/// the surface before left it.
+/// \param tracer  The scene and the limits.
+/// \param path    The path.
+/// \param hit     Where it met the lamp.
+/// \param at      The same, ready to be shaded.
+/// \return Radiance, its share of the path's.
+/// \report{Eq. (1)}
+// [emitted]
+template <typename Scene, std::floating_point T>
+[[nodiscard]] RgbT<T> emitted(const PathTracer<Scene>& tracer, const PathT<T>& path,
+                              const SceneHitT<T>& hit, const ShadingT<T>& at) {
+    const bool shared = path.bsdf_pdf > T(0) && tracer.settings.sample_lights;
+    const T weight =
+        shared ? balance(path.bsdf_pdf, pdf_of_light(tracer, path.from, hit, at))
+               : T(1);
+    return weight * path.throughput * at.surface.object.emission;
+}
+// [emitted]
+
+/// The light of one lamp, chosen by power, at a surface of a path: by a shadow ray,
+/// with the weight that it leaves to the path itself.
+/// \param tracer    The scene and the limits.
+/// \param path      The path.
+/// \param at        The surface.
+/// \param material  What it is made of.
+/// \param stream    Three numbers are drawn.
+/// \param counts    Counts the ray.
+/// \return Radiance, its share of the path's.
+/// \report{Section 3.2.3}
+// [sampled]
+template <typename Scene, std::floating_point T, typename Material>
+[[nodiscard]] RgbT<T> light_of_one(const PathTracer<Scene>& tracer,
+                                   const PathT<T>& path, const ShadingT<T>& at,
+                                   const Material& material, RandomStream& stream,
+                                   Counts& counts) {
+    const auto chosen = choose_light(tracer.lights, next_1d<T>(stream));
+    const auto weigh = [&](const LightSampleT<T>& light, const Vec3T<T>& wi) {
+        if (light.pdf == T(0)) return T(1); // no path meets a point light
+        return balance(light.pdf * chosen.probability, pdf(material, at.wo, wi));
+    };
+    return path.throughput *
+           direct_light(tracer.scene, tracer.scene.lights[chosen.light], at, material,
+                        next_2d<T>(stream), weigh, counts) /
+           chosen.probability;
+}
+// [sampled]
+
 /// The radiance that one random path finds.
 ///
 /// At each diffuse surface a light, chosen by power, is asked by a shadow ray; the path
@@ -85,76 +134,39 @@ template <typename Scene, std::floating_point T>
 /// \report{Eq. (1)}
 // [radiance]
 template <typename Scene, std::floating_point T, typename Log = NoLog>
-[[nodiscard]] RgbT<T> radiance(const PathTracer<Scene>& tracer, RayT<T> ray,
+[[nodiscard]] RgbT<T> radiance(const PathTracer<Scene>& tracer, const RayT<T>& ray,
                                RandomStream& stream, Counts& counts, Log&& log = {}) {
     const auto& scene = tracer.scene;
     const PathTracing& limits = tracer.settings;
     RgbT<T> sum{T(0)};
-    RgbT<T> throughput{T(1)};
-    T squeeze = T(1); // what of the throughput is no loss, see survives()
-    RgbT<T> medium{T(0)};
-    T bsdf_pdf = T(0);   // of the direction the path came in, 0: a delta
-    Vec3T<T> from{T(0)}; // the surface it came from
+    PathT<T> path{.ray = ray};
     log.begin();
+    const auto add = [&](const char* owner, const char* letters, const RgbT<T>& term) {
+        log.term(owner, letters, term);
+        sum += term;
+    };
 
     for (int depth = 1;; ++depth) {
         start_bounce(stream, static_cast<std::uint64_t>(depth));
-        const auto hit = closest_hit(scene, ray);
+        const auto hit = closest_hit(scene, path.ray);
         if (!hit) break;
-        const ShadingT<T> at = shading(scene, ray, *hit, medium);
-        throughput *= transmittance(medium, hit->at.t);
-
-        // Emission, with the weight that the shadow rays left.
-        if (at.shines()) {
-            T weight = T(1);
-            if (bsdf_pdf > T(0) && limits.sample_lights)
-                weight = balance(bsdf_pdf, pdf_of_light(tracer, from, *hit, at));
-            const RgbT<T> term = weight * throughput * at.surface.object.emission;
-            log.term("emission", "L", term);
-            sum += term;
-        }
+        const ShadingT<T> at = shading(scene, path.ray, *hit, path.medium);
+        path.throughput *= transmittance(path.medium, hit->at.t);
+        if (at.shines()) add("emission", "L", emitted(tracer, path, *hit, at));
         if (depth > limits.max_depth) break;
 
-        const bool goes_on =
-            scene.visit_material(at.surface.object.material, [&](const auto& material) {
-                if (has(lobes(material), Lobes::diffuse) && limits.sample_lights &&
-                    !scene.lights.empty()) {
-                    const auto chosen = choose_light(tracer.lights, next_1d<T>(stream));
-                    const auto weigh = [&](const LightSampleT<T>& light,
-                                           const Vec3T<T>& wi) {
-                        if (light.pdf == T(0))
-                            return T(1); // no path meets a point light
-                        return balance(light.pdf * chosen.probability,
-                                       pdf(material, at.wo, wi));
-                    };
-                    const RgbT<T> term =
-                        throughput *
-                        direct_light(scene, scene.lights[chosen.light], at, material,
-                                     next_2d<T>(stream), weigh, counts) /
-                        chosen.probability;
-                    log.term("shadow ray", "DL", term);
-                    sum += term;
-                }
-                const auto scattered =
-                    scatter(at.surface, material, at.wo, next_3d<T>(stream),
-                            Transport::radiance);
-                if (!scattered) return false;
-                const auto* next = &scattered->sample;
-                // From the last surface a path goes on to the lamp that its shadow ray
-                // left a share of, and to nothing else.
-                if (depth == limits.max_depth && next->specular) return false;
-                throughput *= next->weight;
-                squeeze *= next->squeeze;
-                bsdf_pdf = next->pdf;
-                from = at.surface.point.position;
-                log.vertex(next->specular ? 'S' : 'D', from, throughput, next->pdf);
-                medium = medium_beyond(medium, material, at.wo, next->wi);
-                ray = ray_from(at.surface.point, scattered->wi);
-                return true;
-            });
-        if (!goes_on || is_black(throughput)) break;
+        const auto at_material = [&](const auto& material) {
+            if (has(lobes(material), Lobes::diffuse) && limits.sample_lights &&
+                !scene.lights.empty())
+                add("shadow ray", "DL",
+                    light_of_one(tracer, path, at, material, stream, counts));
+            return send_on(path, at, material, Lobes::all, depth == limits.max_depth,
+                           stream, log);
+        };
+        if (!scene.visit_material(at.surface.object.material, at_material)) break;
+        if (is_black(path.throughput)) break;
         if (depth >= limits.roulette_depth &&
-            !survives(throughput, squeeze, next_1d<T>(stream)))
+            !survives(path.throughput, path.squeeze, next_1d<T>(stream)))
             break;
         ++counts.bounce_rays;
     }

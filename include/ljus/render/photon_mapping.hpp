@@ -5,6 +5,7 @@
 
 #include "ljus/photons/photon_map.hpp"
 #include "ljus/photons/tracing.hpp"
+#include "ljus/render/camera_path.hpp"
 #include "ljus/render/direct_light.hpp"
 #include "ljus/render/path_log.hpp"
 #include "ljus/render/survey.hpp"
@@ -33,6 +34,7 @@ struct PhotonMapsT {
     FluxAudit caustics_audit; ///< Where the flux of the caustics pass went.
     FluxAudit general_audit;  ///< Where the flux of the general pass went.
     bool complete = true;     ///< False if the progress callback stopped the pass.
+    std::string remarks{};    ///< Why a pass gave up, if one did: lines.
 };
 
 /// Runs the first pass: the maps that the plan asks for, and no others.
@@ -52,6 +54,7 @@ make_photon_maps(const Scene& scene, const PhotonMapping& settings = {}) {
         map = make_photon_map(traced.photons);
         audit = traced.audit;
         maps.complete = maps.complete && traced.complete;
+        if (!traced.remark.empty()) maps.remarks += traced.remark + "\n";
     };
     if (plan.caustics_map.on)
         run(PhotonLaw::caustics, settings.caustics, maps.caustics, maps.caustics_audit);
@@ -100,22 +103,26 @@ void light_at(const PhotonMapper<Scene>& mapper, const ShadingT<T>& at,
               const Material& material, bool gather, RandomStream& stream,
               Counts& counts, Add& add) {
     const PhotonMapping& settings = mapper.settings;
-    const auto ask = [&](const PhotonMapT<T>& map, const Gather& how) {
-        const auto light = [](PhotonKind kind) { return kind != PhotonKind::shadow; };
+    const auto ask = [&](const PhotonMapT<T>& map, const Gather& how, auto wanted) {
         ++counts.map_queries;
-        return estimate_radiance(map, at.surface, material, at.wo, how, light,
+        return estimate_radiance(map, at.surface, material, at.wo, how, wanted,
                                  counts.map_photons);
     };
+    const auto light = [](PhotonKind kind) { return kind != PhotonKind::shadow; };
+    const auto indirect = [](PhotonKind kind) { return kind == PhotonKind::indirect; };
     if (gather)
         add("general map", "DL|D..DL",
-            ask(mapper.maps.general, settings.gather_general));
+            ask(mapper.maps.general, settings.gather_general, light));
     else
         add("shadow ray", "DL",
             light_of_all(mapper.scene, at, material, settings.shadow_rays, stream,
                          counts));
+    if (settings.indirect == IndirectLight::photons)
+        add("general map", "D..DL",
+            ask(mapper.maps.general, settings.gather_general, indirect));
     if (!mapper.maps.caustics.empty())
         add("caustics map", "DS+L",
-            ask(mapper.maps.caustics, settings.gather_caustics));
+            ask(mapper.maps.caustics, settings.gather_caustics, light));
 }
 // [light_at]
 
@@ -123,7 +130,9 @@ void light_at(const PhotonMapper<Scene>& mapper, const ShadingT<T>& at,
 ///
 /// At each diffuse surface: one shadow ray to each light, the caustics map, and one
 /// indirect ray; at each mirror or glass: one branch. With IndirectLight::map, the
-/// first diffuse surface that an indirect ray meets answers from the general map.
+/// first diffuse surface that an indirect ray meets answers from the general map; with
+/// IndirectLight::photons, the one that the camera path meets itself. With split_glass
+/// a path goes both ways at the glass that the camera sees.
 /// \param mapper  The scene, the maps, the limits.
 /// \param ray     A primary ray.
 /// \param stream  The numbers of this path.
@@ -140,54 +149,57 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
                                RandomStream& stream, Counts& counts, Log&& log = {}) {
     const PhotonMapping& settings = mapper.settings;
     RgbT<T> sum{T(0)};
-    RgbT<T> throughput{T(1)};
-    T squeeze = T(1); // what of the throughput is no loss, see survives()
-    RgbT<T> medium{T(0)};
-    bool met_diffuse = false;
-    log.begin();
-    const auto add = [&](const char* owner, const char* letters, const RgbT<T>& light) {
-        log.term(owner, letters, throughput * light);
-        sum += throughput * light;
-    };
+    std::optional<PathT<T>> other; // the second way at the first glass
 
-    for (int depth = 1; depth <= settings.max_depth; ++depth) {
-        start_bounce(stream, static_cast<std::uint64_t>(depth));
-        const auto hit = closest_hit(mapper.scene, ray);
-        if (!hit) break;
-        const ShadingT<T> at = shading(mapper.scene, ray, *hit, medium);
-        throughput *= transmittance(medium, hit->at.t);
-        if (at.shines() && !met_diffuse)
-            add("emission", "L", at.surface.object.emission);
-
-        const bool gather = met_diffuse && settings.indirect == IndirectLight::map;
-        const auto at_material = [&](const auto& material) {
-            if (has(lobes(material), Lobes::diffuse))
-                light_at(mapper, at, material, gather, stream, counts, add);
-            if (depth == settings.max_depth) return false;
-
-            // Go on by one branch; after gathering, by mirrors and glass only.
-            const bool no_indirect = gather || settings.indirect == IndirectLight::none;
-            const auto scattered = scatter(at.surface, material, at.wo,
-                                           next_3d<T>(stream), Transport::radiance,
-                                           no_indirect ? Lobes::specular : Lobes::all);
-            if (!scattered) return false;
-            const auto* next = &scattered->sample;
-            throughput *= next->weight;
-            squeeze *= next->squeeze;
-            met_diffuse = met_diffuse || !next->specular;
-            log.vertex(next->specular ? 'S' : 'D', at.surface.point.position,
-                       throughput, next->pdf);
-            medium = medium_beyond(medium, material, at.wo, next->wi);
-            ray = ray_from(at.surface.point, scattered->wi);
-            return true;
+    const auto follow = [&](PathT<T> path, int first) {
+        const auto add = [&](const char* owner, const char* letters,
+                             const RgbT<T>& light) {
+            log.term(owner, letters, path.throughput * light);
+            sum += path.throughput * light;
         };
-        if (!mapper.scene.visit_material(at.surface.object.material, at_material))
-            break;
-        if (is_black(throughput)) break;
-        if (depth >= settings.roulette_depth &&
-            !survives(throughput, squeeze, next_1d<T>(stream)))
-            break;
+        for (int depth = first; depth <= settings.max_depth; ++depth) {
+            start_bounce(stream, path.bounce + static_cast<std::uint64_t>(depth));
+            const auto hit = closest_hit(mapper.scene, path.ray);
+            if (!hit) return;
+            const ShadingT<T> at = shading(mapper.scene, path.ray, *hit, path.medium);
+            path.throughput *= transmittance(path.medium, hit->at.t);
+            if (at.shines() && !path.met_diffuse)
+                add("emission", "L", at.surface.object.emission);
+
+            const bool gather =
+                path.met_diffuse && settings.indirect == IndirectLight::map;
+            const auto at_material = [&](const auto& material) {
+                if (has(lobes(material), Lobes::diffuse))
+                    light_at(mapper, at, material, gather, stream, counts, add);
+                if (depth == settings.max_depth) return false;
+                if (depth == 1 && settings.split_glass) {
+                    other = split(path, at, material, log);
+                    if (other) return true;
+                }
+                // Go on by one branch; after gathering, by mirrors and glass only.
+                const bool by_rays =
+                    !gather && (settings.indirect == IndirectLight::rays ||
+                                settings.indirect == IndirectLight::map);
+                return send_on(path, at, material,
+                               by_rays ? Lobes::all : Lobes::specular, false, stream,
+                               log);
+            };
+            if (!mapper.scene.visit_material(at.surface.object.material, at_material))
+                return;
+            if (is_black(path.throughput)) return;
+            if (depth >= settings.roulette_depth &&
+                !survives(path.throughput, path.squeeze, next_1d<T>(stream)))
+                return;
+            ++counts.bounce_rays;
+        }
+    };
+    log.begin();
+    follow({.ray = ray}, 1);
+    if (other) {
         ++counts.bounce_rays;
+        log.begin();
+        log.vertex('S', other->ray.origin, other->throughput, T(0));
+        follow(*other, 2);
     }
     return sum;
 }

@@ -56,8 +56,8 @@ template <typename Material, std::floating_point T>
 }
 
 /// Russian roulette on a camera path: it survives with a probability in proportion to
-/// its throughput, and a survivor is divided by it \cite arvo1990. That radiance is 2.25
-/// times less outside of glass is no loss, and no reason to die.
+/// its throughput, and a survivor is divided by it \cite arvo1990. That radiance is
+/// 2.25 times less outside of glass is no loss, and no reason to die.
 /// \param throughput  Divided by the probability, if it survives.
 /// \param squeeze  The product of all BsdfSampleT::squeeze in the throughput.
 /// \param u  In [0, 1).

@@ -18,16 +18,19 @@ namespace ljus {
 
 /// Where light that has met two diffuse surfaces comes from.
 enum class IndirectLight : std::uint8_t {
-    rays, ///< Indirect rays, on and on.
-    map,  ///< One indirect ray, and the general map where it ends.
-    none  ///< Nowhere: direct light and caustics only.
+    rays,    ///< Indirect rays, on and on.
+    map,     ///< One indirect ray, and the general map where it ends.
+    photons, ///< The general map's indirect photons where the camera looks: no indirect
+             ///< ray and little noise, but their light is blurred by the radius.
+    none     ///< Nowhere: direct light and caustics only.
 };
 
 /// How the report's renderer works. Lengths are in scene units.
 struct PhotonMapping {
-    int max_depth = 1000;   ///< Surfaces on a camera path, mirrors and glass counted.
-    int roulette_depth = 4; ///< From this surface on, roulette may end a path.
-    int shadow_rays = 1;    ///< Shadow rays to each light, at least 1.
+    int max_depth = 1000;     ///< Surfaces on a camera path, mirrors and glass counted.
+    int roulette_depth = 4;   ///< From this surface on, roulette may end a path.
+    int shadow_rays = 1;      ///< Shadow rays to each light, at least 1.
+    bool split_glass = false; ///< At glass that the camera sees, go both ways.
     IndirectLight indirect = IndirectLight::rays; ///< Who carries indirect light.
     PhotonPass caustics{};                 ///< Photons aimed at mirrors and glass.
     PhotonPass general{};                  ///< Photons for all the rest.
@@ -137,8 +140,9 @@ template <typename Scene>
              found.lights == 0 ? "the scene has no light"
                                : of_all(found.diffuse, "reflect diffusely, lit by ") +
                                      std::to_string(found.lights) + " light(s)");
-    const bool rays =
-        lit && settings.indirect != IndirectLight::none && settings.max_depth > 1;
+    const bool asked = settings.indirect == IndirectLight::rays ||
+                       settings.indirect == IndirectLight::map;
+    const bool rays = lit && asked && settings.max_depth > 1;
     plan.indirect_rays =
         item("indirect rays", rays,
              rays                      ? of_all(found.diffuse, "light each other")
@@ -152,9 +156,10 @@ template <typename Scene>
              : settings.caustics.photons == 0 ? "0 photons were asked for"
              : lit ? of_all(found.specular, "mirror or refract")
                    : "nothing is lit");
-    const bool general = lit && settings.general.photons > 0 &&
-                         ((rays && settings.indirect == IndirectLight::map) ||
-                          settings.keep_general_map);
+    const bool general =
+        lit && settings.general.photons > 0 &&
+        ((rays && settings.indirect == IndirectLight::map) ||
+         settings.indirect == IndirectLight::photons || settings.keep_general_map);
     plan.general_map =
         item("general map", general,
              general ? "indirect light is asked of it" : "no ray asks it");
@@ -163,12 +168,11 @@ template <typename Scene>
         item("shadow photons", shadows,
              shadows ? "the general map keeps them" : "no map keeps them");
     const bool few = found.objects <= flat_loop_limit;
-    plan.flat_loop =
-        item("flat loop", few,
-             std::to_string(found.objects) +
-                 (few ? " objects are asked in turn"
-                      : " objects: above " + std::to_string(flat_loop_limit) +
-                            " a tree says which ones to ask"));
+    plan.flat_loop = item("flat loop", few,
+                          std::to_string(found.objects) +
+                              (few ? std::string(" object(s), no need for a tree")
+                                   : std::string(" objects, a tree is faster from ") +
+                                         std::to_string(flat_loop_limit + 1) + " on"));
     return plan;
 }
 // [survey]

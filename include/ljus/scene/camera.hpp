@@ -3,7 +3,9 @@
 /// \file ljus/scene/camera.hpp
 /// \brief The pinhole camera.
 
+#include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "ljus/geometry/ray.hpp"
 #include "ljus/math/require.hpp"
@@ -89,6 +91,30 @@ template <std::floating_point T>
                 glm::normalize(camera.forward + x * camera.right + y * camera.up)};
 }
 // [primary_ray]
+
+/// Where a point appears in the picture: primary_ray() the other way round.
+/// \param camera  The camera.
+/// \param point   Any point.
+/// \param width   Of the picture, in pixels.
+/// \param height  Of the picture, in pixels.
+/// \return From the upper left corner, in pixels; it may lie outside of the picture.
+///         Nothing for a point beside or behind the camera, or one that is not finite.
+/// \report{Section 3.2, Fig. 3}
+// [project]
+template <std::floating_point T>
+[[nodiscard]] std::optional<Vec2T<T>> project(const CameraT<T>& camera,
+                                              const Vec3T<T>& point, int width,
+                                              int height) noexcept {
+    const Vec3T<T> way = point - camera.position;
+    const T depth = glm::dot(way, camera.forward);
+    const T scale = T(height) / (T(2) * camera.half_height * depth);
+    const Vec2T<T> pixel{T(width) / T(2) + scale * glm::dot(way, camera.right),
+                         T(height) / T(2) - scale * glm::dot(way, camera.up)};
+    if (!(depth > T(0) && std::isfinite(pixel.x) && std::isfinite(pixel.y)))
+        return std::nullopt;
+    return pixel;
+}
+// [project]
 
 /// \}
 

@@ -63,7 +63,7 @@ template <typename... T>
     return {};
 }
 
-/// What one part adds to the lists; placed() shapes and point lights are parts.
+/// What one part adds to the lists; placed() shapes and lights are parts.
 template <typename Part>
 struct PartOf;
 
@@ -81,6 +81,14 @@ struct PartOf<PointLightT<T>> {
     using Material = TypeList<>; ///< None.
 };
 
+/// \copydoc PartOf
+template <typename T>
+struct PartOf<SpotLightT<T>> : PartOf<PointLightT<T>> {};
+
+/// \copydoc PartOf
+template <typename T>
+struct PartOf<SunLightT<T>> : PartOf<PointLightT<T>> {};
+
 /// Adds a part to a scene that lists its types.
 /// \param scene  The scene.
 /// \param part   A placed() shape.
@@ -89,15 +97,15 @@ void add_part(Scene& scene, const Placed<S, M>& part) {
     scene.add(part.shape, scene.add(part.material), part.emission, part.inside_out);
 }
 
-/// Adds a point light to a scene.
+/// Adds a point light, a spot light or a sun to a scene.
 /// \param scene  The scene.
 /// \param light  The light.
-template <typename Scene, typename T>
-void add_part(Scene& scene, const PointLightT<T>& light) {
+template <typename Scene, typename Light>
+void add_part(Scene& scene, const Light& light) {
     scene.add(light);
 }
 
-/// What make_scene() takes: placed() shapes and point lights.
+/// What make_scene() takes: placed() shapes and lights.
 template <typename Part>
 concept ScenePart = requires {
     typename PartOf<Part>::Shape;
@@ -118,7 +126,7 @@ template <typename... S, typename... M>
 /// A scene of these parts, added in their order; each type is listed where it first
 /// appears. Each placed() shape has a material of its own: to share one, use
 /// Scene::add().
-/// \param parts  placed() shapes, at least one, and point lights; of one precision.
+/// \param parts  placed() shapes, at least one, and lights; of one precision.
 /// \return The scene.
 /// \throws std::invalid_argument  as Scene::add().
 // [make_scene]

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "ljus/materials/bsdf.hpp"
-#include "ljus/scene/light.hpp"
+#include "ljus/scene/make_light.hpp"
 
 namespace ljus {
 
@@ -60,7 +60,10 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
     /// What each shape is made of, in the order of `shapes`.
     std::array<std::vector<ObjectT<Scalar>>, 1 + sizeof...(S)> objects;
     std::tuple<std::vector<M>...> materials; ///< An array a type.
-    std::vector<LightT<Scalar>> lights;      ///< Emissive objects and point lights.
+    std::vector<LightT<Scalar>> lights;      ///< Emissive objects, and the others.
+    Vec3T<Scalar> low{Scalar(0)};    ///< Least corner of a box around all shapes.
+    Vec3T<Scalar> high{Scalar(0)};   ///< Its greatest corner.
+    std::vector<std::uint32_t> suns; ///< Which lights are suns.
 
     /// Adds a material.
     /// \param material  One of the listed types.
@@ -99,31 +102,40 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
         auto& array = std::get<std::vector<G>>(shapes);
         const ObjectId id{type_of<G, FirstShape, S...>(),
                           static_cast<std::uint32_t>(array.size())};
-        if (!is_black(radiance)) {
+        if constexpr (!HasArea<G>)
+            require(is_black(radiance), "the radiance of a shape of unknown area",
+                    radiance, "black: it can be lit, but cannot be a light");
+        else if (!is_black(radiance)) {
             require_positive("the area of a light", area(shape));
             const RgbT<Scalar> flux = diffuse_flux(radiance, area(shape));
-            check_flux(flux);
-            lights.push_back({.object = id, .emission = radiance, .flux = flux});
+            require_flux(flux);
+            lights.push_back({.kind = LightKind::object,
+                              .object = id,
+                              .emission = radiance,
+                              .flux = flux});
         }
+        reach(bounding_sphere(shape));
         array.push_back(shape);
         const auto light = static_cast<std::uint32_t>(lights.size()) - 1u;
         objects[id.type].push_back({material, radiance, inside_out, light});
         return id;
     }
 
-    /// Adds a point light.
+    /// Adds a light that is no object: a PointLight, a SpotLight or a SunLight. A sun's
+    /// flux is what falls into a sphere around all shapes; it grows with each that is
+    /// added, before or after.
     /// \param light  The light.
-    /// \throws std::invalid_argument  if its position is not finite or its intensity is
-    ///                                negative.
-    void add(const PointLightT<Scalar>& light) {
-        require_finite("point light.position", light.position);
-        require_radiance("point light.intensity", light.intensity);
-        if (is_black(light.intensity)) return;
-        const RgbT<Scalar> flux =
-            Scalar(4) * std::numbers::pi_v<Scalar> * light.intensity;
-        check_flux(flux);
-        lights.push_back(
-            {.position = light.position, .emission = light.intensity, .flux = flux});
+    /// \throws std::invalid_argument  as make_light().
+    template <typename Light>
+    requires std::same_as<LightOf<Light>, LightT<Scalar>>
+    void add(const Light& light) {
+        LightT<Scalar> made = make_light(light);
+        if (is_black(made.emission)) return;
+        if (made.kind == LightKind::sun) {
+            if (size() > 0) widen(made, low, high);
+            suns.push_back(static_cast<std::uint32_t>(lights.size()));
+        }
+        lights.push_back(made);
     }
 
     /// What the scene knows of a shape besides its geometry.
@@ -158,10 +170,14 @@ private:
         return place;
     }
 
-    // Radiance and area may be fine, and their product beyond the range of T.
-    static void check_flux(const RgbT<Scalar>& flux) {
-        require(is_finite(flux) && !is_black(flux), "the flux of a light", flux,
-                "finite and above 0");
+    // Widens the box, and with it what each sun has to light.
+    void reach(const SphereT<Scalar>& bound) {
+        const bool first = size() == 0;
+        const Vec3T<Scalar> from = bound.center - bound.radius;
+        const Vec3T<Scalar> to = bound.center + bound.radius;
+        low = first ? from : glm::min(low, from);
+        high = first ? to : glm::max(high, to);
+        for (const std::uint32_t sun : suns) widen(lights[sun], low, high);
     }
 
     bool has(MaterialId id) const noexcept {

@@ -1,0 +1,147 @@
+#pragma once
+
+/// \file ljus/geometry/isosurface.hpp
+/// \brief Surfaces f(X) = 0 of any field that has a Lipschitz bound.
+
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <optional>
+
+#include "ljus/geometry/field_on_ray.hpp"
+#include "ljus/geometry/sphere.hpp"
+#include "ljus/geometry/surface.hpp"
+#include "ljus/geometry/triangle.hpp"
+
+namespace ljus {
+
+/// \addtogroup isosurface
+/// \{
+
+/// What an isosurface asks of a field: its value and gradient at a point, in double,
+/// and a bound of the gradient's length.
+template <typename F>
+concept LipschitzField = requires(const F& field, Vec3T<double> x) {
+    { field.value(x) } -> std::same_as<double>;
+    { field.gradient(x) } -> std::same_as<Vec3T<double>>;
+    { field.lipschitz() } -> std::same_as<double>;
+};
+
+/// The surface of any field, within a ball.
+/// \report{Section 2.1}
+template <std::floating_point T, LipschitzField Field>
+struct IsosurfaceT {
+    Field field{};       ///< Above 0 inside, below 0 outside.
+    SphereT<T> bounds{}; ///< Holds the whole surface, with room to spare.
+};
+template <LipschitzField Field>
+using Isosurface = IsosurfaceT<float, Field>; ///< IsosurfaceT in float.
+
+/// The field of an isosurface on a ray; its range comes from the Lipschitz bound.
+template <LipschitzField Field>
+struct LipschitzLine {
+    const Field& field; ///< The field.
+    RayT<double> ray{}; ///< The ray.
+    double length = 0;  ///< Of its direction.
+    double enter = 0;   ///< Where it comes into the bounds.
+    double leave = 0;   ///< Where it goes out of them.
+
+    /// f(O + tD).
+    [[nodiscard]] double value(double t) const { return field.value(at(ray, t)); }
+    /// The largest |df/dt|.
+    [[nodiscard]] double steepest() const { return field.lipschitz() * length; }
+    /// All values in [a, b], and more.
+    [[nodiscard]] IntervalT<double> range(double a, double b) const {
+        const double middle = value(a + (b - a) / 2), reach = steepest() * (b - a) / 2;
+        return {middle - reach, middle + reach};
+    }
+};
+
+/// The distance at which a ray first meets an isosurface.
+/// \tparam Solver  SphereTracing or Bisection.
+/// \param ray      Hits count within its [t_min, t_max].
+/// \param surface  The isosurface.
+/// \param solver   Its limits.
+/// \return As first_meeting() has it, computed in double.
+template <typename Solver = SphereTracing, std::floating_point T, LipschitzField Field>
+[[nodiscard]] std::optional<T> intersect(const RayT<T>& ray,
+                                         const IsosurfaceT<T, Field>& surface,
+                                         const Solver& solver = {}) {
+    const auto inside = chord<double>(ray, surface.bounds);
+    if (!inside) return std::nullopt;
+    const RayT<double> wide{Vec3T<double>(ray.origin), Vec3T<double>(ray.direction)};
+    const LipschitzLine<Field> line{surface.field, wide, glm::length(wide.direction),
+                                    inside->enter, inside->leave};
+    const auto t = first_meeting(solver, line, double(ray.t_min), double(ray.t_max));
+    if (!t || !(*t <= std::numeric_limits<T>::max())) return std::nullopt;
+    return static_cast<T>(*t);
+}
+
+/// A hit of a field, put back onto the surface: one Newton step along the gradient, no
+/// longer than the rounding of t can have been. Where the gradient vanishes there is no
+/// normal, and the point faces the ray.
+/// \param value     f, in double.
+/// \param gradient  Its gradient, in double.
+/// \param ray       The ray.
+/// \param t         What intersect() returned.
+/// \param rounding  What the values of f may be wrong by, the solver's tolerance in.
+/// \return Position, its error bound, the outer normal.
+// [refined]
+template <std::floating_point T, typename Value, typename Gradient>
+[[nodiscard]] SurfacePointT<T> refined(const Value& value, const Gradient& gradient,
+                                       const RayT<T>& ray, T t, double rounding) {
+    using Wide = Vec3T<double>;
+    const Wide o(ray.origin), d(ray.direction);
+    Wide x = o + double(t) * d;
+    const double unit = double(std::numeric_limits<T>::epsilon()) / 2;
+    const double doubt = 8 * unit * (glm::length(o) + double(t) * glm::length(d));
+    Wide g = gradient(x);
+    const double step = value(x) / glm::dot(g, g);
+    if (!(glm::dot(g, g) > 0))
+        g = d;
+    else if (std::abs(step) * glm::length(g) <= doubt)
+        x -= step * g;
+    if (const Wide there = gradient(x); glm::dot(there, there) > 0) g = there;
+
+    const double left = (std::abs(value(x)) + rounding) / glm::length(g);
+    const double error = left < doubt ? left : doubt;
+    return {.position = Vec3T<T>(x),
+            .error = Vec3T<T>(static_cast<T>(error)) +
+                     rounding_bound<T>(2) * glm::abs(Vec3T<T>(x)),
+            .normal = Vec3T<T>(-glm::normalize(g))};
+}
+// [refined]
+
+/// The point of an isosurface that a ray hit.
+/// \param surface  The isosurface.
+/// \param ray      The ray.
+/// \param hit      What intersect() returned.
+/// \return Position, its error bound, the outer normal.
+template <std::floating_point T, LipschitzField Field>
+[[nodiscard]] SurfacePointT<T> surface_point(const IsosurfaceT<T, Field>& surface,
+                                             const RayT<T>& ray,
+                                             const FlatHitT<T>& hit) {
+    return refined([&](const auto& x) { return surface.field.value(x); },
+                   [&](const auto& x) { return surface.field.gradient(x); }, ray, hit.t,
+                   4 * SphereTracing{}.tolerance);
+}
+
+/// A sphere around the isosurface: its bounds.
+template <std::floating_point T, LipschitzField Field>
+[[nodiscard]] SphereT<T>
+bounding_sphere(const IsosurfaceT<T, Field>& surface) noexcept {
+    return surface.bounds;
+}
+
+/// Refuses bounds that are none, and a Lipschitz bound that is none.
+/// \throws std::invalid_argument  naming what is wrong and its value.
+template <std::floating_point T, LipschitzField Field>
+void check(const IsosurfaceT<T, Field>& surface) {
+    require_finite("isosurface.bounds.center", surface.bounds.center);
+    require_positive("isosurface.bounds.radius", surface.bounds.radius);
+    require_positive("isosurface.field.lipschitz()", surface.field.lipschitz());
+}
+
+/// \}
+
+} // namespace ljus

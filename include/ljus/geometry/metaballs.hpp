@@ -1,0 +1,197 @@
+#pragma once
+
+/// \file ljus/geometry/metaballs.hpp
+/// \brief Metaballs: a field of blobs, and the surface where it has a given level.
+
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "ljus/geometry/isosurface.hpp"
+#include "ljus/geometry/metaball_quartic.hpp"
+#include "ljus/math/require.hpp"
+
+namespace ljus {
+
+/// \addtogroup metaballs
+/// \{
+
+/// A field of blobs; its surface is where the field has the value `level`:
+/// \f[ f(X) = \sum_i w_i \left(1 - \frac{|X - C_i|^2}{R_i^2}\right)_+^2 - L = 0. \f]
+/// Inside f is above 0, outside below. Any number of blobs; one of negative weight
+/// carves. One blob of weight 1 and level 1/4 is a sphere of radius 0.707 R.
+/// \report{Section 2.1, footnote 2} \cite blinn1982 \cite wyvill1986
+// [metaballs]
+template <std::floating_point T>
+struct MetaballsT {
+    std::vector<BlobT<T>> blobs{}; ///< At least one.
+    T level = T(0.25);             ///< L, above 0, below the sum of positive weights.
+};
+using Metaballs = MetaballsT<float>; ///< MetaballsT in float.
+// [metaballs]
+
+/// The field of metaballs.
+/// \param balls  The metaballs.
+/// \param x      A point.
+/// \return f(X), in double: above 0 inside, 0 on the surface, -L far away.
+// [field]
+template <std::floating_point T>
+[[nodiscard]] WideT<T> field(const MetaballsT<T>& balls, const Vec3T<WideT<T>>& x) {
+    using C = WideT<T>;
+    C sum = -C(balls.level);
+    for (const BlobT<T>& blob : balls.blobs) {
+        const Vec3T<C> q = (x - Vec3T<C>(blob.center)) / C(blob.radius);
+        const C s = C(1) - glm::dot(q, q);
+        if (s > C(0)) sum += C(blob.weight) * s * s;
+    }
+    return sum;
+}
+// [field]
+
+/// The gradient of the field: it points inwards.
+/// \param balls  The metaballs.
+/// \param x      A point.
+/// \return \f$ \nabla f = -4 \sum_i w_i s_i (X - C_i)/R_i^2 \f$, in double.
+// [gradient]
+template <std::floating_point T>
+[[nodiscard]] Vec3T<WideT<T>> gradient(const MetaballsT<T>& balls,
+                                       const Vec3T<WideT<T>>& x) {
+    using C = WideT<T>;
+    Vec3T<C> sum{0};
+    for (const BlobT<T>& blob : balls.blobs) {
+        const Vec3T<C> q = (x - Vec3T<C>(blob.center)) / C(blob.radius);
+        const C s = C(1) - glm::dot(q, q);
+        if (s > C(0)) sum -= C(4) * C(blob.weight) * s * q / C(blob.radius);
+    }
+    return sum;
+}
+// [gradient]
+
+/// A bound of the gradient's length everywhere: the Lipschitz constant of the field.
+/// \param balls  The metaballs.
+/// \return The sum of \f$ \frac{8}{3\sqrt 3} |w_i| / R_i \f$: a blob is steepest where
+///         \f$ r = R / \sqrt 3 \f$.
+template <std::floating_point T>
+[[nodiscard]] WideT<T> lipschitz(const MetaballsT<T>& balls) {
+    WideT<T> sum = 0;
+    for (const BlobT<T>& blob : balls.blobs)
+        sum += std::abs(WideT<T>(blob.weight)) / WideT<T>(blob.radius);
+    return sum * steepest_blob<WideT<T>>;
+}
+
+/// The distance at which a ray first meets metaballs, from outside or from within.
+///
+/// \tparam Solver  QuarticPieces, the default, for it was the fastest and the most
+///                 exact of chapter 7's four; or Bisection, SphereTracing, Radicals.
+/// \param ray      Hits count within its [t_min, t_max].
+/// \param balls    The metaballs.
+/// \param solver   The limits of the solver.
+/// \return The smallest t at which f crosses 0, in units of the direction's length,
+///         computed in double and rounded to T once; nothing for a miss, and nothing
+///         for a NaN, an infinity, or a zero direction. Inside is where f >= 0.
+/// \cost A square root and a division for each blob, and a quartic for each span
+///       between two of the places where the ray meets, leaves or is nearest to one: at
+///       most 3 n - 1 spans of n additions and mostly 0 or 1 root; never more than 10
+///       roots of 106 steps.
+/// \report{Section 2.1}
+// [intersect]
+template <typename Solver = QuarticPieces, std::floating_point T>
+[[nodiscard]] std::optional<T> intersect(const RayT<T>& ray, const MetaballsT<T>& balls,
+                                         const Solver& solver = {}) {
+    using C = WideT<T>;
+    StrandsT<C> strands;
+    for (const BlobT<T>& blob : balls.blobs)
+        if (const auto met = strand(ray, blob)) strands.add(*met);
+    const auto line = line_of(strands, C(balls.level));
+    const auto t = first_meeting(solver, line, C(ray.t_min), C(ray.t_max));
+    if (!t || !(*t <= std::numeric_limits<T>::max())) return std::nullopt;
+    return static_cast<T>(*t);
+}
+// [intersect]
+
+/// The point of metaballs that a ray hit, put back onto the surface.
+/// \param balls  The metaballs.
+/// \param ray    The ray.
+/// \param hit    What intersect() returned.
+/// \return Position, its error bound, the outer normal -grad f / |grad f|; where the
+///         gradient vanishes, as in the neck of two blobs that just touch, the normal
+///         faces the ray.
+template <std::floating_point T>
+[[nodiscard]] SurfacePointT<T>
+surface_point(const MetaballsT<T>& balls, const RayT<T>& ray, const FlatHitT<T>& hit) {
+    WideT<T> size = balls.level;
+    for (const BlobT<T>& blob : balls.blobs) size += std::abs(WideT<T>(blob.weight));
+    return refined([&](const auto& x) { return field(balls, x); },
+                   [&](const auto& x) { return gradient(balls, x); }, ray, hit.t,
+                   64 * std::numeric_limits<WideT<T>>::epsilon() * size);
+}
+
+/// The radius within which a blob can hold a share of the level up.
+/// \param blob   A blob of positive weight.
+/// \param share  The field that it shall have at least.
+/// \return R sqrt(1 - sqrt(share/w)); negative if it has so much nowhere.
+template <std::floating_point T>
+[[nodiscard]] WideT<T> reach_of(const BlobT<T>& blob, WideT<T> share) {
+    const WideT<T> s = std::sqrt(share / WideT<T>(blob.weight));
+    return s < 1 ? WideT<T>(blob.radius) * std::sqrt(1 - s) : WideT<T>(-1);
+}
+
+/// A sphere around metaballs. Where n blobs together reach the level, one of them has
+/// at least 1/n of it: that lies within the blob's reach, and the sphere holds all
+/// reaches. For one blob it is the surface itself.
+/// \param balls  The metaballs.
+/// \return The sphere, its radius rounded up.
+template <std::floating_point T>
+[[nodiscard]] SphereT<T> bounding_sphere(const MetaballsT<T>& balls) {
+    using C = WideT<T>;
+    C positive = 0;
+    for (const BlobT<T>& blob : balls.blobs) positive += blob.weight > T(0) ? 1 : 0;
+    constexpr C far = std::numeric_limits<C>::infinity();
+    Vec3T<C> low{far}, high{-far};
+    const auto each = [&](const auto& visit) {
+        for (const BlobT<T>& blob : balls.blobs) {
+            if (!(blob.weight > T(0))) continue;
+            const C reach = reach_of(blob, C(balls.level) / positive);
+            if (reach >= C(0)) visit(Vec3T<C>(blob.center), reach);
+        }
+    };
+    each([&](const Vec3T<C>& center, C reach) {
+        low = glm::min(low, center - reach);
+        high = glm::max(high, center + reach);
+    });
+    if (!(low.x <= high.x))
+        return {.center = Vec3T<T>{0}, .radius = T(0)}; // no surface
+    const Vec3T<T> center{low + (high - low) / C(2)};
+    C radius = 0;
+    each([&](const Vec3T<C>& c, C reach) {
+        radius = glm::max(radius, glm::distance(Vec3T<C>(center), c) + reach);
+    });
+    return {.center = center,
+            .radius = static_cast<T>(radius) *
+                      (T(1) + T(4) * std::numeric_limits<T>::epsilon())};
+}
+
+/// Refuses metaballs that have no surface.
+/// \param balls  The metaballs.
+/// \throws std::invalid_argument  naming what is wrong and its value.
+template <std::floating_point T>
+void check(const MetaballsT<T>& balls) {
+    require_positive("metaballs.level", balls.level);
+    T most = T(0);
+    for (const BlobT<T>& blob : balls.blobs) {
+        require_finite("metaballs.blobs.center", blob.center);
+        require_positive("metaballs.blobs.radius", blob.radius);
+        require(std::isfinite(blob.weight), "metaballs.blobs.weight", blob.weight,
+                "finite");
+        if (blob.weight > T(0)) most += blob.weight;
+    }
+    require(most > balls.level && std::isfinite(most),
+            "the sum of the positive weights of metaballs", most,
+            "finite and above metaballs.level, or there is no surface");
+}
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,194 @@
+#pragma once
+
+/// \file ljus/math/low_discrepancy.hpp
+/// \brief Sobol's points, scrambled: numbers that know where the others have been.
+
+#include <array>
+
+#include "ljus/math/random.hpp"
+
+namespace ljus {
+
+/// \defgroup low_discrepancy Low-discrepancy numbers
+/// \brief Points that fill the unit cube more evenly than chance would.
+///
+/// Random points leave gaps and form heaps; a sum over N of them has an error that goes
+/// with \f$N^{-1/2}\f$. The first \f$2^m\f$ points of Sobol lie one in each cell of
+/// every dyadic grid, and where the summed function is smooth in few dimensions the
+/// scrambled ones have an error near \f$N^{-3/2}\f$; where it has edges, still better
+/// than chance.
+/// \{
+
+/// How many dimensions sobol() has.
+inline constexpr std::uint32_t sobol_dimensions = 16;
+
+/// The direction numbers of all dimensions: entry [d][i] is what bit i of the index
+/// turns over in dimension d.
+using SobolTable = std::array<std::array<std::uint32_t, 32>, sobol_dimensions>;
+
+/// Works the direction numbers out, by the recurrence of Joe and Kuo, from a primitive
+/// polynomial (degree s, inner coefficients a) and s odd numbers a dimension.
+/// \return The table; made by the compiler.
+/// \cite joe2008
+// [sobol_table]
+[[nodiscard]] constexpr SobolTable make_sobol_table() noexcept {
+    struct Seed {
+        unsigned s, a, m[6];
+    };
+    constexpr Seed seeds[sobol_dimensions - 1] = {{1, 0, {1}},
+                                                  {2, 1, {1, 3}},
+                                                  {3, 1, {1, 3, 1}},
+                                                  {3, 2, {1, 1, 1}},
+                                                  {4, 1, {1, 1, 3, 3}},
+                                                  {4, 4, {1, 3, 5, 13}},
+                                                  {5, 2, {1, 1, 5, 5, 17}},
+                                                  {5, 4, {1, 1, 5, 5, 5}},
+                                                  {5, 7, {1, 1, 7, 11, 19}},
+                                                  {5, 11, {1, 1, 5, 1, 1}},
+                                                  {5, 13, {1, 1, 1, 3, 11}},
+                                                  {5, 14, {1, 3, 5, 5, 31}},
+                                                  {6, 1, {1, 3, 3, 9, 7, 49}},
+                                                  {6, 13, {1, 1, 1, 15, 21, 21}},
+                                                  {6, 16, {1, 3, 1, 13, 27, 49}}};
+    SobolTable table{};
+    for (unsigned i = 0; i < 32; ++i) table[0][i] = 1u << (31 - i);
+    for (std::size_t d = 1; d < sobol_dimensions; ++d) {
+        const Seed& seed = seeds[d - 1];
+        for (unsigned i = 0; i < seed.s; ++i) table[d][i] = seed.m[i] << (31 - i);
+        for (unsigned i = seed.s; i < 32; ++i) {
+            table[d][i] = table[d][i - seed.s] ^ (table[d][i - seed.s] >> seed.s);
+            for (unsigned k = 1; k < seed.s; ++k)
+                if ((seed.a >> (seed.s - 1 - k)) & 1u) table[d][i] ^= table[d][i - k];
+        }
+    }
+    return table;
+}
+// [sobol_table]
+
+/// The table.
+inline constexpr SobolTable sobol_table = make_sobol_table();
+
+/// One coordinate of one of Sobol's points \cite sobol1967.
+/// \param index      Which point.
+/// \param dimension  Which coordinate, below sobol_dimensions.
+/// \return The coordinate times 2^32. The first 2^m points are a (t,m,s)-net: t is 0
+///         in each dimension alone and in dimensions 0 and 1 together.
+/// \cost One exclusive or a bit of the index that is set.
+// [sobol]
+[[nodiscard]] constexpr std::uint32_t sobol(std::uint32_t index,
+                                            std::uint32_t dimension) noexcept {
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; index != 0; ++i, index >>= 1)
+        if (index & 1u) bits ^= sobol_table[dimension][i];
+    return bits;
+}
+// [sobol]
+
+/// The bits in the opposite order.
+/// \param x  Any number.
+/// \return Its mirror image.
+[[nodiscard]] constexpr std::uint32_t reversed_bits(std::uint32_t x) noexcept {
+    x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
+    x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
+    x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
+    x = ((x >> 8) & 0x00ff00ffu) | ((x & 0x00ff00ffu) << 8);
+    return (x >> 16) | (x << 16);
+}
+
+/// Owen's scrambling of one coordinate, by a hash: each bit is turned over, or not, by
+/// chance that depends on the seed and on all bits above it. Cells of a dyadic grid are
+/// exchanged for each other, so that the points keep their evenness; each of them alone
+/// becomes uniform over [0, 1).
+///
+/// A product and a sum carry upwards only: on the reversed bits, each result depends on
+/// the bits above it in the original.
+/// \param bits  A coordinate of sobol().
+/// \param seed  Another one for each dimension.
+/// \return The scrambled coordinate times 2^32.
+/// \cite owen1995 \cite burley2020
+// [owen]
+[[nodiscard]] constexpr std::uint32_t owen_scrambled(std::uint32_t bits,
+                                                     std::uint64_t seed) noexcept {
+    const std::uint64_t key = mix(seed);
+    std::uint32_t x = reversed_bits(bits);
+    x ^= x * 0x3d20adeau; // an even factor keeps this invertible
+    x += static_cast<std::uint32_t>(key);
+    x *= static_cast<std::uint32_t>(key >> 32) | 1u;
+    x ^= x * 0x05526c56u;
+    x ^= x * 0x53a22864u;
+    return reversed_bits(x);
+}
+// [owen]
+
+/// The numbers of one path out of many that shall be spread evenly together: the first
+/// sobol_dimensions are a scrambled point of Sobol, all further ones are random. Draw
+/// from it as from a RandomStream.
+///
+/// Each number alone is as uniform as a random one, so that no mean changes. Numbers of
+/// one path are independent; those of different paths avoid each other.
+struct SobolStream {
+    std::uint64_t seed = 0;      ///< Of the scrambling; the same for all paths.
+    std::uint32_t index = 0;     ///< Which point.
+    std::uint32_t dimension = 0; ///< The next one.
+    RandomStream rest{};         ///< What comes after the last dimension.
+};
+
+/// The stream of one path.
+/// \param seed       The user's seed.
+/// \param pass       Which part of the work draws.
+/// \param iteration  Which repetition of the pass; each is scrambled anew.
+/// \param path       Which path of the pass; after 2^32 the scrambling changes.
+/// \return A stream at dimension 0.
+[[nodiscard]] constexpr SobolStream sobol_stream(std::uint64_t seed, Pass pass,
+                                                 std::uint64_t iteration,
+                                                 std::uint64_t path) noexcept {
+    return {.seed = random_stream(~seed, pass, iteration, path >> 32).key,
+            .index = static_cast<std::uint32_t>(path),
+            .rest = random_stream(seed, pass, iteration, path)};
+}
+
+/// Moves a stream to the start of a bounce. The dimensions of the point go on: paths
+/// that draw equally much in each bounce meet the same ones.
+/// \param stream  The stream.
+/// \param bounce  Which bounce.
+constexpr void start_bounce(SobolStream& stream, std::uint64_t bounce) noexcept {
+    start_bounce(stream.rest, bounce);
+}
+
+/// The next number, uniform in [0, 1): never 1, in float or in double.
+/// \param stream  Moves on by one dimension.
+/// \return A multiple of 2^-24 (float) or 2^-32 (double, while the dimensions last).
+// [next_sobol]
+template <std::floating_point T = float>
+[[nodiscard]] constexpr T next_1d(SobolStream& stream) noexcept {
+    const std::uint32_t d = stream.dimension;
+    if (d >= sobol_dimensions) return next_1d<T>(stream.rest);
+    ++stream.dimension;
+    const std::uint32_t bits = owen_scrambled(sobol(stream.index, d), stream.seed + d);
+    if constexpr (sizeof(T) == 4)
+        return static_cast<T>(bits >> 8) * T(0x1p-24);
+    else
+        return static_cast<T>(bits) * T(0x1p-32);
+}
+// [next_sobol]
+
+/// The next point of the unit square [0, 1)^2.
+/// \param stream  Moves on by two dimensions.
+template <std::floating_point T = float>
+[[nodiscard]] constexpr Vec2T<T> next_2d(SobolStream& stream) noexcept {
+    const T x = next_1d<T>(stream);
+    return {x, next_1d<T>(stream)};
+}
+
+/// The next point of the unit cube [0, 1)^3.
+/// \param stream  Moves on by three dimensions.
+template <std::floating_point T = float>
+[[nodiscard]] constexpr Vec3T<T> next_3d(SobolStream& stream) noexcept {
+    const T x = next_1d<T>(stream);
+    const T y = next_1d<T>(stream);
+    return {x, y, next_1d<T>(stream)};
+}
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,249 @@
+#pragma once
+
+/// \file ljus/math/polynomial.hpp
+/// \brief The real roots of a polynomial in an interval, in order, none skipped.
+
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+#include <glm/common.hpp>
+
+namespace ljus {
+
+/// \defgroup polynomial Polynomials
+/// \brief Section 2.1: isosurfaces "treated analytically". Chapter: \ref ch_metaballs.
+/// \{
+
+/// A polynomial of degree N on [0, 1], as its Bernstein coefficients:
+/// \f[ p(u) = \sum_{i=0}^{N} c_i \binom{N}{i} u^i (1 - u)^{N-i}. \f]
+/// The first and the last are the values at the ends; p lies between the least and the
+/// largest; and it has no more roots in (0, 1) than the row changes its sign, and as
+/// many or fewer by an even number \cite farouki2012.
+// [bernstein]
+template <std::floating_point T, std::size_t N>
+struct BernsteinT {
+    std::array<T, N + 1> c{}; ///< c_0 to c_N.
+};
+// [bernstein]
+
+/// The coefficients 1, N, ..., N, 1 of (a + b)^N.
+template <std::floating_point T, std::size_t N>
+[[nodiscard]] constexpr std::array<T, N + 1> binomials() noexcept {
+    std::array<T, N + 1> row{T(1)};
+    for (std::size_t i = 1; i <= N; ++i) row[i] = row[i - 1] * T(N + 1 - i) / T(i);
+    return row;
+}
+
+/// The value of a polynomial.
+/// \param p  The polynomial.
+/// \param u  In [0, 1].
+/// \return p(u), wrong by at most 3 N units of roundoff of the largest |c_i|.
+template <std::floating_point T, std::size_t N>
+[[nodiscard]] constexpr T value_at(const BernsteinT<T, N>& p, T u) noexcept {
+    constexpr auto binomial = binomials<T, N>();
+    const T v = T(1) - u;
+    T power = T(1), sum = p.c[0];
+    for (std::size_t i = 1; i <= N; ++i) {
+        power *= u;
+        sum = sum * v + binomial[i] * power * p.c[i];
+    }
+    return sum;
+}
+
+/// The derivative of a polynomial by u.
+template <std::floating_point T, std::size_t N>
+[[nodiscard]] constexpr BernsteinT<T, N - 1>
+derivative(const BernsteinT<T, N>& p) noexcept {
+    BernsteinT<T, N - 1> result;
+    for (std::size_t i = 0; i < N; ++i) result.c[i] = T(N) * (p.c[i + 1] - p.c[i]);
+    return result;
+}
+
+/// How often the row of coefficients changes its sign, zeros left out.
+template <std::floating_point T, std::size_t N>
+[[nodiscard]] constexpr int sign_changes(const BernsteinT<T, N>& p) noexcept {
+    int changes = 0;
+    T last = T(0);
+    for (const T c : p.c) {
+        changes += (last < T(0) && T(0) < c) || (c < T(0) && T(0) < last) ? 1 : 0;
+        last = c != T(0) ? c : last;
+    }
+    return changes;
+}
+
+/// What rounding may have done to the values of a polynomial: 8 eps max |c_i|.
+template <std::floating_point T, std::size_t N>
+[[nodiscard]] constexpr T noise(const BernsteinT<T, N>& p) noexcept {
+    T largest = T(0);
+    for (const T c : p.c) largest = glm::max(largest, c < T(0) ? -c : c);
+    return T(8) * std::numeric_limits<T>::epsilon() * largest;
+}
+
+/// The root between two points where the signs differ: Newton's steps as long as each
+/// is half as long as the last, bisection else.
+/// \param p   The polynomial.
+/// \param a   Where p has the one sign, or is zero.
+/// \param b   Where it has the other; a < b.
+/// \return The root, to a unit of roundoff of 1 where p is steep.
+/// \cost At most 2 steps for each bit of T, then the middle of what is left.
+// [root_between]
+template <std::floating_point T, std::size_t N>
+[[nodiscard]] T root_between(const BernsteinT<T, N>& p, T a, T b) noexcept {
+    constexpr T unit = std::numeric_limits<T>::epsilon() / T(2);
+    const BernsteinT<T, N - 1> slope = derivative(p);
+    const bool rises = value_at(p, a) < T(0) || value_at(p, b) > T(0);
+    T u = a + (b - a) / T(2), last = b - a;
+    for (int step = 0; step < 2 * std::numeric_limits<T>::digits; ++step) {
+        const T value = value_at(p, u);
+        ((value < T(0)) == rises ? a : b) = u;
+        const T newton = u - value / value_at(slope, u);
+        const bool shorter = std::abs(newton - u) <= last / T(2);
+        const T next =
+            a <= newton && newton <= b && shorter ? newton : a + (b - a) / T(2);
+        last = std::abs(next - u);
+        u = next;
+        if (!(last > unit)) break;
+    }
+    return u;
+}
+// [root_between]
+
+/// Roots in ascending order; room for one at every end of a monotone piece.
+template <std::floating_point T, std::size_t N>
+struct RootsT {
+    std::array<T, N + 1> at{}; ///< The first `count` are roots.
+    std::size_t count = 0;     ///< How many.
+    /// The first root.
+    [[nodiscard]] const T* begin() const noexcept { return at.data(); }
+    /// Behind the last root.
+    [[nodiscard]] const T* end() const noexcept { return at.data() + count; }
+    /// Appends a root.
+    void add(T root) noexcept { at[count++] = root; }
+};
+
+/// All roots of a polynomial in [0, 1].
+///
+/// Between two neighbouring roots of its derivative a polynomial is monotone: there it
+/// has one root if the signs at the ends differ, and none else. The derivative's roots
+/// are found in the same way, down to degree 1 \cite yuksel2022. No division by a
+/// leading coefficient: it may be tiny or 0.
+///
+/// \param p          The polynomial. Data that are not finite have no roots.
+/// \param tolerance  What its coefficients may be wrong by; a value at an extremum or
+///                   an end that is no larger counts as a root, so that none is lost.
+/// \return Ascending. Each is the exact root of a polynomial that differs from p by at
+///         most 2 `tolerance` on [0, 1]; each exact root of p has one of them within
+///         reach of such a change. A root of multiplicity m comes 1 to m times.
+/// \cost At most N (N + 1) / 2 calls of root_between(); mostly 0 or 1 of them.
+// [roots]
+template <std::floating_point T, std::size_t N>
+[[nodiscard]] RootsT<T, N> roots(const BernsteinT<T, N>& p, T tolerance) noexcept {
+    RootsT<T, N> result;
+    const auto is_zero = [&](T value) { return std::abs(value) <= tolerance; };
+    const auto differ = [](T x, T y) {
+        return (x < T(0) && T(0) < y) || (y < T(0) && T(0) < x);
+    };
+    const int changes = sign_changes(p);
+    const bool at_end = is_zero(p.c[0]) || is_zero(p.c[N]);
+    if (changes == 0 && !at_end) return result;
+
+    // The ends of the monotone pieces.
+    RootsT<T, N> ends;
+    ends.add(T(0));
+    if constexpr (N > 1)
+        if (changes > 1 || at_end) {
+            const BernsteinT<T, N - 1> slope = derivative(p);
+            for (const T u : roots(slope, noise(slope)))
+                if (ends.at[ends.count - 1] < u && u < T(1)) ends.add(u);
+        }
+    ends.add(T(1));
+
+    T value = p.c[0];
+    bool crossed = false; // in the piece before this end
+    for (std::size_t i = 0; i < ends.count; ++i) {
+        const bool last = i + 1 == ends.count;
+        const T next = last                  ? value
+                       : i + 2 == ends.count ? p.c[N]
+                                             : value_at(p, ends.at[i + 1]);
+        const bool crosses = !last && differ(value, next);
+        if (!crossed && !crosses && is_zero(value)) result.add(ends.at[i]);
+        if (crosses) result.add(root_between(p, ends.at[i], ends.at[i + 1]));
+        value = next;
+        crossed = crosses;
+    }
+    return result;
+}
+// [roots]
+
+/// The first point at which a polynomial no longer has the sign that it has at 0.
+/// \param p  The polynomial; p(0), its first coefficient, is not 0.
+/// \return Where it first crosses zero in (0, 1], or touches it within noise() at an
+///         extremum; nothing if it keeps its sign, and nothing for a NaN.
+/// \cost No evaluation if the coefficients have one sign; one root if they change once.
+// [first_change]
+template <std::floating_point T, std::size_t N>
+[[nodiscard]] std::optional<T> first_change(const BernsteinT<T, N>& p) noexcept {
+    const int changes = sign_changes(p);
+    if (changes == 0) return std::nullopt;
+    if (changes == 1) return root_between(p, T(0), T(1));
+    const T sign = std::copysign(T(1), p.c[0]), touch = noise(p);
+    const BernsteinT<T, N - 1> slope = derivative(p);
+    T before = T(0);
+    for (const T u : roots(slope, noise(slope))) {
+        const T value = sign * value_at(p, u);
+        if (value < T(0)) return root_between(p, before, u);
+        if (value <= touch && before < u && u < T(1)) return u;
+        before = u;
+    }
+    if (sign * p.c[N] < T(0)) return root_between(p, before, T(1));
+    return std::nullopt;
+}
+// [first_change]
+
+/// A polynomial in powers, c[0] + c[1] x + ... + c[N] x^N, on an interval: as Bernstein
+/// coefficients over it.
+/// \param p     The coefficients.
+/// \param low   The interval's lower end.
+/// \param high  Its upper end.
+/// \return The polynomial of u, where x = low + u (high - low).
+template <std::floating_point T, std::size_t M>
+[[nodiscard]] BernsteinT<T, M - 1> on_interval(std::array<T, M> p, T low,
+                                               T high) noexcept {
+    constexpr std::size_t N = M - 1;
+    // Horner's scheme, again and again: the powers of x - low.
+    for (std::size_t i = 0; i < N; ++i)
+        for (std::size_t j = N; j-- > i;) p[j] += low * p[j + 1];
+    constexpr auto of_n = binomials<T, N>();
+    T length = T(1);
+    for (std::size_t i = 0; i <= N; ++i, length *= high - low) p[i] *= length / of_n[i];
+    for (std::size_t i = 0; i < N; ++i)
+        for (std::size_t j = N; j > i; --j) p[j] += p[j - 1];
+    return {p};
+}
+
+/// All roots of a polynomial in powers that lie in an interval.
+/// \param p     c[0] to c[N]; leading coefficients may be tiny or 0.
+/// \param low   The interval's lower end, finite.
+/// \param high  Its upper end, finite and above it.
+/// \return As roots() has it, with the tolerance 8 (N + 1) eps times the sum of
+///         |c_i| m^i, m the larger of |low| and |high|: what rounding may have done.
+template <std::floating_point T, std::size_t M>
+[[nodiscard]] RootsT<T, M - 1> roots_in(const std::array<T, M>& p, T low,
+                                        T high) noexcept {
+    const T m = glm::max(std::abs(low), std::abs(high));
+    T size = T(0);
+    for (std::size_t i = M; i-- > 0;) size = size * m + std::abs(p[i]);
+    const T tolerance = T(8 * M) * std::numeric_limits<T>::epsilon() * size;
+    auto result = roots(on_interval(p, low, high), tolerance);
+    for (std::size_t i = 0; i < result.count; ++i)
+        result.at[i] = glm::min(high, low + result.at[i] * (high - low));
+    return result;
+}
+
+/// \}
+
+} // namespace ljus

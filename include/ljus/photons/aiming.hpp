@@ -1,0 +1,229 @@
+#pragma once
+
+/// \file ljus/photons/aiming.hpp
+/// \brief Photons that are sent where mirrors and glass are.
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "ljus/photons/emission.hpp"
+
+namespace ljus {
+
+/// \addtogroup emission
+/// \{
+
+/// The objects that mirror or refract, for photons to be aimed at.
+/// \param scene  The scene.
+/// \return Their numbers, in the order of the scene.
+template <typename Scene>
+[[nodiscard]] std::vector<ObjectId> specular_objects(const Scene& scene) {
+    std::vector<ObjectId> targets;
+    for (std::uint32_t type = 0; type < scene.objects.size(); ++type)
+        for (std::uint32_t i = 0; i < scene.objects[type].size(); ++i)
+            if (scene.visit_material(
+                    scene.objects[type][i].material,
+                    [](const auto& m) { return has(lobes(m), Lobes::specular); }))
+                targets.push_back({type, i});
+    return targets;
+}
+
+/// A photon that was aimed at an object.
+template <std::floating_point T>
+struct AimedFlightT {
+    FlightT<T> flight; ///< The photon.
+    ObjectId target;   ///< It counts only if this is what it meets first.
+};
+
+/// How a point of a light aims at an object.
+template <std::floating_point T>
+struct AimT {
+    ConeT<T> cone{};      ///< In which it sees the object's bounding sphere.
+    bool at_area = false; ///< At points of the object's area instead of the cone.
+    T size = T(0);        ///< About the solid angle over 2 pi: how often it is chosen.
+};
+
+/// Whether photons are aimed at a shape's area: flat shapes fill little of their
+/// bounding spheres, nothing at all if seen from the side, and no ray meets one twice.
+template <typename S>
+[[nodiscard]] constexpr bool aims_at_area(const S&) noexcept {
+    return requires(const S& shape) {
+        cross_of_edges(shape);
+    };
+}
+
+/// How a point of a light aims at an object: at the cone in which it sees the object's
+/// bounding sphere, or at the points of a flat one. From inside of that sphere, a lamp
+/// aims at all that it can shine on, and a point light everywhere. A spot light that is
+/// narrower than the cone aims at all that it lights.
+/// \param scene   The scene.
+/// \param light   One of its lights.
+/// \param from    A point of the light.
+/// \param target  The object.
+/// \return The aim.
+// [aim_at]
+template <typename Scene, std::floating_point T>
+[[nodiscard]] AimT<T> aim_at(const Scene& scene, const LightT<T>& light,
+                             const SurfacePointT<T>& from, ObjectId target) {
+    return scene.visit_shape(target, [&](const auto& shape) {
+        const SphereT<T> bound = bounding_sphere(shape);
+        const ConeT<T> cone = cone_towards(bound, from.position);
+        if (light.kind == LightKind::spot && light.outer < cone.one_minus_cos)
+            return AimT<T>{{light.direction, light.outer}, false, light.outer};
+        if (cone.one_minus_cos == T(2) && light.object) // inside
+            return AimT<T>{{from.normal, T(1)}, false, T(1)};
+        if (cone.one_minus_cos == T(2) || !aims_at_area(shape))
+            return AimT<T>{cone, false, cone.one_minus_cos};
+        const Vec3T<T> way = bound.center - from.position;
+        T size = T(0);
+        if constexpr (HasArea<std::remove_cvref_t<decltype(shape)>>)
+            size =
+                area(shape) * std::numbers::inv_pi_v<T> / (T(2) * glm::dot(way, way));
+        return AimT<T>{cone, true, std::min(size, cone.one_minus_cos)};
+    });
+}
+// [aim_at]
+
+/// A target that was chosen.
+template <std::floating_point T>
+struct ChosenTargetT {
+    ObjectId target; ///< Its number.
+    T sum = T(0);    ///< The sizes of all targets together.
+};
+
+/// Chooses a target in proportion to its size, as seen by a light.
+/// \param targets   The objects.
+/// \param size_of   Called with each; 0 leaves it out.
+/// \param u_target  In [0, 1).
+/// \return The target; nothing if none has a size.
+// [choose_target]
+template <std::floating_point T, typename SizeOf>
+[[nodiscard]] std::optional<ChosenTargetT<T>>
+choose_target(const std::vector<ObjectId>& targets, SizeOf size_of, T u_target) {
+    ChosenTargetT<T> chosen;
+    // Each takes the place of the one before with its share of the sum so far, and u is
+    // stretched to [0, 1) again.
+    for (const ObjectId candidate : targets) {
+        const T size = size_of(candidate);
+        if (!(size > T(0))) continue;
+        chosen.sum += size;
+        const T share = size / chosen.sum;
+        if (u_target < share) {
+            chosen.target = candidate;
+            u_target /= share;
+        } else {
+            u_target = (u_target - share) / (T(1) - share);
+        }
+    }
+    if (!(chosen.sum > T(0))) return std::nullopt;
+    return chosen;
+}
+// [choose_target]
+
+/// How much of its flux a light's point sends around a direction, per steradian; aimed
+/// photons are paid for with it.
+/// \param light      The light, no sun.
+/// \param point      The point of it.
+/// \param direction  Unit, away from it.
+/// \return cos / pi, 1 / (4 pi) or a spot's intensity over its flux; 0 behind a lamp.
+// [emitted_share]
+template <std::floating_point T>
+[[nodiscard]] T emitted_share(const LightT<T>& light, const SurfacePointT<T>& point,
+                              const Vec3T<T>& direction) noexcept {
+    if (light.kind == LightKind::spot)
+        return spot_share(light, direction) * std::numbers::inv_pi_v<T> /
+               (light.inner + light.outer);
+    if (!light.object) return pdf_uniform_sphere(direction);
+    const T cosine = glm::dot(direction, point.normal);
+    return cosine > T(0) ? cosine * std::numbers::inv_pi_v<T> : T(0);
+}
+// [emitted_share]
+
+/// A photon aimed at one of several objects: at the cone in which the light's point
+/// sees the object's bounding sphere, uniformly; a wide cone is chosen more often, so
+/// that the density is the same, one over the sum of the cones, in all of them. A flat
+/// object is aimed at point by point of its area instead.
+///
+/// The flux makes up for the density of the direction: it is multiplied by
+/// \f$ (\cos\theta / \pi) / p(\omega) \f$, for a point light by
+/// \f$ (1/4\pi) / p(\omega) \f$. A sun aims at the discs that the bounding spheres
+/// throw as shadows. Where objects overlap, each ray belongs to the one that is met
+/// first; the caller drops the photons that were aimed at another.
+/// \param scene    The scene.
+/// \param choice   Of the scene's lights; at least one.
+/// \param targets  The objects; at least one.
+/// \param stream   Six numbers are drawn.
+/// \return The photon; nothing if its direction lies behind the light, or if all
+///         targets are points.
+/// \cost One cone a target.
+/// \report{Section 3.2.2.2} \cite jensen1996
+/// \erratum{The program behind the report does not correct for the density of the
+///          direction, and divides by the photons that were stored: a caustic's
+///          brightness did not depend on how much light met the glass.}
+// [aim]
+template <typename Scene, typename Stream>
+[[nodiscard]] std::optional<AimedFlightT<typename Scene::Scalar>>
+aim(const Scene& scene, const LightChoice& choice, const std::vector<ObjectId>& targets,
+    Stream& stream) {
+    using T = typename Scene::Scalar;
+    const ChosenLightT<T> chosen = choose_light(choice, next_1d<T>(stream));
+    const LightT<T>& light = scene.lights[chosen.light];
+    const Vec2T<T> u_point = next_2d<T>(stream);
+    const T u_target = next_1d<T>(stream);
+    const Vec2T<T> u_direction = next_2d<T>(stream);
+    FlightT<T> flight{.light = static_cast<std::uint16_t>(chosen.light)};
+
+    if (light.kind == LightKind::sun) {
+        const auto bound_of = [&](ObjectId id) {
+            return scene.visit_shape(id,
+                                     [](const auto& s) { return bounding_sphere(s); });
+        };
+        const auto disc_of = [&](ObjectId id) {
+            const T radius = bound_of(id).radius;
+            return std::numbers::pi_v<T> * radius * radius;
+        };
+        const auto aimed = choose_target(targets, disc_of, u_target);
+        if (!aimed) return std::nullopt;
+        const SphereT<T> bound = bound_of(aimed->target);
+        flight.ray = sun_ray(light, bound.center, bound.radius, u_point);
+        flight.flux = light.emission * (aimed->sum / chosen.probability);
+        return AimedFlightT<T>{flight, aimed->target};
+    }
+
+    SurfacePointT<T> point{.position = light.position};
+    if (light.object) point = light_point(scene, light, u_point);
+    const auto size_of = [&](ObjectId id) {
+        return aim_at(scene, light, point, id).size;
+    };
+    const auto aimed = choose_target(targets, size_of, u_target);
+    if (!aimed) return std::nullopt;
+
+    const AimT<T> at = aim_at(scene, light, point, aimed->target);
+    Vec3T<T> direction =
+        to_world(frame_around(at.cone.axis),
+                 sample_uniform_cone(u_direction, at.cone.one_minus_cos));
+    T pdf = pdf_uniform_cone(at.cone.one_minus_cos);
+    if (at.at_area) {
+        const auto seen = scene.visit_shape(aimed->target, [&](const auto& shape) {
+            return sample_towards(shape, point.position, u_direction);
+        });
+        direction = glm::normalize(seen.point.position - point.position);
+        pdf = seen.pdf;
+    }
+    pdf *= at.size / aimed->sum; // of the choice
+    if (!(pdf < std::numeric_limits<T>::infinity())) return std::nullopt; // edge-on
+    const T emitted = emitted_share(light, point, direction);
+    if (!(emitted > T(0))) return std::nullopt;
+    flight.flux = light.flux * (emitted / (pdf * chosen.probability));
+    flight.ray = light.object
+                     ? ray_from(point, direction)
+                     : RayT<T>{.origin = point.position, .direction = direction};
+    return AimedFlightT<T>{flight, aimed->target};
+}
+// [aim]
+
+/// \}
+
+} // namespace ljus

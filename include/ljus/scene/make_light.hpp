@@ -1,0 +1,117 @@
+#pragma once
+
+/// \file ljus/scene/make_light.hpp
+/// \brief The lights that are no objects, checked and with their flux.
+
+#include "ljus/math/require.hpp"
+#include "ljus/scene/light.hpp"
+
+namespace ljus {
+
+/// \addtogroup light
+/// \{
+
+/// Refuses a light whose flux is beyond the range of T, though its parts are not.
+/// \param flux  W.
+/// \throws std::invalid_argument  with the value.
+template <std::floating_point T>
+void require_flux(const RgbT<T>& flux) {
+    require(is_finite(flux) && !is_black(flux), "the flux of a light", flux,
+            "finite and above 0");
+}
+
+/// The unit vector along a direction of any length.
+/// \param what  Its name.
+/// \param way   The direction.
+/// \throws std::invalid_argument  if it is not finite, or 0.
+template <std::floating_point T>
+[[nodiscard]] Vec3T<T> unit_along(std::string_view what, const Vec3T<T>& way) {
+    require_finite(what, way);
+    // Scaled first: in float the square of 1e-30 is 0.
+    const T most = std::max({std::abs(way.x), std::abs(way.y), std::abs(way.z)});
+    require(most > T(0), what, way, "of a length above 0");
+    return glm::normalize(way / most);
+}
+
+/// A point light: its flux is 4 pi I.
+/// \param light  The light.
+/// \return The light of a scene.
+/// \throws std::invalid_argument  if its position is not finite or its intensity is
+///                                negative.
+template <std::floating_point T>
+[[nodiscard]] LightT<T> make_light(const PointLightT<T>& light) {
+    require_finite("point light.position", light.position);
+    require_radiance("point light.intensity", light.intensity);
+    const RgbT<T> flux = T(4) * std::numbers::pi_v<T> * light.intensity;
+    if (!is_black(light.intensity)) require_flux(flux);
+    return {.position = light.position, .emission = light.intensity, .flux = flux};
+}
+
+/// A spot light: with w = 1 - cos, its flux is \f$ 2\pi I \f$ times the area below a
+/// curve that is 1 up to the inner w and falls to 0 at the outer one,
+/// \f$ \pi I (w_i + w_o) \f$.
+/// \param light  The light.
+/// \return The light of a scene.
+/// \throws std::invalid_argument  if a vector is not finite, the direction is 0, the
+///         intensity negative, or an angle out of range.
+template <std::floating_point T>
+[[nodiscard]] LightT<T> make_light(const SpotLightT<T>& light) {
+    require_finite("spot light.position", light.position);
+    require_radiance("spot light.intensity", light.intensity);
+    require(light.outer_degrees > T(0) && light.outer_degrees <= T(180),
+            "spot light.outer_degrees", light.outer_degrees, "within (0, 180]");
+    require(light.inner_degrees >= T(0) && light.inner_degrees <= light.outer_degrees,
+            "spot light.inner_degrees", light.inner_degrees,
+            "within [0, outer_degrees]");
+    const auto one_minus_cos = [](T degrees) { // by the half angle: no cancellation
+        const T sine = std::sin(degrees * (std::numbers::pi_v<T> / T(360)));
+        return T(2) * sine * sine;
+    };
+    LightT<T> made{.kind = LightKind::spot,
+                   .position = light.position,
+                   .emission = light.intensity,
+                   .direction = unit_along("spot light.direction", light.direction),
+                   .inner = one_minus_cos(light.inner_degrees),
+                   .outer = one_minus_cos(light.outer_degrees)};
+    made.flux = std::numbers::pi_v<T> * (made.inner + made.outer) * light.intensity;
+    if (!is_black(light.intensity)) require_flux(made.flux);
+    return made;
+}
+
+/// A sun; how much flux it has depends on what it shines on, see widen().
+/// \param light  The light.
+/// \return The light of a scene, without flux as yet.
+/// \throws std::invalid_argument  if its direction is not finite or 0, or its
+///         irradiance is negative.
+template <std::floating_point T>
+[[nodiscard]] LightT<T> make_light(const SunLightT<T>& light) {
+    require_radiance("sun light.irradiance", light.irradiance);
+    return {.kind = LightKind::sun,
+            .emission = light.irradiance,
+            .direction = unit_along("sun light.direction", light.direction)};
+}
+
+/// Lets a sun shine on the sphere around a box, a thousandth wider than it need be, so
+/// that no rounding leaves a corner dark: its flux is E pi R^2.
+/// \param sun   The light.
+/// \param low   The least corner of the box.
+/// \param high  The greatest one.
+/// \throws std::invalid_argument  if the flux is beyond the range of T.
+// [widen]
+template <std::floating_point T>
+void widen(LightT<T>& sun, const Vec3T<T>& low, const Vec3T<T>& high) {
+    const Vec3T<T> half = high / T(2) - low / T(2);
+    sun.position = low + half;
+    sun.radius = T(1.001) * glm::length(half);
+    sun.flux = std::numbers::pi_v<T> * sun.radius * sun.radius * sun.emission;
+    require_flux(sun.flux);
+}
+// [widen]
+
+/// The type that make_light() makes of a light.
+template <typename Light>
+using LightOf = decltype(make_light(std::declval<const Light&>()));
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,65 @@
+# The planes chosen by the sign of the direction: -0 is not below 0.
+ljus_break_it(NAME box-sign HEADER geometry/box.hpp TEST box
+    FROM ".backwards = {std::signbit(inverse.x), std::signbit(inverse.y),"
+    TO   ".backwards = {ray.direction.x < 0, ray.direction.y < 0,"
+    CASES "box: what the slabs say*,box: along an axis*")
+
+# Boxes as large as they say, and no larger.
+ljus_break_it(NAME box-slack HEADER geometry/box.hpp TEST box
+    FROM ".slack = T(8) * Limits::epsilon() * reach}"
+    TO   ".slack = T(0)}"
+    CASES "box: no ray at an edge*")
+
+# The corner across of a quad is left out.
+ljus_break_it(NAME box-quad HEADER geometry/box.hpp TEST box
+    FROM "{quad.edge_u, quad.edge_v, quad.edge_u + quad.edge_v}"
+    TO   "{quad.edge_u, quad.edge_v}"
+    CASES "box: no point of a shape*")
+
+# On a tie whichever comes first wins.
+ljus_break_it(NAME bvh-tie HEADER geometry/bvh.hpp TEST bvh
+    FROM "(hit.t == at.t && of < number)"
+    TO   "false"
+    CASES "bvh: huge and tiny*")
+
+# The farther child first: right, and slow.
+ljus_break_it(NAME bvh-order HEADER geometry/bvh.hpp TEST bvh
+    FROM "*two < *one"
+    TO   "*one < *two"
+    CASES "bvh: the nearer child first*")
+
+# Half of what waits is forgotten.
+ljus_break_it(NAME bvh-later HEADER geometry/bvh.hpp TEST bvh
+    FROM "if (one && two)"
+    TO   "if (one && two && waiting < 3)"
+    CASES "bvh: the same answers*")
+
+# The costs of the lower halves are left out.
+ljus_break_it(NAME bvh-cost HEADER geometry/bvh_build.hpp TEST bvh
+    FROM "lower.sides.half_area() * tests(lower.count) + above[i]"
+    TO   "above[i]"
+    CASES "bvh: the nearer child first*")
+
+# Wide boxes without slack.
+ljus_break_it(NAME wide-bvh-slack HEADER geometry/wide_bvh.hpp TEST wide_bvh
+    FROM "8 * std::numeric_limits<float>::epsilon() * reach"
+    TO   "0 * reach"
+    CASES "wide bvh: no ray slips*,wide bvh: huge and tiny*")
+
+# The first look at triangles trusts its rounding.
+ljus_break_it(NAME triangle-bvh-border HEADER geometry/triangle_bvh.hpp TEST wide_bvh
+    FROM "const float wide = across * scale + min;"
+    TO   "const float wide = 0 * across * scale;"
+    CASES "wide bvh: no ray slips*")
+
+# It trusts it about where a ray starts, too.
+ljus_break_it(NAME triangle-bvh-start HEADER geometry/triangle_bvh.hpp TEST wide_bvh
+    FROM "(before > near)"
+    TO   "(before > -near)"
+    CASES "wide bvh: rays from the surfaces*")
+
+# Of two types of shapes the second is numbered as the first.
+ljus_break_it(NAME indexed-scene-type HEADER scene/indexed_scene.hpp TEST indexed_scene
+    FROM "++type;"
+    TO   "type += 0;"
+    CASES "indexed scene: in double*")

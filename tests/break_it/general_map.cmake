@@ -1,0 +1,75 @@
+# Shadow photons only where the surface's own normal faces the light: the other side of a
+# quad, lit or not, would look as if nothing could ever stand in its way.
+ljus_break_it(NAME general-map-shadow-normal HEADER photons/photon_path.hpp TEST general_map
+    FROM "if (diffuse)"
+    TO   "if (diffuse && glm::dot(surface.point.normal, ray.direction) < T(0))"
+    CASES "general map: direct + shadow*")
+
+# And the wrong way round.
+ljus_break_it(NAME general-map-shadow-side HEADER photons/photon_path.hpp TEST general_map
+    FROM "out.push_back({surface.point.position, ray.direction, flight.flux,"
+    TO   "out.push_back({surface.point.position, -ray.direction, flight.flux,"
+    CASES "general map: direct + shadow*")
+
+# One shadow photon a path: only the next surface behind is told.
+ljus_break_it(NAME general-map-shadow-one HEADER photons/photon_path.hpp TEST general_map
+    FROM "surfaces < 1000"
+    TO   "surfaces < 1"
+    CASES "general map: direct + shadow*")
+
+# The surface that hides counts itself among the hidden.
+ljus_break_it(NAME general-map-shadow-first HEADER photons/photon_path.hpp TEST general_map
+    FROM [[RayT<T> ray = ray_from(first, flight.ray.direction);]]
+    TO   [[(void)first; RayT<T> ray = flight.ray;]]
+    CASES "general map: direct + shadow*")
+
+# Photons on mirrors and glass.
+ljus_break_it(NAME general-map-mirror HEADER photons/photon_path.hpp TEST general_map
+    FROM "if (!owned || !has(lobes(material), Lobes::diffuse)) return;"
+    TO   "if (!owned) return;"
+    CASES "general map: photons lie on matt*")
+
+# Shadow photons on mirrors and glass.
+ljus_break_it(NAME general-map-shadow-mirror HEADER photons/photon_path.hpp TEST general_map
+    FROM "if (diffuse)"
+    TO   "if (diffuse || true)"
+    CASES "general map: photons lie on matt*")
+
+# Each photon says that it comes from the first light.
+ljus_break_it(NAME general-map-light HEADER photons/emission.hpp TEST general_map
+    FROM [[.flux = light.flux / chosen.probability,
+                      .light = static_cast<std::uint16_t>(chosen.light)};]]
+    TO   [[.flux = light.flux / chosen.probability,
+                      .light = 0};]]
+    CASES "general map: photons lie on matt*")
+
+# Direct photons counted as indirect, and the other way round.
+ljus_break_it(NAME general-map-kind HEADER photons/photon_path.hpp TEST general_map
+    FROM "met_diffuse    ? PhotonKind::indirect"
+    TO   "!met_diffuse   ? PhotonKind::indirect"
+    CASES "general map: direct and indirect*")
+
+# The power of all paths in each photon.
+ljus_break_it(NAME general-map-number HEADER photons/photon_path.hpp TEST general_map
+    FROM [[flight.flux /= static_cast<T>(pass.photons);]]
+    TO   [[(void)0;]]
+    CASES "general map: direct and indirect*")
+
+# The cosine a second time, as the report's program has it at each bounce.
+ljus_break_it(NAME general-map-cosine HEADER photons/photon_path.hpp TEST general_map
+    FROM [[flight.flux = *survivor;]]
+    TO   [[flight.flux = *survivor * std::abs(scattered->wi.z);]]
+    CASES "general map: direct and indirect*")
+
+# A disc of the wrong area.
+ljus_break_it(NAME general-map-area HEADER photons/photon_map.hpp TEST general_map
+    FROM [[return RgbT<T>(sum / (std::numbers::pi * radius2));]]
+    TO   [[return RgbT<T>(sum / radius2);]]
+    CASES "general map: a flat estimate*")
+
+# Photons of the other side count too.
+ljus_break_it(NAME general-map-other-side HEADER materials/lambertian.hpp TEST general_map
+    FROM [[if (!same_side(wo, wi)) return RgbT<T>{T(0)};
+    return surface.albedo]]
+    TO   "return surface.albedo"
+    CASES "general map: a flat estimate*")

@@ -1,0 +1,25 @@
+# A term of the recurrence left out: each dimension is still a net, two are none.
+ljus_break_it(NAME sobol-recurrence HEADER math/low_discrepancy.hpp
+    TEST low_discrepancy
+    FROM "table[d][i - seed.s] ^ (table[d][i - seed.s] >> seed.s)"
+    TO   "table[d][i - seed.s] >> seed.s"
+    CASES "low_discrepancy: any two*")
+
+# A polynomial's coefficients read from the wrong end.
+ljus_break_it(NAME sobol-polynomial HEADER math/low_discrepancy.hpp
+    TEST low_discrepancy
+    FROM "(seed.a >> (seed.s - 1 - k)) & 1u"
+    TO   "(seed.a >> k) & 1u"
+    CASES "low_discrepancy: any two*")
+
+# Without the mirror image the lower bits would turn over the upper ones.
+ljus_break_it(NAME owen-direction HEADER math/low_discrepancy.hpp TEST low_discrepancy
+    FROM "std::uint32_t x = reversed_bits(bits);"
+    TO   "std::uint32_t x = bits;"
+    CASES "low_discrepancy: the scrambling*")
+
+# One scrambling for all dimensions: x and y move together.
+ljus_break_it(NAME owen-seed HEADER math/low_discrepancy.hpp TEST low_discrepancy
+    FROM "const std::uint64_t key = mix(seed);"
+    TO   "const std::uint64_t key = mix(seed & ~std::uint64_t(1));"
+    CASES "low_discrepancy: one point is uniform*")

@@ -1,0 +1,216 @@
+/// \file low_discrepancy_test.cpp
+/// \brief Sobol's points are nets, stay nets when they are scrambled, and are then
+/// uniform one by one.
+///
+/// Statistical tests have a false-alarm rate of one in a million each, and are the same
+/// at every run.
+
+#include "ljus/math/low_discrepancy.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "support/numbers.hpp"
+
+using namespace ljus;
+using ljus_test::chi_square;
+using ljus_test::chi_square_limit;
+
+namespace {
+
+/// Owen's scrambling as he defines it: a coin for each bit and each pattern of bits
+/// above it.
+std::uint32_t owen_by_definition(std::uint32_t bits, std::uint64_t seed) {
+    std::uint32_t result = 0;
+    for (int bit = 31; bit >= 0; --bit) {
+        const std::uint64_t above = bit == 31 ? 0 : bits >> (bit + 1);
+        const std::uint64_t coin =
+            mix(mix(mix(seed) + static_cast<std::uint64_t>(bit)) + above) >> 63;
+        result |= (((bits >> bit) & 1u) ^ static_cast<std::uint32_t>(coin)) << bit;
+    }
+    return result;
+}
+
+/// A coordinate of the first points, plain or scrambled.
+std::uint32_t coordinate(std::uint32_t i, std::uint32_t d, std::uint64_t seed) {
+    return seed == 0 ? sobol(i, d) : owen_scrambled(sobol(i, d), seed + d);
+}
+
+/// The least t for which 2^m points in two dimensions are a (t,m,2)-net: each cell of
+/// 2^-a by 2^-b with a + b = m - t holds 2^t of them.
+int quality(std::uint32_t d, std::uint32_t e, int m, std::uint64_t seed) {
+    for (int t = 0; t <= m; ++t) {
+        bool net = true;
+        for (int a = 0; a <= m - t && net; ++a) {
+            const int b = m - t - a;
+            std::vector<int> cells(std::size_t(1) << (m - t));
+            for (std::uint32_t i = 0; i < 1u << m; ++i) {
+                const std::uint64_t x = coordinate(i, d, seed),
+                                    y = coordinate(i, e, seed);
+                ++cells[static_cast<std::size_t>((x >> (32 - a)) << b | y >> (32 - b))];
+            }
+            for (const int count : cells) net = net && count == 1 << t;
+        }
+        if (net) return t;
+    }
+    return m;
+}
+
+/// The slope of log(error) against log(N) by least squares.
+double slope(const std::vector<double>& n, const std::vector<double>& error) {
+    double sx = 0, sy = 0, sxx = 0, sxy = 0;
+    const auto count = static_cast<double>(n.size());
+    for (std::size_t i = 0; i < n.size(); ++i) {
+        const double x = std::log(n[i]), y = std::log(error[i]);
+        sx += x, sy += y, sxx += x * x, sxy += x * y;
+    }
+    return (count * sxy - sx * sy) / (count * sxx - sx * sx);
+}
+
+/// How the rms error of a mean over the square falls with the number of points.
+template <typename F>
+double error_slope(F f, double exact, bool low_discrepancy) {
+    std::vector<double> counts, errors;
+    for (int m = 4; m <= 12; m += 2) {
+        double squares = 0;
+        for (std::uint64_t seed = 1; seed <= 64; ++seed) {
+            double sum = 0;
+            for (std::uint64_t i = 0; i < std::uint64_t(1) << m; ++i) {
+                auto s = sobol_stream(seed, Pass::user, 0, i);
+                auto r = random_stream(seed, Pass::user, 0, i);
+                sum += f(low_discrepancy ? next_2d<double>(s) : next_2d<double>(r));
+            }
+            const double error = sum / double(1 << m) - exact;
+            squares += error * error / 64;
+        }
+        counts.push_back(double(1 << m));
+        errors.push_back(std::sqrt(squares));
+    }
+    return slope(counts, errors);
+}
+
+} // namespace
+
+TEST_CASE("low_discrepancy: the first points, by hand") {
+    // 0, 1/2, 1/4, 3/4, ... in dimension 0; 0, 1/2, 3/4, 1/4 in dimension 1.
+    const std::uint32_t quarter = 1u << 30;
+    const std::uint32_t first[][2] = {{0, 0}, {2, 2}, {1, 3}, {3, 1}};
+    for (std::uint32_t i = 0; i < 4; ++i)
+        for (std::uint32_t d = 0; d < 2; ++d)
+            CHECK(sobol(i, d) == first[i][d] * quarter);
+    CHECK(sobol(1, 15) == 1u << 31);
+    CHECK(reversed_bits(1) == 1u << 31);
+    CHECK(reversed_bits(0x12345678u) == 0x1e6a2c48u);
+}
+
+TEST_CASE("low_discrepancy: in each dimension the first 2^m points lie one in a cell") {
+    for (const std::uint64_t seed : {0u, 1u, 77u})
+        for (std::uint32_t d = 0; d < sobol_dimensions; ++d)
+            for (const int m : {1, 4, 9, 14}) {
+                std::vector<bool> taken(std::size_t(1) << m);
+                for (std::uint32_t i = 0; i < 1u << m; ++i)
+                    taken[coordinate(i, d, seed) >> (32 - m)] = true;
+                std::size_t cells = 0;
+                for (const bool cell : taken) cells += cell ? 1 : 0;
+                CHECK(cells == taken.size());
+            }
+}
+
+TEST_CASE("low_discrepancy: dimensions 0 and 1 are a (0,m,2)-net, scrambled or not") {
+    for (const std::uint64_t seed : {0u, 1u, 2u, 99u})
+        for (const int m : {1, 2, 5, 8, 11}) {
+            CAPTURE(seed);
+            CAPTURE(m);
+            CHECK(quality(0, 1, m, seed) == 0);
+        }
+}
+
+TEST_CASE("low_discrepancy: any two dimensions are a net, and scrambling keeps its t") {
+    // t is at most the sum of the degrees of the polynomials less one each (Sobol).
+    const int degree[] = {1, 1, 2, 3, 3, 4, 4, 5, 5, 5, 5, 5, 5, 6, 6, 6};
+    for (std::uint32_t d = 0; d < sobol_dimensions; ++d)
+        for (std::uint32_t e = 0; e < d; ++e) {
+            const int t = quality(e, d, 8, 0);
+            CAPTURE(d);
+            CAPTURE(e);
+            CHECK(t <= degree[d] + degree[e] - 2);
+            if (e % 5 == 0) CHECK(quality(e, d, 8, 3) == t);
+        }
+}
+
+TEST_CASE(
+    "low_discrepancy: the scrambling is a bijection that exchanges dyadic cells") {
+    ljus_test::Numbers n;
+    for (int test = 0; test < 2000; ++test) {
+        const auto a = static_cast<std::uint32_t>(n.below(1 << 30)) * 4u + 1u;
+        const int level = n.below(32); // the first bit, from above, that differs
+        const std::uint32_t b = a ^ (0x80000000u >> level);
+        const auto seed = static_cast<std::uint64_t>(test);
+        const std::uint32_t apart = owen_scrambled(a, seed) ^ owen_scrambled(b, seed);
+        // They part at the same bit, neither before nor after.
+        CHECK((apart >> (31 - level)) == 1u);
+    }
+}
+
+TEST_CASE("low_discrepancy: one point is uniform over the seeds, by cells and in pairs "
+          "of dimensions, as by Owen's definition") {
+    const int seeds = 65536;
+    for (const bool definition : {false, true})
+        for (const std::uint32_t index : {0u, 1u, 1000u}) {
+            std::vector<int> cells(256), pairs(256), low(256);
+            for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+                const auto scrambled = [&](std::uint32_t d) {
+                    const std::uint32_t bits = sobol(index, d);
+                    const std::uint64_t key = mix(seed) + d;
+                    return definition ? owen_by_definition(bits, key)
+                                      : owen_scrambled(bits, key);
+                };
+                const std::uint32_t x = scrambled(0), y = scrambled(1);
+                ++cells[x >> 24];
+                ++low[(x >> 8) & 255u];
+                ++pairs[(x >> 28) << 4 | y >> 28];
+            }
+            CHECK(chi_square(cells) < chi_square_limit(255));
+            CHECK(chi_square(low) < chi_square_limit(255));
+            CHECK(chi_square(pairs) < chi_square_limit(255));
+        }
+}
+
+TEST_CASE("low_discrepancy: the error of a mean falls faster than that of chance") {
+    const auto smooth = [](const Vec2T<double>& u) { return std::exp(u.x) * u.y; };
+    const auto edge = [](const Vec2T<double>& u) {
+        return u.x * u.x + u.y * u.y < 1 ? 1.0 : 0.0;
+    };
+    const double exact = (std::exp(1.0) - 1) / 2, quarter = std::atan(1.0);
+    // Owen: 3/2 for what is smooth; 3/4 for an edge that follows no axis; 1/2 by chance.
+    CHECK(error_slope(smooth, exact, true) < -1.35);
+    CHECK(error_slope(edge, quarter, true) == doctest::Approx(-0.75).epsilon(0.15));
+    CHECK(error_slope(smooth, exact, false) == doctest::Approx(-0.5).epsilon(0.15));
+    CHECK(error_slope(edge, quarter, false) == doctest::Approx(-0.5).epsilon(0.15));
+}
+
+TEST_CASE("low_discrepancy: after its dimensions a stream goes on at random; never 1") {
+    std::set<double> seen;
+    for (std::uint64_t path = 0; path < 200; ++path) {
+        auto stream = sobol_stream(1, Pass::user, 0, path);
+        for (std::uint64_t bounce = 1; bounce < 20; ++bounce) {
+            start_bounce(stream, bounce);
+            const auto u = next_3d<float>(stream);
+            for (int c = 0; c < 3; ++c) CHECK((u[c] >= 0 && u[c] < 1));
+            seen.insert(double(u.x));
+        }
+        CHECK(stream.dimension == sobol_dimensions);
+    }
+    CHECK(seen.size() > 3700); // of 3800; a few of 24 bits may be equal
+    // Another seed, pass, iteration or 2^32 paths on: another scrambling.
+    const auto first = [](SobolStream s) { return next_1d<double>(s); };
+    const double u = first(sobol_stream(1, Pass::user, 0, 5));
+    CHECK(u == first(sobol_stream(1, Pass::user, 0, 5)));
+    CHECK(u != first(sobol_stream(2, Pass::user, 0, 5)));
+    CHECK(u != first(sobol_stream(1, Pass::camera, 0, 5)));
+    CHECK(u != first(sobol_stream(1, Pass::user, 1, 5)));
+    CHECK(u != first(sobol_stream(1, Pass::user, 0, 5 + (1ull << 32))));
+}

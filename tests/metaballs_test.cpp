@@ -1,0 +1,421 @@
+/// \file metaballs_test.cpp
+/// \brief Metaballs: their field, their bounds, four ways to meet them, and pictures.
+
+#include "ljus/geometry/metaballs.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "ljus/materials/glass.hpp"
+#include "ljus/materials/lambertian.hpp"
+#include "ljus/render/path_tracing.hpp"
+#include "ljus/render/photon_mapping.hpp"
+#include "ljus/render/render.hpp"
+#include "support/numbers.hpp"
+
+using namespace ljus;
+using ljus_test::Numbers;
+
+static_assert(Shape<Metaballs> && Shape<MetaballsT<double>>);
+static_assert(!Samplable<Metaballs> && Samplable<Sphere> && Samplable<Quad>);
+
+namespace {
+
+using Point = Vec3T<double>;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// Two blobs that merge, and one that carves.
+template <typename T = float>
+MetaballsT<T> peanut() {
+    return {.blobs{{{T(-0.5), T(0), T(-4)}, T(1), T(1)},
+                   {{T(0.5), T(0.1), T(-4)}, T(1), T(1)},
+                   {{T(0), T(0.5), T(-3.6)}, T(0.5), T(-0.5)}}};
+}
+
+/// The surface of one blob is a sphere: this is its radius.
+double sphere_radius(double radius, double weight, double level) {
+    return radius * std::sqrt(1 - std::sqrt(level / weight));
+}
+
+/// A field that is no polynomial: Blinn's blobs, exponentials.
+struct Blinn {
+    double value(Point x) const {
+        return std::exp(-2 * glm::dot(x - a, x - a)) +
+               std::exp(-2 * glm::dot(x + a, x + a)) - 0.5;
+    }
+    Point gradient(Point x) const {
+        return -4.0 * (std::exp(-2 * glm::dot(x - a, x - a)) * (x - a) +
+                       std::exp(-2 * glm::dot(x + a, x + a)) * (x + a));
+    }
+    // Each is steepest at 1/2 from its centre: 2 exp(-1/2).
+    double lipschitz() const { return 4 * std::exp(-0.5); }
+    Point a{0.6, 0, 0};
+};
+static_assert(Shape<Isosurface<Blinn>>);
+
+template <typename F>
+void with_all_solvers(F f) {
+    f(QuarticPieces{});
+    f(Bisection{});
+    f(SphereTracing{});
+    f(Radicals{});
+}
+
+} // namespace
+
+TEST_CASE("metaballs: the field of one blob by hand, of more by their sum") {
+    const Metaballs one{.blobs{{.center{1, 0, 0}, .radius = 2, .weight = 3}}};
+    CHECK(field(one, Point{1, 0, 0}) == 2.75);
+    CHECK(field(one, Point{1, 1, 0}) == doctest::Approx(3 * 0.5625 - 0.25));
+    CHECK(field(one, Point{1, 2, 0}) == -0.25);
+    CHECK(field(one, Point{9, 9, 9}) == -0.25);
+    const Metaballs all = peanut();
+    Numbers n;
+    for (int i = 0; i < 200; ++i) {
+        const Point x = Point{0, 0, -4} + n.point(1.5);
+        double sum = -0.25;
+        for (const Blob& b : all.blobs) sum += field(Metaballs{.blobs{b}}, x) + 0.25;
+        CHECK(field(all, x) == doctest::Approx(sum).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("metaballs: the gradient agrees with differences, and keeps its bound") {
+    const Metaballs balls = peanut();
+    const double bound = lipschitz(balls);
+    CHECK(bound == doctest::Approx(8 / (3 * std::sqrt(3.0)) * (1 + 1 + 1)));
+    Numbers n;
+    double steepest = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const Point x = Point{0, 0, -4} + n.point(1.5);
+        const Point g = gradient(balls, x);
+        steepest = std::max(steepest, glm::length(g));
+        CHECK(glm::length(g) <= bound);
+        if (i >= 500) continue;
+        const double h = 1e-5;
+        for (int k = 0; k < 3; ++k) {
+            Point step{0};
+            step[k] = h;
+            const double difference =
+                (field(balls, x + step) - field(balls, x - step)) / (2 * h);
+            CHECK(std::abs(g[k] - difference) < 1e-8);
+        }
+    }
+    CHECK(steepest > 0.4 * bound); // it says something
+    const Metaballs one{.blobs{{.radius = 2}}};
+    const Point steep = gradient(one, Point{2 / std::sqrt(3.0), 0, 0});
+    CHECK(glm::length(steep) == doctest::Approx(lipschitz(one)).epsilon(1e-7));
+}
+
+TEST_CASE("metaballs: one blob is a sphere, for each solver") {
+    Numbers n;
+    with_all_solvers([&](auto solver) {
+        for (int i = 0; i < 300; ++i) {
+            const MetaballsT<double> ball{
+                .blobs{{n.point(2), n.between(0.5, 2), n.between(0.5, 2)}},
+                .level = 0.25};
+            const auto& blob = ball.blobs.front();
+            const SphereT<double> sphere{
+                blob.center, sphere_radius(blob.radius, blob.weight, ball.level)};
+            const RayT<double> ray{.origin = n.direction() * 5.0,
+                                   .direction = n.point(1)};
+            const auto mine = intersect(ray, ball, solver),
+                       truth = intersect(ray, sphere);
+            REQUIRE(mine.has_value() == truth.has_value());
+            if (truth) CHECK(std::abs(*mine - *truth) < 1e-4 * *truth);
+            if (truth && !std::is_same_v<decltype(solver), SphereTracing>)
+                CHECK(std::abs(*mine - *truth) < 1e-6 * *truth);
+        }
+    });
+}
+
+TEST_CASE("metaballs: the first hit, from outside and from within, in the range") {
+    // Two spheres of radius sqrt(1/2), apart: no field where they could add.
+    const Metaballs two{.blobs{{.center{0, 0, -3}}, {.center{0, 0, -6}}}};
+    const float r = float(std::sqrt(0.5));
+    with_all_solvers([&](auto solver) {
+        const auto t = [&](float z, float direction, float low, float high) {
+            const auto hit = intersect(Ray{.origin{0, 0, z},
+                                           .direction{0, 0, direction},
+                                           .t_min = low,
+                                           .t_max = high},
+                                       two, solver);
+            return hit ? *hit : -1.0f;
+        };
+        const float all = std::numeric_limits<float>::infinity();
+        CHECK(t(0, -1, 0, all) == doctest::Approx(3 - r).epsilon(1e-6));
+        CHECK(t(0, -2, 0, all) == doctest::Approx((3 - r) / 2).epsilon(1e-6));
+        CHECK(t(-3, -1, 0, all) == doctest::Approx(r).epsilon(1e-6)); // leaves
+        CHECK(t(-4.5f, -1, 0, all) == doctest::Approx(1.5f - r).epsilon(1e-6));
+        CHECK(t(0, -1, 3, all) ==
+              doctest::Approx(3 + r).epsilon(1e-6)); // starts within
+        CHECK(t(0, -1, 4, all) == doctest::Approx(6 - r).epsilon(1e-6));
+        CHECK(t(0, -1, 0, 2.25f) == -1);
+        CHECK(t(0, -1, 4, 5) == -1);
+        CHECK(t(0, -1, 8, all) == -1);
+        CHECK(t(0, 1, 0, all) == -1);
+    });
+}
+
+TEST_CASE("metaballs: invalid data are a miss, never a hang") {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const float inf = std::numeric_limits<float>::infinity();
+    with_all_solvers([&](auto solver) {
+        for (const float bad : {nan, inf, -inf})
+            for (int k = 0; k < 3; ++k) {
+                Ray ray{};
+                ray.origin[k] = bad;
+                CHECK_FALSE(intersect(ray, peanut(), solver));
+                ray = Ray{};
+                ray.direction[k] = bad;
+                CHECK_FALSE(intersect(ray, peanut(), solver));
+                Metaballs balls{.blobs{{.center{0, 0, -4}}}};
+                balls.blobs[0].center[k] = bad;
+                CHECK_FALSE(intersect(Ray{}, balls, solver));
+            }
+        CHECK_FALSE(intersect(Ray{.direction{0, 0, 0}}, peanut(), solver));
+        CHECK_FALSE(intersect(Ray{.t_min = nan}, peanut(), solver));
+        CHECK_FALSE(intersect(Ray{.t_max = nan}, peanut(), solver));
+        CHECK_FALSE(intersect(Ray{}, Metaballs{}, solver));
+        for (const float radius : {0.0f, -1.0f, nan, inf})
+            CHECK_FALSE(
+                intersect(Ray{}, Metaballs{.blobs{{.radius = radius}}}, solver));
+        for (const float weight : {nan, inf, 0.0f, -1.0f})
+            CHECK_FALSE(intersect(
+                Ray{}, Metaballs{.blobs{{.center{0, 0, -4}, .weight = weight}}},
+                solver));
+        // Anything at all: it returns.
+        Numbers n;
+        const auto any = [&] {
+            return static_cast<float>(n.below(4) ? n.sign() * n.power(-44, 38)
+                                                 : n.sign());
+        };
+        for (int i = 0; i < 3000; ++i) {
+            Metaballs balls{.level = std::abs(any())};
+            for (int k = n.below(4); k >= 0; --k)
+                balls.blobs.push_back({{any(), any(), any()}, std::abs(any()), any()});
+            const Ray ray{.origin{any(), any(), any()},
+                          .direction{any(), any(), any()}};
+            const auto t = intersect(ray, balls, solver);
+            if (t) CHECK((*t >= 0 && std::isfinite(*t)));
+        }
+    });
+}
+
+TEST_CASE("metaballs: a blob without weight, or a level of its own, changes nothing") {
+    Metaballs balls = peanut(), more = peanut();
+    more.blobs.push_back({.center{0.2f, 0, -4}, .radius = 0.7f, .weight = 0});
+    Numbers n;
+    for (int i = 0; i < 500; ++i) {
+        const Ray ray{.direction = Vec3(Point{0, 0, -4} + n.point(1))};
+        const auto a = intersect(ray, balls), b = intersect(ray, more);
+        REQUIRE(a.has_value() == b.has_value());
+        if (a) CHECK(*a == doctest::Approx(double(*b)).epsilon(1e-6));
+    }
+}
+
+TEST_CASE("metaballs: more than 16 blobs on a ray go to the heap and stay the same") {
+    Numbers n;
+    Metaballs few{.blobs{{.center{0, 0, -4}, .weight = 1}}}, many{.blobs{}};
+    for (int i = 0; i < 100; ++i)
+        many.blobs.push_back({.center{0, 0, -4}, .weight = 0.01f});
+    for (int i = 0; i < 300; ++i) {
+        const Ray ray{.direction = Vec3(Point{0, 0, -4} + n.point(0.6))};
+        const auto a = intersect(ray, few), b = intersect(ray, many);
+        REQUIRE(a.has_value() == b.has_value());
+        if (a) CHECK(*a == doctest::Approx(double(*b)).epsilon(1e-5));
+    }
+}
+
+TEST_CASE("metaballs: the bounding sphere holds every hit, and is tight for one blob") {
+    const auto one =
+        bounding_sphere(Metaballs{.blobs{{.center{1, 2, 3}, .radius = 2}}});
+    CHECK(one.radius == doctest::Approx(sphere_radius(2, 1, 0.25)).epsilon(1e-6));
+    CHECK(one.center == Vec3(1, 2, 3));
+    Numbers n;
+    for (int i = 0; i < 300; ++i) {
+        Metaballs balls{};
+        for (int k = n.below(5); k >= 0; --k)
+            balls.blobs.push_back({Vec3(n.point(1)), float(n.between(0.3, 1)),
+                                   float(n.between(0.26, 2) * (k ? n.sign() : 1))});
+        const Sphere bound = bounding_sphere(balls);
+        for (int k = 0; k < 30; ++k) {
+            const Ray ray{.origin = Vec3(n.direction() * 6.0),
+                          .direction = Vec3(n.point(3))};
+            if (const auto t = intersect(ray, balls))
+                CHECK(glm::distance(at(ray, *t), bound.center) <=
+                      bound.radius * 1.0001f);
+        }
+    }
+    CHECK(bounding_sphere(Metaballs{.blobs{{.weight = 0.1f}}}).radius ==
+          0); // no surface
+    // Ten weak blobs in one place, none of which reaches the level alone.
+    const Metaballs weak{.blobs = std::vector(10, Blob{.weight = 0.1f})};
+    CHECK(double(bounding_sphere(weak).radius) >= sphere_radius(1, 1, 0.25));
+}
+
+TEST_CASE_TEMPLATE("metaballs: a hit lies on the surface, its normal is the gradient",
+                   T, float, double) {
+    Numbers n;
+    for (const double shift : {0.0, 100.0}) {
+        MetaballsT<T> balls = peanut<T>();
+        for (auto& b : balls.blobs) b.center += Vec3T<T>(T(shift));
+        int hits = 0;
+        for (int i = 0; i < 2000; ++i) {
+            const Point to = Point{shift, shift, shift - 4} + n.point(1);
+            const Point from = Point{shift} + n.point(0.5);
+            const RayT<T> ray{.origin = Vec3T<T>(from),
+                              .direction = Vec3T<T>(to - from)};
+            const auto t = intersect(ray, balls);
+            if (!t) continue;
+            ++hits;
+            const auto p = surface_point(balls, ray, as_hit(*t));
+            const Point x(p.position), g = gradient(balls, x);
+            CHECK(glm::length(Point(p.normal) + glm::normalize(g)) < 1e-4);
+            // Within the error's box, along the normal, the field changes its sign.
+            const double reach = glm::dot(glm::abs(Point(p.normal)), Point(p.error));
+            CHECK(field(balls, x + Point(p.normal) * reach * 1.01) <= 0);
+            CHECK(field(balls, x - Point(p.normal) * reach * 1.01) >= 0);
+            // The point is put back onto the surface: what is left is its rounding.
+            const double eps = double(std::numeric_limits<T>::epsilon());
+            CHECK(reach <
+                  1.01 * eps * glm::dot(glm::abs(Point(p.normal)), glm::abs(x)) + 2e-9);
+            // A ray that leaves outwards is outside, one that enters is inside.
+            const Vec3T<T> out = p.normal;
+            CHECK(field(balls, Point(leave(p, out))) < 0);
+            CHECK(field(balls, Point(leave(p, Vec3T<T>(-out)))) > 0);
+            // Outwards and aside: no hit where the ray starts.
+            const Vec3T<T> aside =
+                glm::normalize(Vec3T<T>(glm::cross(p.normal, Vec3T<T>(n.direction()))));
+            const auto again =
+                intersect(ray_from(p, Vec3T<T>(aside + T(0.02) * out)), balls);
+            if (again) CHECK(*again > T(1e-3));
+        }
+        CHECK(hits > 300);
+    }
+}
+
+TEST_CASE("metaballs: where the gradient vanishes the normal faces the ray") {
+    // Two tops of 1/8 meet in the middle: f = 0 and grad f = 0 there.
+    const double s = std::sqrt(0.125);
+    const MetaballsT<double> balls{
+        .blobs{{{std::sqrt(1 - s), 0, 0}}, {{-std::sqrt(1 - s), 0, 0}}}, .level = 0.25};
+    const RayT<double> ray{.origin{0, 0, 3}};
+    const auto p = surface_point(balls, ray, as_hit(3.0));
+    CHECK(glm::length(p.normal) == doctest::Approx(1));
+    CHECK(p.normal.z == doctest::Approx(1));
+    CHECK(is_finite(p.error));
+    CHECK(is_finite(p.position));
+}
+
+TEST_CASE("metaballs: refused are those without a surface, with a sentence") {
+    const auto message = [](const Metaballs& balls) {
+        try {
+            check(balls);
+        } catch (const std::invalid_argument& error) {
+            return std::string(error.what());
+        }
+        return std::string("accepted");
+    };
+    CHECK(message(peanut()) == "accepted");
+    CHECK(message(Metaballs{}).find("the sum of the positive weights") == 0);
+    CHECK(message({.blobs{{.weight = 0.25f}}}).find("above metaballs.level") !=
+          std::string::npos);
+    CHECK(message({.blobs{{}}, .level = 0}) ==
+          "metaballs.level is 0; it must be finite and above 0.");
+    CHECK(message({.blobs{{.radius = -1}}}) ==
+          "metaballs.blobs.radius is -1; it must be finite and above 0.");
+    CHECK(message({.blobs{{.weight = float(not_a_number)}}}) ==
+          "metaballs.blobs.weight is NaN; it must be finite.");
+    CHECK(message({.blobs{{.center{0, float(infinity), 0}}}}).find("finite in every") !=
+          std::string::npos);
+}
+
+TEST_CASE("metaballs: no light, said in one sentence; black radiance is fine") {
+    Scene<Shapes<Metaballs, Quad>, Materials<Lambertian>> scene;
+    const auto grey = scene.add(Lambertian{});
+    CHECK_NOTHROW(scene.add(peanut(), grey));
+    try {
+        scene.add(peanut(), grey, Rgb{1, 2, 3});
+        FAIL("a light was accepted");
+    } catch (const std::invalid_argument& error) {
+        CHECK(std::string(error.what()) == "the radiance of a shape of unknown area is "
+                                           "(1, 2, 3); it must be black: it "
+                                           "can be lit, but cannot be a light.");
+    }
+    CHECK(scene.size() == 1);
+    CHECK(scene.lights.empty());
+}
+
+TEST_CASE("isosurface: Blinn's blobs, which no formula solves, by both solvers") {
+    const Isosurface<Blinn> surface{.bounds{.radius = 2}};
+    check(surface);
+    Numbers n;
+    int hits = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const Ray ray{.origin = Vec3(n.direction() * 4.0),
+                      .direction = Vec3(n.point(1.2))};
+        const Ray aimed{.origin = ray.origin, .direction = ray.direction - ray.origin};
+        const auto a = intersect(aimed, surface),
+                   b = intersect(aimed, surface, Bisection{.most_parts = 1 << 22});
+        // The truth by small steps.
+        double truth = -1;
+        const Point o(aimed.origin), d(aimed.direction);
+        for (double t = 0; t < 2 && truth < 0; t += 1e-3)
+            if (surface.field.value(o + t * d) >= 0) truth = t;
+        if (truth >= 0) {
+            ++hits;
+            REQUIRE(a);
+            REQUIRE(b);
+        }
+        REQUIRE(a.has_value() == b.has_value());
+        if (!a) continue;
+        CHECK(std::abs(*a - *b) < 1e-3);
+        if (truth >= 0) CHECK(std::abs(double(*b) - truth) < 1.1e-3);
+        const auto p = surface_point(surface, aimed, as_hit(*b));
+        CHECK(std::abs(surface.field.value(Point(p.position))) < 1e-6);
+    }
+    CHECK(hits > 200);
+}
+
+TEST_CASE("solvers: both give up where their limits say") {
+    const Metaballs balls{.blobs{{.center{0, 0, -4}}}};
+    CHECK(intersect(Ray{}, balls, SphereTracing{.most_steps = 200}));
+    CHECK_FALSE(intersect(Ray{}, balls, SphereTracing{.most_steps = 3}));
+    CHECK(intersect(Ray{}, balls, Bisection{}));
+    CHECK_FALSE(intersect(Ray{}, balls, Bisection{.most_parts = 1}));
+}
+
+TEST_CASE("metaballs: glass and grey ones in the path tracer and the photon mapper") {
+    Scene<Shapes<Metaballs, Sphere, Quad>, Materials<Lambertian, Glass>> scene;
+    const auto grey = scene.add(Lambertian{.albedo = Rgb{0.6f}});
+    Metaballs left = peanut();
+    for (Blob& b : left.blobs) b.center.x -= 1.6f;
+    scene.add(peanut(), scene.add(Glass{}));
+    scene.add(left, grey);
+    scene.add(Quad{.corner{-4, -1, 0}, .edge_u{8, 0, 0}, .edge_v{0, 0, -8}}, grey);
+    scene.add(Sphere{.center{2, 4, -2}, .radius = 0.5f}, grey, Rgb{20});
+    const PhotonMapping settings{};
+    const auto maps = make_photon_maps(scene, settings);
+    CHECK(maps.caustics.records.size() > 1000); // aimed at the bounding sphere
+    const auto mapper = make_photon_mapper(scene, maps, settings);
+    const auto tracer = make_path_tracer(scene);
+    const Picture picture{32, 32, 64, 1};
+    const auto a = render(mapper, Camera{}, picture),
+               b = render(tracer, Camera{}, picture);
+    double sum_a = 0, sum_b = 0;
+    for (std::size_t i = 0; i < a.image.pixels.size(); ++i) {
+        CHECK(is_finite(a.image.pixels[i]));
+        CHECK(is_finite(b.image.pixels[i]));
+        sum_a += double(a.image.pixels[i].y);
+        sum_b += double(b.image.pixels[i].y);
+    }
+    CHECK(sum_b > 0);
+    CHECK(sum_a == doctest::Approx(sum_b).epsilon(0.1));
+}

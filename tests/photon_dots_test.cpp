@@ -1,0 +1,172 @@
+/// \file photon_dots_test.cpp
+/// \brief Which photons a camera sees, against rectangles and balls worked out by hand.
+
+#include "ljus/render/photon_dots.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "support/rooms.hpp"
+
+using namespace ljus;
+using namespace ljus_test;
+
+namespace {
+
+/// A camera at (0, 0, 5) that looks along -z at a picture whose half is 5 at z = 0.
+Camera front() {
+    return look_at({.position{0, 0, 5}, .target{0, 0, 0}, .vfov_degrees = 90});
+}
+
+Photon photon_at(Vec3 position, Vec3 direction, PhotonKind kind = PhotonKind::direct) {
+    return {.position = position,
+            .direction = glm::normalize(direction),
+            .flux{1, 2, 4},
+            .kind = kind};
+}
+
+double sum_of(const Image& image) {
+    double sum = 0;
+    for (const Rgb& color : image.pixels) sum += double(color.x + color.y + color.z);
+    return sum;
+}
+
+/// A wall [-2, 2]^2 at z = 0, its normal towards the camera or away from it.
+Room wall(bool towards) {
+    Room room;
+    const Vec3 x{4, 0, 0}, y{0, 4, 0};
+    room.add(
+        Quad{.corner{-2, -2, 0}, .edge_u = towards ? x : y, .edge_v = towards ? y : x},
+        room.add(Lambertian{.albedo = Rgb{0.5f}}));
+    return room;
+}
+
+} // namespace
+
+TEST_CASE("photon dots: a photon is seen on the side that it has come to, wherever the "
+          "normal points") {
+    for (const bool towards : {true, false}) {
+        const Room room = wall(towards);
+        CAPTURE(towards);
+        const auto lit =
+            photon_in_sight(room, front(), photon_at({1, 1, 0}, {0, 1, -1}), 100, 100);
+        REQUIRE(lit);
+        CHECK(glm::distance(*lit, Vec2{60, 40}) < 1e-3f);
+        CHECK_FALSE(
+            photon_in_sight(room, front(), photon_at({1, 1, 0}, {0, 1, 1}), 100, 100));
+        CHECK_FALSE(photon_in_sight(room, front(), photon_at({9, 1, 0}, {0, 1, -1}),
+                                    100,
+                                    100)); // out of the picture
+    }
+}
+
+TEST_CASE("photon dots: what stands in front hides a photon, glass too") {
+    for (const Ball ball : {Ball::lambertian, Ball::glass}) {
+        Room room = wall(true);
+        room.add(Sphere{.center{0.5f, 0.5f, 2.5f}, .radius = 0.1f},
+                 ball == Ball::glass ? room.add(Glass{})
+                                     : room.add(Lambertian{.albedo = Rgb{0.5f}}));
+        // The line to (1, 1, 0) goes through the ball's middle.
+        CHECK_FALSE(
+            photon_in_sight(room, front(), photon_at({1, 1, 0}, {0, 0, -1}), 100, 100));
+        CHECK(photon_in_sight(room, front(), photon_at({-1, 1, 0}, {0, 0, -1}), 100,
+                              100));
+        // On the ball: its near half, from outside.
+        const Vec3 near{0.5f, 0.5f, 2.6f}, far{0.5f, 0.5f, 2.4f};
+        CHECK(photon_in_sight(room, front(), photon_at(near, {0, 0, -1}), 100, 100));
+        CHECK_FALSE(
+            photon_in_sight(room, front(), photon_at(near, {0, 0, 1}), 100, 100));
+        CHECK_FALSE(
+            photon_in_sight(room, front(), photon_at(far, {0, 0, -1}), 100, 100));
+    }
+}
+
+TEST_CASE("photon dots: of a room's photons those are seen that a ray finds") {
+    // Independent: the photons of the wall that a camera inside of the room looks at.
+    const Room room = make_room<float>(Ball::mirror, Lamp::point, 1);
+    std::vector<Photon> photons;
+    int in_picture = 0;
+    for (int i = 0; i < 40; ++i)
+        for (int j = 0; j < 40; ++j) {
+            const float x = float(i) / 20 - 0.97f, y = float(j) / 20 - 0.97f;
+            photons.push_back(photon_at({x, y, -1}, {0, 0, -1}));
+            // From (0, 0.25, 0.97) the ball (0.1, -0.4, -0.1) 0.45 hides a part of it.
+            const glm::dvec3 eye{0, 0.25, 0.97}, way = glm::dvec3{x, y, -1} - eye;
+            const glm::dvec3 ball = glm::dvec3{0.1, -0.4, -0.1} - eye;
+            const double along = glm::dot(ball, way) / glm::dot(way, way);
+            const bool hidden = glm::distance(ball, along * way) < 0.45;
+            const CameraT<float> camera = room_camera<float>();
+            const glm::dvec3 f(camera.forward), r(camera.right), u(camera.up);
+            const double reach = double(camera.half_height) * glm::dot(way, f);
+            const bool inside = std::abs(glm::dot(way, r)) < reach &&
+                                std::abs(glm::dot(way, u)) < reach;
+            in_picture += inside && !hidden ? 1 : 0;
+        }
+    Image image = make_image(100, 100);
+    const long long seen =
+        add_photon_dots(image, room, room_camera<float>(), photons, {},
+                        [](const Photon& photon) { return dot_color(photon); });
+    CHECK(seen == in_picture);
+    CHECK(in_picture > 300);
+    CHECK(in_picture < 1500);
+}
+
+TEST_CASE("photon dots: a dot is a cone, and black ones are not drawn") {
+    const Room room = wall(true);
+    const auto drawn = [&](float x, float y, const DotLook& look) {
+        Image image = make_image(40, 40);
+        CHECK(add_photon_dots(image, room, front(), {photon_at({x, y, 0}, {0, 0, -1})},
+                              look, [](const Photon& p) { return dot_color(p); }) == 1);
+        return image;
+    };
+    // 1/8 of a unit is half a pixel: the middle of pixel (20, 19).
+    const Image one = drawn(0.125f, 0.125f, {.radius = 1, .brightness = 0.5f});
+    CHECK(glm::distance(pixel(one, 20, 19), 0.5f * Rgb{0.25f, 0.5f, 1}) < 1e-3f);
+    CHECK(sum_of(one) == doctest::Approx(0.5 * 1.75).epsilon(1e-3));
+    // The volume of a cone: a third of its foot.
+    const Image wide = drawn(0.03f, -0.2f, {.radius = 12, .brightness = 1});
+    CHECK(sum_of(wide) ==
+          doctest::Approx(1.75 * std::numbers::pi * 144 / 3).epsilon(0.01));
+    // At the border the rest falls off the picture.
+    CHECK(sum_of(drawn(1.99f, 1.99f, {.radius = 30, .brightness = 1})) > 100);
+
+    Image image = make_image(40, 40);
+    const std::vector<Photon> photons{photon_at({0, 0, 0}, {0, 0, -1})};
+    const auto none = [](const Photon&) { return Rgb{0}; };
+    CHECK(add_photon_dots(image, room, front(), photons, {}, none) == 0);
+    CHECK(sum_of(image) == 0);
+    CHECK(add_photon_dots(image, room, front(), {}, {}, none) == 0);
+    for (const float radius :
+         {0.f, -1.f, 1001.f, std::numeric_limits<float>::quiet_NaN()})
+        CHECK_THROWS_AS(
+            add_photon_dots(image, room, front(), photons, {.radius = radius}, none),
+            std::invalid_argument);
+}
+
+TEST_CASE("photon dots: the colour is that of the flux, shadow photons are yellow") {
+    CHECK(dot_color(photon_at({}, {0, 0, 1})) == Rgb{0.25f, 0.5f, 1});
+    CHECK(dot_color(photon_at({}, {0, 0, 1}, PhotonKind::shadow)) ==
+          Rgb{1, 0.8f, 0.1f});
+    CHECK(dot_color(Photon{}) == Rgb{0});
+}
+
+TEST_CASE("photon dots: the drawing shows each surface in its colour, lamps bright") {
+    Room room = wall(true);
+    const auto black = room.add(Lambertian{.albedo = Rgb{0}});
+    const auto lamp = [](float x, bool towards) {
+        const Vec3 a{1, 0, 0}, b{0, 1, 0};
+        return Quad{
+            .corner{x, 0.5f, 1}, .edge_u = towards ? a : b, .edge_v = towards ? b : a};
+    };
+    room.add(lamp(0.5f, true), black, Rgb{9});
+    room.add(lamp(-1.5f, false), black, Rgb{9}); // from behind it is dark
+    const Image image = scene_drawing(room, front(), 100, 100);
+    CHECK(pixel(image, 50, 50).x == doctest::Approx(0.08).epsilon(0.01));
+    CHECK(pixel(image, 62, 37) == Rgb{0.5f});
+    CHECK(pixel(image, 37, 37) == Rgb{0});
+    CHECK(pixel(image, 2, 2) == Rgb{0}); // nothing there
+    CHECK_THROWS_AS((void)scene_drawing(room, front(), 0, 5), std::invalid_argument);
+}

@@ -1,0 +1,277 @@
+// needs: boost
+/// \file polynomial_test.cpp
+/// \brief Roots of polynomials against polynomials made of exact roots, multiple ones
+/// among them; and where the quartic formula loses them.
+///
+/// The roots are integers of up to 12 bits, so that the coefficients of their product
+/// are integers below 2^53: a double holds them, and the roots stay exact. Values are
+/// compared as fractions.
+
+#include "ljus/math/polynomial.hpp"
+#include "ljus/math/quartic_formula.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "support/exact.hpp"
+#include "support/numbers.hpp"
+
+using namespace ljus;
+using ljus_test::Exact;
+using ljus_test::Numbers;
+
+namespace {
+
+using Powers = std::array<double, 5>;
+
+Exact exact_value(const Powers& p, const Exact& x) {
+    Exact sum = 0;
+    for (std::size_t i = p.size(); i-- > 0;) sum = sum * x + Exact(p[i]);
+    return sum;
+}
+
+/// The tolerance that roots_in() documents.
+double tolerance(const Powers& p, double low, double high) {
+    const double m = std::max(std::abs(low), std::abs(high));
+    double size = 0;
+    for (std::size_t i = 5; i-- > 0;) size = size * m + std::abs(p[i]);
+    return 40 * std::numeric_limits<double>::epsilon() * size;
+}
+
+Powers times(const Powers& p, double c0, double c1) { // by c0 + c1 x
+    Powers result{};
+    for (std::size_t i = 0; i < 5; ++i) result[i] = c0 * p[i] + (i ? c1 * p[i - 1] : 0);
+    return result;
+}
+
+struct Known {
+    Powers p{};
+    std::vector<double> roots{}; ///< Exact, each once.
+    double low = 0, high = 1;
+};
+
+enum Family {
+    four,
+    doubled,
+    two_doubled,
+    triple,
+    quadruple,
+    near,
+    pair_of_none,
+    cubic,
+    quadratic,
+    linear,
+    tiny_lead,
+    at_ends,
+    family_count
+};
+const char* const names[family_count] = {"four roots",
+                                         "one double",
+                                         "two double",
+                                         "one triple",
+                                         "one quadruple",
+                                         "neighbours, 1 in 4096 apart",
+                                         "two roots, two complex",
+                                         "leading 0: cubic",
+                                         "leading 0: quadratic",
+                                         "leading 0: linear",
+                                         "leading 2^-60: cubic",
+                                         "roots at the interval's ends"};
+
+Known make(Family family, Numbers& n) {
+    const auto root = [&] { return double(n.below(4097) - 2048); };
+    std::vector<double> r;
+    const double a = root();
+    switch (family) {
+    case four:
+        r = {a, root(), root(), root()};
+        break;
+    case doubled:
+        r = {a, a, root(), root()};
+        break;
+    case two_doubled: {
+        const double b = root();
+        r = {a, a, b, b};
+        break;
+    }
+    case triple:
+        r = {a, a, a, root()};
+        break;
+    case quadruple:
+        r = {a, a, a, a};
+        break;
+    case near:
+        r = {a, a + 1, a + 2, root()};
+        break;
+    case cubic:
+        r = {a, root(), root()};
+        break;
+    case quadratic:
+    case pair_of_none:
+        r = {a, root()};
+        break;
+    case linear:
+        r = {a};
+        break;
+    case tiny_lead:
+        r = {a, root(), root()};
+        break;
+    default:
+        r = {-2048, 2048, a, root()};
+        break;
+    }
+    Known known{.p = {1, 0, 0, 0, 0}, .low = -2048, .high = 2048};
+    for (const double x : r) known.p = times(known.p, -x, 1);
+    if (family == pair_of_none) { // times (x - b)^2 + c, which is above 0
+        const double b = double(n.below(64)), c = double(1 + n.below(64));
+        const Powers p = known.p;
+        for (std::size_t i = 0; i < 5; ++i)
+            known.p[i] = (b * b + c) * p[i] - (i ? 2 * b * p[i - 1] : 0) +
+                         (i > 1 ? p[i - 2] : 0);
+    }
+    // 2^-60 x^4 moves the roots by less than 2^-16 of one over the slope: it is the
+    // tolerance's business, not a new root within the interval.
+    if (family == tiny_lead) known.p[4] = std::ldexp(1.0, -60);
+    std::sort(r.begin(), r.end());
+    r.erase(std::unique(r.begin(), r.end()), r.end());
+    known.roots = r;
+    return known;
+}
+
+} // namespace
+
+TEST_CASE("polynomial: no root is lost, none is invented, and they come in order") {
+    std::printf("%-32s %7s %9s %9s %9s | formula: lost\n", "family", "roots", "found",
+                "residual", "error");
+    for (int f = 0; f < family_count; ++f) {
+        Numbers n{static_cast<std::uint64_t>(f + 1)};
+        const auto family = static_cast<Family>(f);
+        int truths = 0, found = 0, lost_by_formula = 0, bad = 0;
+        double worst_residual = 0, worst_error = 0;
+        for (int i = 0; i < 1000; ++i) {
+            const Known known = make(family, n);
+            const double allowed = tolerance(known.p, known.low, known.high);
+            // Half a unit of roundoff of 1 in u, times the slope.
+            Powers slope{};
+            for (std::size_t k = 1; k < 5; ++k) slope[k - 1] = double(k) * known.p[k];
+            const double step = 4096 * std::numeric_limits<double>::epsilon();
+
+            const auto roots = roots_in(known.p, known.low, known.high);
+            CHECK(std::is_sorted(roots.begin(), roots.end()));
+            found += int(roots.count);
+            for (const double x : roots) {
+                CHECK(known.low <= x);
+                CHECK(x <= known.high);
+                const double residual =
+                    std::abs(ljus_test::to_double(exact_value(known.p, Exact(x))));
+                const double steep =
+                    std::abs(ljus_test::to_double(exact_value(slope, Exact(x))));
+                worst_residual =
+                    std::max(worst_residual, residual / (allowed + steep * step));
+            }
+            const auto formula = quartic_formula(known.p);
+            for (const double truth : known.roots) {
+                ++truths;
+                double nearest = 1e300, nearest_formula = 1e300;
+                for (const double x : roots)
+                    if (std::abs(x - truth) < std::abs(nearest - truth)) nearest = x;
+                for (const double x : formula)
+                    nearest_formula = std::min(nearest_formula, std::abs(x - truth));
+                lost_by_formula += !(nearest_formula <= 4);
+                worst_error = std::max(worst_error, std::abs(nearest - truth) / 4096);
+                // p stays within the tolerance all the way to the exact root.
+                bool reached = std::abs(nearest) < 1e300;
+                for (int k = 0; reached && k <= 8; ++k) {
+                    const Exact x =
+                        Exact(truth) + (Exact(nearest) - Exact(truth)) * k / 8;
+                    const double value =
+                        std::abs(ljus_test::to_double(exact_value(known.p, x)));
+                    const double steep =
+                        std::abs(ljus_test::to_double(exact_value(slope, x)));
+                    reached = value <= 3 * (allowed + steep * step);
+                }
+                bad += !reached;
+            }
+        }
+        std::printf("%-32s %7d %9d %9.3f %9.2g | %6d\n", names[f], truths, found,
+                    worst_residual, worst_error, lost_by_formula);
+        INFO(names[f]);
+        CHECK(bad == 0);
+        CHECK(worst_residual <= 1);
+        if (family == cubic) CHECK(worst_error < 1e-7);
+    }
+}
+
+TEST_CASE("polynomial: known roots") {
+    const auto r = roots_in(std::array{24.0, -50.0, 35.0, -10.0, 1.0}, 0.0, 5.0);
+    REQUIRE(r.count == 4);
+    for (std::size_t i = 0; i < 4; ++i)
+        CHECK(r.at[i] == doctest::Approx(double(i + 1)).epsilon(1e-12));
+    CHECK(roots_in(std::array{24.0, -50.0, 35.0, -10.0, 1.0}, 1.5, 3.5).count == 2);
+    CHECK(roots_in(std::array{1.0, 0.0, 1.0}, -9.0, 9.0).count == 0);
+    CHECK(roots_in(std::array{-2.0, 0.0, 1.0}, 0.0, 2.0).at[0] ==
+          doctest::Approx(std::sqrt(2.0)).epsilon(1e-15));
+    CHECK(roots_in(std::array{-1.0, 2.0}, 0.0, 1.0).at[0] == 0.5);
+    CHECK(roots_in(std::array{0.0f, 1.0f}, -1.0f, 1.0f).at[0] == 0.0f);
+}
+
+TEST_CASE("polynomial: the constant 0 has a root, a constant has none, a NaN no end") {
+    CHECK(roots(BernsteinT<double, 4>{}, 0.0).count > 0);
+    CHECK(roots(BernsteinT<double, 4>{{1, 1, 1, 1, 1}}, 0.0).count == 0);
+    CHECK(roots(BernsteinT<double, 4>{{-1, -1, -1, -1, -1}}, 0.0).count == 0);
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double inf = std::numeric_limits<double>::infinity();
+    Numbers n;
+    for (int i = 0; i < 20000; ++i) { // each returns
+        BernsteinT<double, 4> p;
+        for (double& c : p.c) {
+            const int kind = n.below(8);
+            c = kind == 0   ? nan
+                : kind == 1 ? inf
+                : kind == 2 ? -inf
+                : kind == 3 ? 0
+                            : n.sign() * n.power(-320, 308);
+        }
+        CHECK(roots(p, noise(p)).count <= 5);
+        (void)first_change(p);
+        (void)quartic_formula(p.c);
+    }
+    CHECK_FALSE(first_change(BernsteinT<double, 4>{{nan, nan, nan, nan, nan}}));
+}
+
+TEST_CASE("polynomial: value and derivative on Bernstein coefficients") {
+    // u^3 (1 - u) * 4 has one coefficient; its derivative is 12 u^2 - 16 u^3.
+    const BernsteinT<double, 4> p{{0, 0, 0, 1, 0}};
+    CHECK(value_at(p, 0.5) == 0.25);
+    CHECK(value_at(derivative(p), 0.5) == 1.0);
+    CHECK(value_at(on_interval(std::array{1.0, 2.0, 3.0}, 2.0, 4.0), 0.5) == 34.0);
+    CHECK(sign_changes(BernsteinT<double, 4>{{1, 0, -1, 0, 2}}) == 2);
+    CHECK(sign_changes(p) == 0);
+}
+
+TEST_CASE("polynomial: the first change of sign") {
+    // (u - 1/4)(u - 3/4): below, between, and from an end to the other
+    const auto p = on_interval(std::array{3.0 / 16, -1.0, 1.0}, 0.0, 1.0);
+    REQUIRE(first_change(p));
+    CHECK(*first_change(p) == doctest::Approx(0.25).epsilon(1e-14));
+    const auto late = on_interval(std::array{3.0 / 16, -1.0, 1.0}, 0.5, 1.5);
+    REQUIRE(first_change(late));
+    CHECK(*first_change(late) == doctest::Approx(0.25).epsilon(1e-14));
+    // A touch counts, a miss by a little does not.
+    const auto touch = on_interval(std::array{0.25, -1.0, 1.0}, 0.0, 1.0);
+    REQUIRE(first_change(touch));
+    CHECK(*first_change(touch) == doctest::Approx(0.5));
+    CHECK_FALSE(
+        first_change(on_interval(std::array{0.25 + 1e-13, -1.0, 1.0}, 0.0, 1.0)));
+    // A quartic that changes three times: the first of them.
+    const auto three = on_interval(
+        std::array{-0.1 * 0.5 * 0.8, 0.05 + 0.08 + 0.4, -1.4, 1.0}, 0.0, 1.0);
+    CHECK(*first_change(three) == doctest::Approx(0.1).epsilon(1e-12));
+}
