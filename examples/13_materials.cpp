@@ -449,7 +449,8 @@ ljus::Lobes lobes(const WrongMatt&) {
 Rgb evaluate(const WrongMatt& matt, const Vec3& wo, const Vec3& wi) {
     if (!ljus::same_side(wo, wi)) return Rgb{0};
     if (matt.mistake == Mistake::missing_pi) return matt.albedo;
-    const float again = matt.mistake == Mistake::doubled_cosine ? std::abs(wi.z) : 1.0f;
+    const bool twice = matt.mistake == Mistake::doubled_cosine;
+    const float again = twice ? std::abs(wi.z) : 1.0f;
     return matt.albedo * again * std::numbers::inv_pi_v<float>;
 }
 // [mistakes]
@@ -481,7 +482,7 @@ void picture_mistakes(const examples::Options& options) {
             placed(Quad{{2, 0, 5}, {0, 4, 0}, {0, 0, -7}}, matt(0.1f, 0.4f, 0.1f)),
             placed(Quad{{-2, 4, -2}, {4, 0, 0}, {0, 0, 7}}, matt(0.6f, 0.6f, 0.6f)),
             placed(Quad{{-0.6f, 3.95f, -0.6f}, {1.2f, 0, 0}, {0, 0, 1.2f}},
-                   matt(0, 0, 0), Rgb{16}),
+                   matt(0, 0, 0), Rgb{10}),
             placed(Sphere{.center{0, 1, 0}, .radius = 1}, matt(0.75f, 0.5f, 0.2f)));
         const auto camera = ljus::look_at(
             {.position{0, 2, 8.5f}, .target{0, 1.9f, 0}, .vfov_degrees = 30});

@@ -12,8 +12,8 @@ ljus_break_it(NAME thin-glass-once HEADER materials/thin_glass.hpp TEST thin_gla
 
 # A tint that does not know how long the way is.
 ljus_break_it(NAME thin-glass-tint HEADER materials/thin_glass.hpp TEST thin_glass
-    FROM "std::pow(pane.tint[c], T(1) / cosine)"
-    TO   "pane.tint[c]"
+    FROM "std::pow(tint, T(1) / cosine)"
+    TO   "tint"
     CASES "thin glass: the sum*,thin glass: what textbooks*")
 
 # What comes back in place of what goes on.

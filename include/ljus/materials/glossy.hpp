@@ -80,13 +80,14 @@ template <std::floating_point T, typename F>
 template <std::floating_point T, typename F>
 [[nodiscard]] RgbT<T> evaluate(const GlossyT<T, F>& gloss, const Vec3T<T>& wo,
                                const Vec3T<T>& wi) noexcept {
-    if (!has(lobes(gloss), Lobes::diffuse) || !same_side(wo, wi)) return RgbT<T>{T(0)};
+    if (!(gloss.roughness > T(0)) || !same_side(wo, wi)) return RgbT<T>{T(0)};
     const T alpha = gloss.roughness * gloss.roughness;
     const Vec3T<T> out{wo.x, wo.y, std::abs(wo.z)};
     const Vec3T<T> in{wi.x, wi.y, std::abs(wi.z)};
     const Vec3T<T> h = middle_of(out, in);
     const T cos_facet = std::min(glm::dot(out, h), T(1));
-    const T shadowed = out.z * ggx_root(alpha, in) + in.z * ggx_root(alpha, out);
+    const T r_out = ggx_root(alpha, out), r_in = ggx_root(alpha, in);
+    const T shadowed = out.z * r_in + in.z * r_out;
     const T f = ggx_normals(alpha, h) / (T(2) * shadowed);
     if (!(f <= std::numeric_limits<T>::max())) return RgbT<T>{T(0)};
     return f * facet_reflectance(gloss.reflectance, cos_facet);

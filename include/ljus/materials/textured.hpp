@@ -48,10 +48,11 @@ colored(Base base, const RgbT<typename Base::Scalar>& color) noexcept {
 /// \return A base material.
 /// \cost color_at() of the texture.
 // [at_point]
-template <typename Base, typename Texture>
+template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] Base at_point(const Textured<Base, Texture>& textured,
-                            const Vec3T<typename Base::Scalar>& position) noexcept {
-    return colored(textured.base, color_at(textured.texture, position));
+                            const Vec3T<T>& position) noexcept {
+    const RgbT<T> color = color_at(textured.texture, position);
+    return colored(textured.base, color);
 }
 // [at_point]
 

@@ -70,7 +70,8 @@ template <std::floating_point T>
         std::sqrt(std::max(T(0), T(1) - sine2 / (pane.index * pane.index)));
     PaneSharesT<T> shares{};
     for (int c = 0; c < 3; ++c) {
-        const T a = pane.tint[c] == T(1) ? T(1) : std::pow(pane.tint[c], T(1) / cosine);
+        const T tint = pane.tint[c];
+        const T a = tint == T(1) ? T(1) : std::pow(tint, T(1) / cosine);
         shares.transmitted[c] =
             (T(1) - r) * (T(1) - r) * a / ((T(1) - r * a) * (T(1) + r * a));
         shares.reflected[c] = r * (T(1) + a * shares.transmitted[c]);

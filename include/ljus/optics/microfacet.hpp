@@ -89,7 +89,8 @@ template <std::floating_point T>
 [[nodiscard]] Vec3T<T> sample_visible_normal(T alpha, const Vec3T<T>& wo,
                                              const Vec2T<T>& u) noexcept {
     // Stretch, so that all facets together are half a sphere.
-    const Vec3T<T> w = glm::normalize(Vec3T<T>{alpha * wo.x, alpha * wo.y, wo.z});
+    const Vec3T<T> stretched{alpha * wo.x, alpha * wo.y, wo.z};
+    const Vec3T<T> w = glm::normalize(stretched);
     // A point of the cap with z > -w.z, and halfway from there to w.
     const T t = u.y * (T(1) + w.z);
     const T radius = std::sqrt(std::max(T(0), t * (T(2) - t)));

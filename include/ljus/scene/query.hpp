@@ -138,13 +138,13 @@ template <typename Scene, std::floating_point T>
 template <typename Scene, std::floating_point T, typename F>
 decltype(auto) visit_material_of(const Scene& scene, const SurfaceT<T>& surface,
                                  F&& f) {
-    return scene.visit_material(surface.object.material, [&](const auto& material) {
-        using Here = decltype(material_at(material, surface.point.position));
+    return scene.visit_material(surface.object.material, [&](const auto& m) {
+        using Here = decltype(material_at(m, surface.point.position));
         // A soap film's point is no material: scatter() asks for it.
         if constexpr (Bsdf<std::remove_cvref_t<Here>>)
-            return f(material_at(material, surface.point.position));
+            return f(material_at(m, surface.point.position));
         else
-            return f(material);
+            return f(m);
     });
 }
 // [visit_material_of]
