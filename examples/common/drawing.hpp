@@ -31,11 +31,11 @@ struct Pen {
 
 /// The colours that a diagram shares with the plots.
 namespace colors {
-inline constexpr const char* blue = "#3b8ed0";
-inline constexpr const char* orange = "#e0752d";
-inline constexpr const char* green = "#2fa36b";
-inline constexpr const char* violet = "#a06cd5";
-inline constexpr const char* red = "#d64550";
+inline constexpr const char* blue = "#3b8ed0";   ///< Of the first curve.
+inline constexpr const char* orange = "#e0752d"; ///< Of the second.
+inline constexpr const char* green = "#2fa36b";  ///< Of the third.
+inline constexpr const char* violet = "#a06cd5"; ///< Of the fourth.
+inline constexpr const char* red = "#d64550";    ///< Of the fifth.
 } // namespace colors
 
 /// A diagram: a window of the plane, and what is drawn in it, in the order of drawing.

@@ -38,7 +38,8 @@ struct SamplerCheck {
 
 /// The hemisphere, cut into cells of the same solid angle.
 struct HemisphereCells {
-    static constexpr int rows = 16, columns = 12; ///< In z and in azimuth.
+    static constexpr int rows = 16;    ///< In z.
+    static constexpr int columns = 12; ///< In azimuth.
 
     /// The cell of a direction.
     [[nodiscard]] static std::size_t of(const ljus::Vec3T<double>& d) {

@@ -21,14 +21,14 @@ namespace ljus {
 
 /// A node: its box, and either two children or some of the things themselves. 32 bytes
 /// in float, so that two children share a cache line.
-// [node]
+// [tree node]
 template <std::floating_point T>
 struct BvhNodeT {
     BoxT<T> box{};           ///< Around all that is below.
     std::uint32_t first = 0; ///< Its first child, the other follows; or first thing.
     std::uint32_t count = 0; ///< How many things; 0 for a node with children.
 };
-// [node]
+// [tree node]
 static_assert(sizeof(BvhNodeT<float>) == 32);
 
 /// A tree of boxes: nodes, the root first, and the order in which leaves have things.

@@ -18,12 +18,12 @@ namespace ljus {
 /// \{
 
 /// A node with up to eight children, coordinate by coordinate \cite wald2008.
-// [node]
+// [wide node]
 struct WideNode {
     std::array<Lanes, 6> plane;                  ///< Low x, y, z, then high x, y, z.
     std::array<std::uint32_t, lane_count> child; ///< As WideChild has them.
 };
-// [node]
+// [wide node]
 
 /// A child in 32 bits: how many nodes' lanes lie before its node; or, for a leaf, its
 /// first place and how many there are.
