@@ -103,9 +103,9 @@ TEST_CASE("glossy: light goes both ways alike, and comes back on one side only")
         MetalOf<double>{.reflectance = ljus::copper<double>, .roughness = 0.8}, 64);
 }
 
-// 50 materials, angles and seeds, at 3 in 10 million each.
+// 24 materials, angles and seeds, at 3 in 10 million each.
 TEST_CASE("glossy: samples follow the density, weight is f cos over it") {
-    for (std::uint64_t seed = 1; seed <= 25; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
         Draws draws{seed};
         const float roughness = draws.between(0.55f, 1.0f);
         const auto wo =
@@ -128,7 +128,7 @@ TEST_CASE("glossy: white returns no more than it gets, and both ways to count ag
                                     .roughness = roughness};
             const double sampled = albedo_by_samples(m, degrees);
             const double summed =
-                albedo_by_quadrature(m, at_degrees<double>(degrees), 1500).x;
+                albedo_by_quadrature(m, at_degrees<double>(degrees), 500).x;
             CAPTURE(roughness);
             CAPTURE(degrees);
             CHECK(sampled <= 1);
