@@ -73,7 +73,7 @@ void flat_and_smooth(const examples::Options& options) {
         room.add(Mesh(smooth_normals ? ball : without_normals(ball)), clay);
         room.add(Mesh(smooth_normals ? ring : without_normals(ring)), blue);
         const Camera camera = look_at(
-            {.position{0, 2.2f, 5}, .target{-0.05f, 0.5f, 0}, .vfov_degrees = 30});
+            {.position{0, 2.2f, 5}, .target{0.1f, 0.5f, 0}, .vfov_degrees = 30});
         const auto image = render(make_path_tracer(room), camera, picture_of(options));
         save_png(image.image,
                  options.path(smooth_normals ? "mesh-smooth.png" : "mesh-flat.png"));

@@ -250,9 +250,9 @@ void compare_structures(const examples::Options& options, int count) {
         add("hash grid", calls, [&] { return structures::HashGrid(points, radius); });
         add("Morton order", calls, [&] { return structures::MortonOrder(points); });
         add("octree", calls, [&] { return structures::Octree(points); });
-        add("k-d tree, plain", calls,
+        add("plain k-d tree", calls,
             [&] { return KdTree{std::span<const Vec3>(points)}; });
-        add("k-d tree, wide", calls, [&] { return WideKdTree(points, 1); });
+        add("wide k-d tree", calls, [&] { return WideKdTree(points, 1); });
         examples::save_table(options.out, table);
         if (!options.quiet)
             for (const auto& row : table.rows)
@@ -266,7 +266,7 @@ void compare_structures(const examples::Options& options, int count) {
 void plot_time(const examples::Options& options) {
     examples::Plot plot{
         .name = "kd_tree-time",
-        .columns = {"photons", "all in turn", "k-d tree, plain", "k-d tree, wide"},
+        .columns = {"photons", "all in turn", "plain k-d tree", "wide k-d tree"},
         .y_label = "ns for all within a ball of 50",
         .rows = {},
         .log_x = true,

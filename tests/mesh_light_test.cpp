@@ -19,16 +19,20 @@ constexpr int size = 48;
 constexpr int seeds = 16;
 const Sphere ball{.center{0.1f, -0.4f, -0.1f}, .radius = 0.45f};
 
-/// The room [-1, 1]^3 with a ball of triangles, or the sphere itself.
+/// A furnace or the room [-1, 1]^3, with a ball of triangles or the sphere itself.
 MeshRoom room_with(bool furnace, bool glass, bool triangles) {
     MeshRoom room;
     const auto grey = room.add(Lambertian{.albedo = Rgb{0.5f}});
     const Rgb glow{furnace ? 0.5f : 0.0f};
     const Vec3 x{2, 0, 0}, y{0, 2, 0}, z{0, 0, 2}, corner{-1, -1, -1};
+    // The furnace is a sphere: in a box's corners the photon mapper's shadow rays, which
+    // have no multiple importance sampling, have tails that 16 pictures do not show; a
+    // mean is then 0.3 % low, with the sphere and with its triangles alike.
+    if (furnace) room.add(Sphere{.center{0, 0, 0}, .radius = 1.8f}, grey, glow, true);
     for (const Quad& wall :
          {Quad{corner, z, x}, Quad{corner + y, x, z}, Quad{corner, x, y},
           Quad{corner + z, y, x}, Quad{corner, y, z}, Quad{corner + x, z, y}})
-        room.add(wall, grey, glow);
+        if (!furnace) room.add(wall, grey);
     if (!furnace) {
         const auto black = room.add(Lambertian{.albedo = Rgb{0}});
         room.add(Quad{{-0.6f, 0.98f, -0.55f}, {1, 0, 0}, {0, 0, 1}}, black,
