@@ -30,7 +30,7 @@ ljus_break_it(NAME caustics-k HEADER photons/photon_map.hpp TEST caustics
 
 # Photons that were aimed at one ball and meet another first count for both.
 ljus_break_it(NAME caustics-overlap HEADER photons/photon_path.hpp TEST caustics
-    FROM "hit->object != *target"
+    FROM "met->hit.object != *target"
     TO   "false"
     CASES "caustics: overlapping targets*")
 

@@ -27,6 +27,6 @@ ljus_break_it(NAME path-tracing-n2 HEADER materials/glass.hpp TEST path_tracing
 
 # The way through glass is not measured.
 ljus_break_it(NAME path-tracing-medium HEADER render/path_tracing.hpp TEST path_tracing
-    FROM "path.throughput *= transmittance(path.medium, hit->at.t);"
+    FROM "path.throughput *= transmittance(path.medium, met->distance) * met->arrives();"
     TO   ""
     CASES "path tracing: a slab*")

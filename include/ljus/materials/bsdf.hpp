@@ -131,6 +131,20 @@ requires std::floating_point<typename M::Scalar>
     return RgbT<typename M::Scalar>{0};
 }
 
+/// A material as it is at a point: itself, or `at_point(m, position)` of one that is
+/// not the same everywhere.
+/// \param m         The material; must outlive the result.
+/// \param position  The point.
+/// \return Something to sample().
+template <typename M>
+[[nodiscard]] constexpr decltype(auto)
+material_at(const M& m, const Vec3T<typename M::Scalar>& position) noexcept {
+    if constexpr (requires { at_point(m, position); })
+        return at_point(m, position);
+    else
+        return (m);
+}
+
 /// Whether a material has specular parts only, so that shadow rays and photon maps have
 /// nothing to ask there.
 /// \param m  The material.

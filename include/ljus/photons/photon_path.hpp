@@ -12,6 +12,7 @@
 #include "ljus/photons/photon_pass.hpp"
 #include "ljus/scene/query.hpp"
 #include "ljus/scene/scatter.hpp"
+#include "ljus/scene/thin_sheets.hpp"
 
 namespace ljus {
 
@@ -91,6 +92,7 @@ struct TravellerT {
     RgbT<T> medium{T(0)};      ///< What the medium around it absorbs.
     bool met_diffuse = false;  ///< Whether it has been scattered diffusely.
     bool met_specular = false; ///< Whether it has met a mirror or glass.
+    T chance = T(1);           ///< Of being stopped by the sheet where it is.
 };
 
 /// What kind of photon it would leave where it is now.
@@ -102,15 +104,17 @@ template <std::floating_point T>
     return photon.met_specular ? PhotonKind::caustic : PhotonKind::direct;
 }
 
-/// Lets the medium take its share of a photon.
+/// Lets the medium, and the sheets that it went through, take their shares of a photon.
 /// \param photon    The photon.
 /// \param distance  The way through the medium.
+/// \param through   What the sheets left.
 /// \param audit     Takes what was absorbed.
 // [absorb]
 template <std::floating_point T>
-void absorb(TravellerT<T>& photon, T distance, FluxAudit& audit) noexcept {
+void absorb(TravellerT<T>& photon, T distance, const RgbT<T>& through,
+            FluxAudit& audit) noexcept {
     RgbT<T>& flux = photon.flight.flux;
-    const RgbT<T> arrived = flux * transmittance(photon.medium, distance);
+    const RgbT<T> arrived = flux * transmittance(photon.medium, distance) * through;
     audit.absorbed += RgbT<double>(flux) - RgbT<double>(arrived);
     flux = arrived;
 }
@@ -163,8 +167,8 @@ template <std::floating_point T, typename Material, typename Stream>
         return false;
     }
     const auto& scattered = next->sample;
-    const auto survivor =
-        play_roulette(flight.flux, scattered.weight, next_1d<T>(stream), audit);
+    const auto survivor = play_roulette(flight.flux, scattered.weight / photon.chance,
+                                        next_1d<T>(stream), audit);
     if (!survivor) return false;
 
     flight.flux = *survivor;
@@ -200,12 +204,13 @@ void trace(const Scene& scene, PhotonLaw law, const FlightT<T>& flight,
     add_to(audit.emitted);
     for (int bounce = 1; bounce <= pass.max_bounces; ++bounce) {
         start_bounce(stream, static_cast<std::uint64_t>(bounce));
-        const RayT<T>& ray = photon.flight.ray;
-        const auto hit = closest_hit(scene, ray);
-        if (!hit) return add_to(audit.escaped);
-        if (bounce == 1 && target && hit->object != *target) return add_to(audit.cut);
+        RayT<T>& ray = photon.flight.ray;
+        const auto met = meet(scene, ray, stream);
+        if (!met) return add_to(audit.escaped);
+        if (bounce == 1 && target && met->hit.object != *target)
+            return add_to(audit.cut);
 
-        const SurfaceT<T> surface = surface_at(scene, ray, *hit);
+        const SurfaceT<T> surface = surface_at(scene, ray, met->hit);
         const MaterialId made_of = surface.object.material;
         if (bounce == 1) {
             // From behind: the light is within the glass.
@@ -215,7 +220,8 @@ void trace(const Scene& scene, PhotonLaw law, const FlightT<T>& flight,
             if (law == PhotonLaw::general && pass.shadow_photons)
                 trace_shadow(scene, flight, surface.point, out);
         }
-        absorb(photon, hit->at.t, audit);
+        absorb(photon, met->distance, met->through, audit);
+        photon.chance = met->chance;
         if (is_black(photon.flight.flux)) return;
 
         const auto at_material = [&](const auto& material) {

@@ -6,6 +6,7 @@
 #include "ljus/render/counts.hpp"
 #include "ljus/render/shading.hpp"
 #include "ljus/scene/stratified.hpp"
+#include "ljus/scene/thin_sheets.hpp"
 
 namespace ljus {
 
@@ -41,11 +42,11 @@ template <typename Scene, std::floating_point T, typename Material, typename Wei
     if (is_black(f) || !agrees(at.surface, wi, sampled->wi)) return RgbT<T>{T(0)};
 
     ++counts.shadow_rays;
-    const RayT<T> shadow = ray_between(point, sampled->point);
-    if (occluded(scene, shadow)) return RgbT<T>{T(0)};
-    const T distance = glm::length(shadow.direction);
+    const RgbT<T> visible = visibility(scene, point, sampled->point);
+    if (is_black(visible)) return RgbT<T>{T(0)};
+    const T distance = glm::distance(point.position, sampled->point.position);
     return std::abs(wi.z) * weigh(*sampled, wi) * f * sampled->weight *
-           transmittance(at.medium, distance);
+           transmittance(at.medium, distance) * visible;
 }
 // [direct_light]
 

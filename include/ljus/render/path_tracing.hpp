@@ -148,11 +148,11 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
 
     for (int depth = 1;; ++depth) {
         start_bounce(stream, static_cast<std::uint64_t>(depth));
-        const auto hit = closest_hit(scene, path.ray);
-        if (!hit) break;
-        const ShadingT<T> at = shading(scene, path.ray, *hit, path.medium);
-        path.throughput *= transmittance(path.medium, hit->at.t);
-        if (at.shines()) add("emission", "L", emitted(tracer, path, *hit, at));
+        const auto met = meet(scene, path.ray, stream);
+        if (!met) break;
+        const ShadingT<T> at = shading(scene, path.ray, met->hit, path.medium);
+        path.throughput *= transmittance(path.medium, met->distance) * met->arrives();
+        if (at.shines()) add("emission", "L", emitted(tracer, path, met->hit, at));
         if (depth > limits.max_depth) break;
 
         const auto at_material = [&](const auto& material) {

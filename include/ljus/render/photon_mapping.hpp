@@ -159,10 +159,12 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
         };
         for (int depth = first; depth <= settings.max_depth; ++depth) {
             start_bounce(stream, path.bounce + static_cast<std::uint64_t>(depth));
-            const auto hit = closest_hit(mapper.scene, path.ray);
-            if (!hit) return;
-            const ShadingT<T> at = shading(mapper.scene, path.ray, *hit, path.medium);
-            path.throughput *= transmittance(path.medium, hit->at.t);
+            const auto met = meet(mapper.scene, path.ray, stream);
+            if (!met) return;
+            const ShadingT<T> at =
+                shading(mapper.scene, path.ray, met->hit, path.medium);
+            path.throughput *=
+                transmittance(path.medium, met->distance) * met->arrives();
             if (at.shines() && !path.met_diffuse)
                 add("emission", "L", at.surface.object.emission);
 

@@ -9,6 +9,7 @@
 #include "ljus/photons/photon_map.hpp"
 #include "ljus/photons/tracing.hpp"
 #include "ljus/scene/indexed_scene.hpp"
+#include "ljus/scene/thin_sheets.hpp"
 
 namespace ljus {
 
@@ -70,15 +71,16 @@ struct Plan {
     PlanItem caustics_map;   ///< Photons through mirrors and glass.
     PlanItem general_map;    ///< Direct, indirect and shadow photons.
     PlanItem shadow_photons; ///< Part of the general map.
+    PlanItem thin_film;      ///< Rays go straight on through soap films.
     PlanItem flat_loop;      ///< How the first object on a ray is found.
 
     /// All items, in the order in which they are printed.
-    [[nodiscard]] std::array<const PlanItem*, 6> items() const& {
-        return {&shadow_rays, &indirect_rays,  &caustics_map,
-                &general_map, &shadow_photons, &flat_loop};
+    [[nodiscard]] std::array<const PlanItem*, 7> items() const& {
+        return {&shadow_rays,    &indirect_rays, &caustics_map, &general_map,
+                &shadow_photons, &thin_film,     &flat_loop};
     }
     /// Not of a temporary: the items would be gone before they are read.
-    std::array<const PlanItem*, 6> items() const&& = delete;
+    std::array<const PlanItem*, 7> items() const&& = delete;
 };
 
 /// A plan, one line an item: its name, on or off, and why.
@@ -167,6 +169,10 @@ template <typename Scene>
     plan.shadow_photons =
         item("shadow photons", shadows,
              shadows ? "the general map keeps them" : "no map keeps them");
+    const bool films = has_thin_sheets(scene);
+    plan.thin_film = item("thin film", films,
+                          films ? "rays go straight on through the listed films"
+                                : "no material is one");
     const bool few = found.objects <= flat_loop_limit;
     plan.flat_loop = item("flat loop", few,
                           std::to_string(found.objects) +

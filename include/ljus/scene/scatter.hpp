@@ -79,7 +79,8 @@ template <std::floating_point T, typename Material>
 [[nodiscard]] std::optional<ScatteredT<T>>
 scatter(const SurfaceT<T>& surface, const Material& material, const Vec3T<T>& wo,
         const Vec3T<T>& u, Transport transport, Lobes which = Lobes::all) noexcept {
-    const auto next = sample(material, wo, u, transport, which);
+    const auto& here = material_at(material, surface.point.position);
+    const auto next = sample(here, wo, u, transport, which);
     if (!next) return std::nullopt;
     ScatteredT<T> scattered{*next, to_world(surface.frame, next->wi)};
     if (!surface.smooth) return scattered;
@@ -96,7 +97,7 @@ scatter(const SurfaceT<T>& surface, const Material& material, const Vec3T<T>& wo
     }
     if (!next->specular) return std::nullopt;
     const FrameT<T> flat = frame_around(geometric);
-    const auto again = sample(material, to_local(flat, back), u, transport, which);
+    const auto again = sample(here, to_local(flat, back), u, transport, which);
     if (!again || !again->specular) return std::nullopt;
     return ScatteredT<T>{*again, to_world(flat, again->wi)};
 }

@@ -99,6 +99,14 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
                 static_cast<long long>(material.index), "one that add() returned");
         radiance += visit_material(material, [](const auto& m) { return emission(m); });
 
+        const bool sheet = visit_material(material, [](const auto& m) {
+            return requires {
+                straight(m, Vec3T<Scalar>{}, Vec3T<Scalar>{});
+            };
+        });
+        require(!sheet || is_black(radiance), "the radiance of a thin sheet", radiance,
+                "black: light goes straight on through it");
+
         auto& array = std::get<std::vector<G>>(shapes);
         const ObjectId id{type_of<G, FirstShape, S...>(),
                           static_cast<std::uint32_t>(array.size())};

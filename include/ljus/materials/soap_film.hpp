@@ -1,0 +1,186 @@
+#pragma once
+
+/// \file ljus/materials/soap_film.hpp
+/// \brief A soap film: a sheet that lets light go straight on, but for some colours.
+
+#include <algorithm>
+
+#include "ljus/materials/bsdf.hpp"
+#include "ljus/optics/film_table.hpp"
+#include "ljus/optics/reflection.hpp"
+
+namespace ljus {
+
+/// \defgroup soap_film Soap films
+/// \brief The soap bubble of figure 4. Chapter: \ref ch_soap_film.
+///
+/// The film is a *thin sheet*: light that it does not reflect goes straight on, through
+/// both surfaces at once. That is no scattering but visibility; so sample() knows the
+/// reflection only, and straight() says how much is left; see thin_sheets.
+/// \{
+
+/// Where the colours come from.
+enum class FilmColor : std::uint8_t {
+    table,             ///< look_up(): the spectrum seen by an eye, baked beforehand.
+    three_wavelengths, ///< film_three()
+    preintegrated      ///< film_preintegrated()
+};
+
+/// A soap film between air and air, on both sides the same, thinner the higher up:
+/// \f$ d(z) = d_0\, e^{-z/h} \f$, as films are that hang under their own weight
+/// \cite pasquet2022.
+template <std::floating_point T>
+struct SoapFilmT {
+    using Scalar = T;              ///< The precision of its numbers.
+    T thickness = T(400);          ///< d_0 in nm, at the height of `level`; <= 1 mm.
+    T index = T(1.33);             ///< Of the liquid, at least 1.
+    T scale = T(0);                ///< h in scene units; 0: as thick everywhere.
+    Vec3T<T> level{T(0)};          ///< A point at whose height the film is d_0 thick.
+    Vec3T<T> up{T(0), T(0), T(1)}; ///< Against gravity; unit vector.
+    FilmColor color = FilmColor::preintegrated; ///< Which of the three.
+    FilmTableT<T> table{}; ///< Of bake_film_table(index), for FilmColor::table.
+};
+using SoapFilm = SoapFilmT<float>; ///< SoapFilmT in float.
+
+/// How thick a film can be here, in nm: 1 mm.
+template <std::floating_point T>
+inline constexpr T thickest_film = T(1e6);
+
+/// How thick a film is at a point.
+/// \param film      The film.
+/// \param position  The point.
+/// \return In nm, in [0, 1 mm].
+// [thickness_at]
+template <std::floating_point T>
+[[nodiscard]] T thickness_at(const SoapFilmT<T>& film,
+                             const Vec3T<T>& position) noexcept {
+    if (film.scale == T(0)) return film.thickness;
+    const T height = glm::dot(position - film.level, film.up);
+    const T thickness = film.thickness * std::exp(-height / film.scale);
+    // Written so that 0 times infinity, far below a film of no thickness, is thick.
+    return thickness < thickest_film<T> ? thickness : thickest_film<T>;
+}
+// [thickness_at]
+
+/// What a film reflects.
+/// \param film       The film.
+/// \param cos_theta  Cosine between ray and normal, of either sign.
+/// \param thickness  In nm.
+/// \return R for each channel, in [0, 1].
+// [film_reflectance]
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> reflectance(const SoapFilmT<T>& film, T cos_theta,
+                                  T thickness) noexcept {
+    const T c = std::min(std::abs(cos_theta), T(1));
+    switch (film.color) {
+    case FilmColor::table:
+        return look_up(film.table, c, thickness);
+    case FilmColor::three_wavelengths:
+        return film_three(c, film.index, thickness);
+    case FilmColor::preintegrated:
+        break;
+    }
+    return into_gamut(film_preintegrated(c, film.index, thickness));
+}
+// [film_reflectance]
+
+/// A point of a film: what the film is there.
+template <std::floating_point T>
+struct FilmPointT {
+    const SoapFilmT<T>& film; ///< Of which it is a point.
+    T thickness;              ///< In nm, here.
+};
+
+/// A film at a point; see material_at().
+/// \param film      The film; must outlive the result.
+/// \param position  The point.
+template <std::floating_point T>
+[[nodiscard]] FilmPointT<T> at_point(const SoapFilmT<T>& film,
+                                     const Vec3T<T>& position) noexcept {
+    return {film, thickness_at(film, position)};
+}
+
+/// What goes straight on through a film: all that is not reflected. A material with
+/// this function is a thin sheet.
+/// \param film      The film.
+/// \param position  Where.
+/// \param wo        Towards where the light goes.
+/// \return T = 1 - R for each channel.
+// [straight]
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> straight(const SoapFilmT<T>& film, const Vec3T<T>& position,
+                               const Vec3T<T>& wo) noexcept {
+    return RgbT<T>{T(1)} - reflectance(film, wo.z, thickness_at(film, position));
+}
+// [straight]
+
+/// What there is: one specular part.
+template <std::floating_point T>
+[[nodiscard]] constexpr Lobes lobes(const SoapFilmT<T>&) noexcept {
+    return Lobes::specular;
+}
+
+/// A film has no f in 1/sr.
+/// \return 0.
+template <std::floating_point T>
+[[nodiscard]] constexpr RgbT<T> evaluate(const SoapFilmT<T>&, const Vec3T<T>&,
+                                         const Vec3T<T>&) noexcept {
+    return RgbT<T>{T(0)};
+}
+
+/// The density of the parts that have one.
+/// \return 0.
+template <std::floating_point T>
+[[nodiscard]] constexpr T pdf(const SoapFilmT<T>&, const Vec3T<T>&, const Vec3T<T>&,
+                              Lobes = Lobes::all) noexcept {
+    return T(0);
+}
+
+/// The mirror direction, with the film's colour there as weight. What goes straight on
+/// is not sampled; see straight().
+/// \param point  A point of a film.
+/// \param wo     Towards where the light goes.
+/// \param which  The parts to sample from.
+/// \return The sample; nothing if `wo` lies on the surface or without Lobes::specular.
+/// \report{Figure 4}
+// [film sample]
+template <std::floating_point T>
+[[nodiscard]] std::optional<BsdfSampleT<T>>
+sample(const FilmPointT<T>& point, const Vec3T<T>& wo, const Vec3T<T>&,
+       Transport /*transport*/, Lobes which = Lobes::all) noexcept {
+    if (!has(which, Lobes::specular) || !(wo.z > T(0) || wo.z < T(0)))
+        return std::nullopt;
+    return specular_sample(reflect(wo), reflectance(point.film, wo.z, point.thickness));
+}
+// [film sample]
+
+/// The same for a film as thick as at its level.
+template <std::floating_point T>
+[[nodiscard]] std::optional<BsdfSampleT<T>>
+sample(const SoapFilmT<T>& film, const Vec3T<T>& wo, const Vec3T<T>& u,
+       Transport transport, Lobes which = Lobes::all) noexcept {
+    return sample(FilmPointT<T>{film, film.thickness}, wo, u, transport, which);
+}
+
+/// Refuses a film that cannot be.
+/// \param film  The film.
+/// \throws std::invalid_argument naming the member.
+template <std::floating_point T>
+void check(const SoapFilmT<T>& film) {
+    require(film.thickness >= T(0) && film.thickness <= thickest_film<T>,
+            "soap_film.thickness", film.thickness, "within [0, 1e6] nm");
+    require_index("soap_film.index", film.index);
+    require(film.index >= T(1), "soap_film.index", film.index, "at least 1");
+    require(std::isfinite(film.scale) && film.scale >= T(0), "soap_film.scale",
+            film.scale, "finite and at least 0");
+    require_finite("soap_film.level", film.level);
+    require(std::abs(glm::length(film.up) - T(1)) < T(1e-4), "soap_film.up", film.up,
+            "of length 1");
+    require(film.color != FilmColor::table || film.table.index == film.index,
+            "soap_film.table.index", film.table.index,
+            "soap_film.index: make it with bake_film_table(index)");
+}
+
+/// \}
+
+} // namespace ljus

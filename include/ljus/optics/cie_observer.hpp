@@ -1,0 +1,93 @@
+#pragma once
+
+/// \file ljus/optics/cie_observer.hpp
+/// \brief From a spectrum to three channels: the eye, as the CIE measured it in 1931.
+
+#include <algorithm>
+#include <cmath>
+
+#include "ljus/image/color.hpp"
+
+namespace ljus {
+
+/// \defgroup cie_observer The eye
+/// \brief What red, green and blue a spectrum is.
+/// \{
+
+/// One side of a bell has one width, the other side another.
+/// \param wavelength  In nm.
+/// \param center      In nm.
+/// \param left        Inverse width below the centre, 1/nm.
+/// \param right       Inverse width above it, 1/nm.
+/// \return In (0, 1], 1 at the centre.
+template <std::floating_point T>
+[[nodiscard]] T lopsided_bell(T wavelength, T center, T left, T right) noexcept {
+    const T x = (wavelength - center) * (wavelength < center ? left : right);
+    return std::exp(-x * x / T(2));
+}
+
+/// The colour matching functions of the CIE's standard observer of 1931, for 2 degrees,
+/// by a fit with seven bells: at most 0.03 from the table, where its values go up to
+/// 1.8.
+/// \param wavelength  In nm; light is seen from 380 to 780.
+/// \return \f$ \bar x, \bar y, \bar z \f$. The integral of each is 106.9 nm.
+/// \cost Seven exponentials.
+/// \cite wyman2013
+// [observer]
+template <std::floating_point T>
+[[nodiscard]] Vec3T<T> cie_observer(T wavelength) noexcept {
+    const auto bell = [&](double center, double left, double right) {
+        return lopsided_bell(wavelength, T(center), T(left), T(right));
+    };
+    return {T(0.362) * bell(442.0, 0.0624, 0.0374) +
+                T(1.056) * bell(599.8, 0.0264, 0.0323) -
+                T(0.065) * bell(501.1, 0.0490, 0.0382),
+            T(0.821) * bell(568.8, 0.0213, 0.0247) +
+                T(0.286) * bell(530.9, 0.0613, 0.0322),
+            T(1.217) * bell(437.0, 0.0845, 0.0278) +
+                T(0.681) * bell(459.0, 0.0385, 0.0725)};
+}
+// [observer]
+
+/// Linear sRGB of a colour, such that light of equal energy at all wavelengths, X = Y =
+/// Z = 1, is the screen's white: what reflects all light has to be (1, 1, 1), whatever
+/// the lamp. (X, Y and Z are scaled by those of the screen's white, and then the
+/// standard's matrix follows.)
+/// \param xyz  Relative to equal energy.
+/// \return Linear sRGB. A pure colour has a channel below 0: no screen shows it.
+// [xyz_to_rgb]
+template <std::floating_point T>
+[[nodiscard]] constexpr RgbT<T> xyz_to_rgb(const Vec3T<T>& xyz) noexcept {
+    // The rows of IEC 61966-2-1 times (0.95047, 1, 1.08883); they add up to 1.
+    constexpr T r[] = {T(3.2404542 * 0.95047), T(-1.5371385), T(-0.4985314 * 1.08883)};
+    constexpr T g[] = {T(-0.9692660 * 0.95047), T(1.8760108), T(0.0415560 * 1.08883)};
+    constexpr T b[] = {T(0.0556434 * 0.95047), T(-0.2040259), T(1.0572252 * 1.08883)};
+    const auto row = [&](const T(&m)[3]) {
+        return (m[0] * xyz.x + m[1] * xyz.y + m[2] * xyz.z) / (m[0] + m[1] + m[2]);
+    };
+    return {row(r), row(g), row(b)};
+}
+// [xyz_to_rgb]
+
+/// The colour that a screen can show and a surface can have, nearest to one that it
+/// cannot: mixed with as much grey of the same luminance as brings all channels into
+/// [0, 1]. Cutting the channels off instead would add light.
+/// \param c  Linear sRGB.
+/// \return The same luminance, if it lies in [0, 1]; each channel in [0, 1].
+// [into_gamut]
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> into_gamut(const RgbT<T>& c) noexcept {
+    const T grey = std::clamp(luminance(c), T(0), T(1));
+    T keep = T(1);
+    for (int i = 0; i < 3; ++i) {
+        if (c[i] < T(0)) keep = std::min(keep, grey / (grey - c[i]));
+        if (c[i] > T(1)) keep = std::min(keep, (T(1) - grey) / (c[i] - grey));
+    }
+    if (keep == T(1)) return c;
+    return glm::clamp(RgbT<T>{grey} + keep * (c - RgbT<T>{grey}), T(0), T(1));
+}
+// [into_gamut]
+
+/// \}
+
+} // namespace ljus

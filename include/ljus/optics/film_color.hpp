@@ -1,0 +1,160 @@
+#pragma once
+
+/// \file ljus/optics/film_color.hpp
+/// \brief The colours of thin films, three ways.
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "ljus/optics/cie_observer.hpp"
+#include "ljus/optics/thin_film.hpp"
+
+namespace ljus {
+
+/// \defgroup film_color Colours of thin films
+/// \brief A film's reflectance changes within the width of one channel: a spectrum must
+/// be seen by an eye before it is red, green and blue.
+/// \{
+
+/// The range of wavelengths that is summed over, in nm: what is outside is not seen.
+template <std::floating_point T>
+inline constexpr std::array<T, 2> visible{T(360), T(830)};
+
+/// What an eye sees of a spectrum.
+/// \param spectrum  Called with a wavelength in nm; 1 for white.
+/// \param step      Distance of the samples, nm.
+/// \return Linear sRGB, (1, 1, 1) for a spectrum of 1; may lie outside of what a screen
+///         can show.
+/// \cost 470 nm / step calls, and seven exponentials with each.
+// [seen]
+template <std::floating_point T, typename Spectrum>
+[[nodiscard]] RgbT<T> seen(Spectrum spectrum, T step = T(1)) {
+    const auto count =
+        static_cast<long long>(std::ceil((visible<T>[1] - visible<T>[0]) / step));
+    const T h = (visible<T>[1] - visible<T>[0]) / static_cast<T>(count);
+    Vec3T<T> sum{T(0)};
+    Vec3T<T> white{T(0)};
+    for (long long i = 0; i < count; ++i) {
+        const T wavelength = visible<T>[0] + (static_cast<T>(i) + T(0.5)) * h;
+        const Vec3T<T> eye = cie_observer(wavelength);
+        sum += eye * spectrum(wavelength);
+        white += eye;
+    }
+    return xyz_to_rgb(sum / white);
+}
+// [seen]
+
+/// The colour of a film: the reference. Samples of the spectrum are as close as the
+/// film's fringes ask for; the colour may lie outside of what a screen can show.
+/// \param cos_theta  Cosine outside, in [0, 1].
+/// \param index      Of the film, >= 1.
+/// \param thickness  In nm, >= 0.
+/// \return R as linear sRGB.
+/// \cost 470 wavelengths for a film of 400 nm, 10 000 times that for one of 1 mm.
+// [film_spectral]
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> film_spectral(T cos_theta, T index, T thickness) {
+    const T path = thickness * std::sqrt(film_cosine2(cos_theta, index));
+    // At the shortest wavelength the phase 4 pi path / lambda moves by 1/2 a sample.
+    const T finest = visible<T>[0] * visible<T>[0] /
+                     (T(8) * std::numbers::pi_v<T> * std::max(path, T(1)));
+    return seen<T>(
+        [&](T wavelength) {
+            return thin_film(cos_theta, index, thickness, wavelength).reflected;
+        },
+        std::min(T(1), finest));
+}
+// [film_spectral]
+
+/// The dominant wavelengths of a screen's red, green and blue, in nm.
+template <std::floating_point T>
+inline constexpr Vec3T<T> screen_wavelengths{T(611.4), T(549.1), T(464.3)};
+
+/// The colour of a film by three wavelengths, one a channel.
+/// \param cos_theta  Cosine outside, in [0, 1].
+/// \param index      Of the film, > 0.
+/// \param thickness  In nm, >= 0.
+/// \return R in [0, 1] for each channel: fringes never fade, however thick the film.
+/// \cost Three times thin_film().
+// [film_three]
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> film_three(T cos_theta, T index, T thickness) noexcept {
+    const auto at = [&](T wavelength) {
+        return thin_film(cos_theta, index, thickness, wavelength).reflected;
+    };
+    const Vec3T<T>& w = screen_wavelengths<T>;
+    return {at(w.x), at(w.y), at(w.z)};
+}
+// [film_three]
+
+/// How much of a wave that comes late an eye still sees swing: the Fourier transform of
+/// its sensitivity, by four Gaussians over the wave number.
+/// \param delay  By how much one wave comes later than the other, nm.
+/// \return The mean of cos(2 pi delay / wavelength), as linear sRGB: 1 for no delay,
+///         and towards 0 for a large one.
+/// \cost Four cosines and four exponentials.
+/// \cite belcour2017
+// [swing]
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> visible_swing(T delay) noexcept {
+    struct Gaussian {
+        T height, center, variance; // of wave numbers, 1/m and 1/m^2
+    };
+    constexpr Gaussian fit[] = {{T(5.4856e-13), T(1.6810e6), T(4.3278e9)},
+                                {T(4.4201e-13), T(1.7953e6), T(9.3046e9)},
+                                {T(5.2481e-13), T(2.2084e6), T(6.6121e9)},
+                                {T(9.7470e-14), T(2.2399e6), T(4.5282e9)}};
+    const T phase = T(2e-9) * std::numbers::pi_v<T> * delay;
+    const auto area = [](const Gaussian& g) {
+        return g.height * T(1e13) * std::sqrt(g.variance);
+    };
+    const auto swing = [&](const Gaussian& g) {
+        return area(g) * std::cos(g.center * phase) *
+               std::exp(-g.variance * phase * phase);
+    };
+    return xyz_to_rgb(
+        Vec3T<T>{(swing(fit[0]) + swing(fit[3])) / (area(fit[0]) + area(fit[3])),
+                 swing(fit[1]) / area(fit[1]), swing(fit[2]) / area(fit[2])});
+}
+// [swing]
+
+/// The colour of a film, integrated over the spectrum beforehand. A film's reflectance
+/// is a sum of waves that have been inside k times,
+///
+/// \f[ R = \frac{2R_1}{1 + R_1} - 2\,\frac{1 - R_1}{1 + R_1} \sum_{k \ge 1} R_1^k
+///     \cos 2k\varphi \f]
+///
+/// and the eye's mean of each cosine is known; three of them are taken.
+/// \param cos_theta  Cosine outside, in [0, 1].
+/// \param index      Of the film, >= 1.
+/// \param thickness  In nm, >= 0.
+/// \return R as linear sRGB; may lie outside of what a screen can show.
+/// \cost Three times visible_swing().
+/// \cite belcour2017
+// [preintegrated]
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> film_preintegrated(T cos_theta, T index, T thickness) noexcept {
+    const T c = cos_theta;
+    const T g = std::sqrt(film_cosine2(c, index));
+    if (g == T(0)) return RgbT<T>{T(0)}; // along the surface of nothing
+    const auto square = [](T x) { return x * x; };
+    const T n2 = index * index;
+    const T one_surface[] = {square((c - g) / (c + g)),
+                             square((n2 * c - g) / (n2 * c + g))};
+    const T delay = T(2) * thickness * g;
+    const RgbT<T> swings[] = {visible_swing(delay), visible_swing(T(2) * delay),
+                              visible_swing(T(3) * delay)};
+    RgbT<T> sum{T(0)};
+    for (const T r : one_surface) {
+        const RgbT<T> waves =
+            r * (swings[0] + r * (swings[1] + r * swings[2])); // of what goes through
+        sum += (r - (T(1) - r) * waves) / (T(1) + r);
+    }
+    return sum; // twice the mean of two
+}
+// [preintegrated]
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,138 @@
+#pragma once
+
+/// \file ljus/optics/film_table.hpp
+/// \brief The colours of all films of one liquid, in a table.
+
+#include <cmath>
+#include <vector>
+
+#include "ljus/optics/film_color.hpp"
+#include "ljus/optics/refraction.hpp"
+
+namespace ljus {
+
+/// \addtogroup film_color
+/// \{
+
+/// The colours of films of one index, over angle and optical path: evenly spaced
+/// in the square root of the cosine, because a film turns into a mirror just before the
+/// grazing angle, and in the square root of the path n d cos(theta_t), because the
+/// fringes run along it and fade.
+template <std::floating_point T>
+struct FilmTableT {
+    T index = T(0);               ///< Of the films; 0 if the table is not made.
+    int cosines = 0;              ///< Columns: the cosine's root from 0 to 1.
+    int paths = 0;                ///< Rows: the path's root from 0 on, and the mean.
+    T longest = T(0);             ///< Path in nm, above which colours have faded.
+    std::vector<RgbT<T>> cells{}; ///< Row by row; in [0, 1].
+    int greyed = 0;               ///< Cells that no screen shows: see into_gamut().
+    T worst = T(0);               ///< The most negative channel that a cell had.
+};
+using FilmTable = FilmTableT<float>; ///< FilmTableT in float.
+
+/// How fine a table is.
+struct FilmTableSize {
+    int cosines = 65;      ///< At least 2.
+    int paths = 641;       ///< At least 2, without the row of the mean.
+    double longest = 4000; ///< In nm.
+};
+
+/// Makes the table of one index, in double.
+/// \param index  In [1, 1000].
+/// \param size   How fine; by default 42 000 colours, half a megabyte in float.
+/// \return The table.
+/// \throws std::invalid_argument  for an index or a size out of range.
+/// \cost By default 10 million samples: about 0.1 s.
+// [bake]
+template <std::floating_point T = float>
+[[nodiscard]] FilmTableT<T> bake_film_table(T index, const FilmTableSize& size = {}) {
+    require_index("the index of a film", index);
+    require(index >= T(1), "the index of a film", index, "at least 1");
+    require(size.cosines >= 2, "cosines", static_cast<long long>(size.cosines),
+            "at least 2");
+    require(size.paths >= 2, "paths", static_cast<long long>(size.paths), "at least 2");
+    require_positive("longest", size.longest);
+
+    // As close as the fringes of the longest path ask for, see film_spectral().
+    const double n = double(index);
+    const double finest =
+        visible<double>[0] * visible<double>[0] / (4 * std::numbers::pi * size.longest);
+    const int count = static_cast<int>(
+        std::ceil((visible<double>[1] - visible<double>[0]) / std::min(2.0, finest)));
+    const double step = (visible<double>[1] - visible<double>[0]) / count;
+    std::vector<Vec3T<double>> eye;
+    Vec3T<double> white{0};
+    const auto wavelength = [&](int i) {
+        return visible<double>[0] + (i + 0.5) * step;
+    };
+    for (int i = 0; i < count; ++i)
+        white += eye.emplace_back(cie_observer(wavelength(i)));
+
+    FilmTableT<T> table{.index = index,
+                        .cosines = size.cosines,
+                        .paths = size.paths,
+                        .longest = static_cast<T>(size.longest)};
+    table.cells.reserve(static_cast<std::size_t>(size.cosines) *
+                        static_cast<std::size_t>(size.paths + 1));
+    const auto add = [&](const RgbT<double>& color) {
+        const RgbT<double> shown = into_gamut(color);
+        if (shown != color) ++table.greyed;
+        table.worst = std::min(table.worst, static_cast<T>(-max_component(-color)));
+        table.cells.push_back(RgbT<T>(shown));
+    };
+    const auto cosine = [&](int i) {
+        const double root = double(i) / (size.cosines - 1);
+        return root * root;
+    };
+    std::vector<double> sines(eye.size());
+    for (int row = 0; row < size.paths; ++row) {
+        const double root = double(row) / (size.paths - 1);
+        const double path = size.longest * root * root;
+        for (int i = 0; i < count; ++i)
+            sines[static_cast<std::size_t>(i)] =
+                std::sin(2 * std::numbers::pi * path / wavelength(i));
+        for (int column = 0; column < size.cosines; ++column) {
+            const double c = cosine(column);
+            const double g = std::sqrt(film_cosine2(c, n));
+            const double strength = g > 0 ? (n - 1) * (n + 1) / g : 0.0;
+            Vec3T<double> sum{0};
+            for (std::size_t i = 0; i < eye.size(); ++i)
+                sum += eye[i] * film_shares(c, n, strength * sines[i]).reflected;
+            add(xyz_to_rgb(sum / white));
+        }
+    }
+    for (int column = 0; column < size.cosines; ++column)
+        add(RgbT<double>{thick_film(cosine(column), n)});
+    return table;
+}
+// [bake]
+
+/// The colour of a film from its table: bilinear, and the mean beyond the longest path.
+/// \param table      Of bake_film_table().
+/// \param cos_theta  Cosine outside, in [0, 1].
+/// \param thickness  In nm, >= 0.
+/// \return R as linear sRGB, each channel in [0, 1].
+/// \cost Three square roots, a division and four cells of memory.
+// [look_up]
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> look_up(const FilmTableT<T>& table, T cos_theta,
+                              T thickness) noexcept {
+    const T path = thickness * std::sqrt(film_cosine2(cos_theta, table.index));
+    const T y = std::sqrt(path / table.longest) * static_cast<T>(table.paths - 1);
+    const T x = std::sqrt(cos_theta) * static_cast<T>(table.cosines - 1);
+    const int column = std::min(static_cast<int>(x), table.cosines - 2);
+    const T right = x - static_cast<T>(column);
+    const auto in_row = [&](int row) {
+        const auto* cell = table.cells.data() + row * table.cosines + column;
+        return glm::mix(cell[0], cell[1], right);
+    };
+    // Written so that infinity and NaN are thick.
+    if (!(y < static_cast<T>(table.paths - 1))) return in_row(table.paths);
+    const int row = static_cast<int>(y);
+    return glm::mix(in_row(row), in_row(row + 1), y - static_cast<T>(row));
+}
+// [look_up]
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,119 @@
+#pragma once
+
+/// \file ljus/optics/thin_film.hpp
+/// \brief Light that meets itself: what a film as thin as a wavelength reflects.
+
+#include <cmath>
+#include <numbers>
+
+#include "ljus/math/vector.hpp"
+
+namespace ljus {
+
+/// \defgroup thin_film Thin films
+/// \brief The soap bubble of figure 4.
+///
+/// A film has two surfaces. Light that the second one reflects comes out later than
+/// that of the first, and what comes out together adds up as waves do.
+/// \{
+
+/// What a film does with the light of one wavelength.
+template <std::floating_point T>
+struct FilmSharesT {
+    T reflected = T(0);   ///< R.
+    T transmitted = T(1); ///< T: R + T = 1.
+};
+
+/// \f$ (n_t \cos\theta_t)^2 \f$, which is the square of the cosine *in* the film times
+/// that of the index: \f$ \cos^2\theta + (n - 1)(n + 1) \f$, without cancellation.
+/// \param cos_theta  Outside.
+/// \param index      Of the film.
+/// \return Below 0 if nothing is refracted into the film.
+template <std::floating_point T>
+[[nodiscard]] constexpr T film_cosine2(T cos_theta, T index) noexcept {
+    return cos_theta * cos_theta + (index - T(1)) * (index + T(1));
+}
+
+/// Both shares, the mean of two polarisations, from how strongly waves beat.
+/// \param cos_theta  Outside, in [0, 1].
+/// \param index      Of the film, > 0.
+/// \param beat       \f$ q = (n^2 - 1) \sin\varphi / g \f$; see thin_film().
+/// \return The shares.
+/// \cost Four divisions.
+// [film_shares]
+template <std::floating_point T>
+[[nodiscard]] FilmSharesT<T> film_shares(T cos_theta, T index, T beat) noexcept {
+    const T c2 = cos_theta * cos_theta;
+    const T sin2 = (T(1) - cos_theta) * (T(1) + cos_theta);
+    const T p = beat * (c2 - sin2 / (index * index)); // 0 at Brewster's angle
+    const auto shares = [&](T q) {
+        // A film of no thickness does nothing, even at the grazing angle.
+        if (q == T(0)) return FilmSharesT<T>{};
+        const T ratio = T(4) * c2 / (q * q);
+        return FilmSharesT<T>{T(1) / (T(1) + ratio), ratio / (T(1) + ratio)};
+    };
+    const auto s_wave = shares(beat);
+    const auto p_wave = shares(p);
+    return {(s_wave.reflected + p_wave.reflected) / T(2),
+            (s_wave.transmitted + p_wave.transmitted) / T(2)};
+}
+// [film_shares]
+
+/// What a film between air and air reflects and transmits at one wavelength, with all
+/// the reflections inside it: the sum of Airy's series,
+///
+/// \f[ R = \frac{F \sin^2\varphi}{1 + F \sin^2\varphi}, \quad
+///     F = \frac{4 R_1}{(1 - R_1)^2}, \quad
+///     \varphi = \frac{2\pi}{\lambda}\, n\, d \cos\theta_t \f]
+///
+/// for each polarisation, with R_1 of one surface. It is evaluated as
+/// \f$ F \sin^2\varphi = q^2 / 4\cos^2\theta \f$ with
+/// \f$ q = (n^2 - 1) \sin\varphi / g \f$, \f$ g = n \cos\theta_t \f$, for waves that
+/// swing across the plane of incidence, and q times \f$ \cos^2\theta -
+/// \sin^2\theta/n^2 \f$ for those within it. Nothing cancels, R + T = 1, and where
+/// nothing is refracted (n < 1) the sine becomes a hyperbolic one: light tunnels.
+/// \param cos_theta   Cosine between ray and normal, outside, in [0, 1].
+/// \param index       Of the film, > 0.
+/// \param thickness   >= 0, in the unit of the wavelength.
+/// \param wavelength  In air, > 0.
+/// \return The shares: R = 0 for a film of no thickness.
+/// \cost A square root, a sine and five divisions.
+/// \cite bornwolf1999
+// [thin_film]
+template <std::floating_point T>
+[[nodiscard]] FilmSharesT<T> thin_film(T cos_theta, T index, T thickness,
+                                       T wavelength) noexcept {
+    const T g2 = film_cosine2(cos_theta, index);
+    const T g = std::sqrt(std::abs(g2));
+    const T per_g = T(2) * std::numbers::pi_v<T> * thickness / wavelength;
+    const T wave = g == T(0)   ? per_g
+                   : g2 > T(0) ? std::sin(per_g * g) / g
+                               : std::sinh(per_g * g) / g;
+    return film_shares(cos_theta, index, (index - T(1)) * (index + T(1)) * wave);
+}
+// [thin_film]
+
+/// The mean of a film's reflectance over all phases: what a film reflects that is so
+/// thick that light does not meet itself. For both waves \f$ 1 - 1/\sqrt{1 + F} =
+/// 2R_1/(1 + R_1) \f$.
+/// \param cos_theta  Cosine outside, in [0, 1].
+/// \param index      Of the film, >= 1.
+/// \return In [0, 1].
+template <std::floating_point T>
+[[nodiscard]] T thick_film(T cos_theta, T index) noexcept {
+    const T c = cos_theta;
+    const T contrast = (index - T(1)) * (index + T(1));
+    if (contrast == T(0)) return T(0);
+    const T q = contrast / std::sqrt(film_cosine2(c, index));
+    const T sin2 = (T(1) - c) * (T(1) + c);
+    const auto mean = [&](T q_of_wave) {
+        const T root = std::hypot(T(2) * c, q_of_wave);
+        // 1 - 2c/root, without the difference.
+        return root > T(0) ? q_of_wave * q_of_wave / (root * (root + T(2) * c)) : T(0);
+    };
+    return (mean(q) + mean(q * (c * c - sin2 / (index * index)))) / T(2);
+}
+
+/// \}
+
+} // namespace ljus

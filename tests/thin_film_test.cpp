@@ -1,0 +1,281 @@
+// needs: boost
+/// \file thin_film_test.cpp
+/// \brief Airy's sum against Airy's series and matrices in 50 digits; the colours
+/// against the spectrum.
+
+#include "ljus/optics/thin_film.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <boost/multiprecision/cpp_complex.hpp>
+
+#include "ljus/optics/film_table.hpp"
+#include "support/draws.hpp"
+
+using ljus_test::Draws;
+
+namespace {
+
+using Complex = boost::multiprecision::cpp_complex_50;
+using Real = Complex::value_type;
+
+Real full_turn() {
+    return 8 * atan(Real(1));
+}
+
+/// The film as a matrix between the fields at its two faces (Born and Wolf, 1.6), with
+/// a complex cosine inside. R, and T of its own: not one minus R.
+std::array<Real, 2> by_matrix(const Real& c, const Real& n, const Real& turns) {
+    const Complex one(1, 0), i(0, 1), cosine(c, 0), index(n, 0);
+    const Complex inside = sqrt(one - (one - cosine * cosine) / (index * index));
+    const Complex phase = Complex(full_turn() * turns, 0) * index * inside;
+    Real reflected = 0, transmitted = 0;
+    for (const bool s : {true, false}) {
+        const Complex air = s ? cosine : one / cosine;
+        const Complex film = s ? index * inside : index / inside;
+        const Complex b = cos(phase) + i * sin(phase) * air / film;
+        const Complex d = i * sin(phase) * film + cos(phase) * air;
+        reflected += norm((air * b - d) / (air * b + d)) / 2;
+        transmitted += norm(Complex(2, 0) * air / (air * b + d)) / 2;
+    }
+    return {reflected, transmitted};
+}
+
+/// Airy's series, wave by wave: the first surface, and then each time round once more.
+Real by_series(const Real& c, const Real& n, const Real& turns) {
+    const Real inside = sqrt(1 - (1 - c * c) / (n * n));
+    const Real delay = 2 * full_turn() * turns * n * inside;
+    const Complex round(cos(delay), sin(delay));
+    Real sum = 0;
+    for (const bool s : {true, false}) {
+        const Real r = s ? (c - n * inside) / (c + n * inside)
+                         : (n * c - inside) / (n * c + inside);
+        // t t' = 1 - r^2; the second surface reflects with -r from within.
+        Complex wave = Complex(-r * (1 - r * r), 0) * round;
+        Complex field(r, 0);
+        for (int k = 0; k < 4000 && norm(wave) > Real(1e-90); ++k) {
+            field += wave;
+            wave *= Complex(r * r, 0) * round;
+        }
+        sum += norm(field) / 2;
+    }
+    return sum;
+}
+
+} // namespace
+
+TEST_CASE("thin film: the series of waves and the matrix say the same") {
+    Draws draws;
+    for (int i = 0; i < 40; ++i) {
+        const Real c = draws.between(0.2, 1.0), n = draws.between(1.01, 2.5);
+        const Real turns = draws.between(0.0, 4.0);
+        const auto [r, t] = by_matrix(c, n, turns);
+        CHECK(abs(r + t - 1) < Real(1e-40));
+        CHECK(abs(r - by_series(c, n, turns)) < Real(1e-40));
+    }
+}
+
+TEST_CASE_TEMPLATE("thin film: any index, angle and thickness, as in 50 digits", T,
+                   float, double) {
+    Draws draws{3};
+    const double u = std::numeric_limits<T>::epsilon() / 2;
+    double worst = 0;
+    for (int i = 0; i < 2000; ++i) {
+        T c = draws.between<T>(T(0.001), T(1));
+        if (i % 4 == 1) c = static_cast<T>(std::pow(10.0, draws.between(-5., 0.)));
+        const T n = static_cast<T>(std::pow(10.0, draws.between(-0.5, 0.7)));
+        const T d = static_cast<T>(std::pow(10.0, draws.between(-2.0, 3.5)));
+        const T wavelength = draws.between<T>(T(380), T(780));
+        const auto found = ljus::thin_film(c, n, d, wavelength);
+        REQUIRE(found.reflected >= 0);
+        REQUIRE(found.reflected <= 1);
+        REQUIRE(double(found.reflected) + double(found.transmitted) ==
+                doctest::Approx(1).epsilon(4 * u));
+        const auto exact = [&](const Real& cosine, const Real& index, const Real& m) {
+            return by_matrix(cosine, index, m);
+        };
+        const Real turns = Real(d) / Real(wavelength);
+        const auto [r, t] = exact(c, n, turns);
+        Real unit = u;
+        for (const Real& moved : {exact(Real(c) * (1 - Real(u)), n, turns)[0],
+                                  exact(c, Real(n) * (1 + Real(u)), turns)[0],
+                                  exact(c, n, turns * (1 + Real(u)))[0]})
+            unit += abs(moved - r);
+        worst = std::max(
+            worst,
+            (abs(Real(found.reflected) - r) / unit).template convert_to<double>());
+        worst = std::max(
+            worst,
+            (abs(Real(found.transmitted) - t) / unit).template convert_to<double>());
+    }
+    MESSAGE("largest error ", worst, " times u + what the rounding of the inputs does");
+    CHECK(worst <= 12);
+}
+
+TEST_CASE("thin film: the numbers of a soap film") {
+    const auto r = [](double thickness) {
+        return ljus::thin_film(1.0, 1.33, thickness, 550.0).reflected;
+    };
+    CHECK(r(0) == 0);
+    CHECK(r(10) == doctest::Approx(0.0019).epsilon(0.01)); // black
+    double most = 0, at = 0;
+    for (int i = 0; i <= 20000; ++i)
+        if (const double d = 0.01 * i; r(d) > most) {
+            most = r(d);
+            at = d;
+        }
+    CHECK(at == doctest::Approx(550 / (4 * 1.33)).epsilon(1e-4)); // 103.4 nm
+    const double r0 = std::pow(0.33 / 2.33, 2);
+    CHECK(most == doctest::Approx(4 * r0 / ((1 + r0) * (1 + r0))).epsilon(1e-9));
+    CHECK(most == doctest::Approx(0.0771).epsilon(1e-3));
+    CHECK(r(2 * at) < 1e-6); // twice as thick, nothing comes back
+    CHECK(ljus::thick_film(1.0, 1.33) ==
+          doctest::Approx(2 * r0 / (1 + r0)).epsilon(1e-12));
+    CHECK(ljus::thick_film(1.0, 1.33) == doctest::Approx(0.0393).epsilon(1e-3));
+}
+
+TEST_CASE("thin film: all light is reflected or goes through, to 1e-12") {
+    Draws draws{5};
+    for (int i = 0; i < 100000; ++i) {
+        const double c = i % 10 == 0 ? 0.0 : draws.unit<double>();
+        const double n = draws.between(1.0, 3.0);
+        const double d = i % 7 == 0 ? 0.0 : draws.between(0.0, 1e6);
+        const auto film = ljus::thin_film(c, n, d, draws.between(360.0, 830.0));
+        REQUIRE(std::abs(film.reflected + film.transmitted - 1) <= 1e-12);
+        REQUIRE(film.reflected >= 0);
+        if (d == 0) REQUIRE(film.reflected == 0);
+        const double mean = ljus::thick_film(c, n);
+        REQUIRE(mean >= 0);
+        REQUIRE(mean <= 1);
+    }
+}
+
+TEST_CASE("thin film: where nothing is refracted, light tunnels through a thin gap") {
+    // A gap of air within glass: 1/1.5, at 60 degrees. As thick as the wavelength it is
+    // a mirror, as thin as a tenth it is not.
+    CHECK(ljus::thin_film(0.5, 1 / 1.5, 600.0, 600.0).reflected > 0.99);
+    CHECK(ljus::thin_film(0.5, 1 / 1.5, 60.0, 600.0).reflected < 0.6);
+    CHECK(ljus::thin_film(0.5, 1 / 1.5, 1e9, 600.0).reflected == 1); // sinh is infinite
+    CHECK(ljus::thin_film(0.5, 1 / 1.5, 1e9, 600.0).transmitted == 0);
+}
+
+TEST_CASE("observer: near the CIE's table, and each function has the same integral") {
+    const double table[][4] = {{450, 0.3362, 0.0380, 1.7721},
+                               {500, 0.0049, 0.3230, 0.2720},
+                               {555, 0.5121, 1.0000, 0.0057},
+                               {600, 1.0622, 0.6310, 0.0008},
+                               {650, 0.2835, 0.1070, 0.0000}};
+    for (const auto& row : table) {
+        const auto eye = ljus::cie_observer(row[0]);
+        for (int i = 0; i < 3; ++i) CHECK(std::abs(eye[i] - row[i + 1]) < 0.03);
+    }
+    glm::dvec3 sum{0};
+    for (int nm = 360; nm < 830; ++nm) sum += ljus::cie_observer(nm + 0.5);
+    for (int i = 0; i < 3; ++i) CHECK(sum[i] == doctest::Approx(106.9).epsilon(5e-3));
+    // A flat spectrum is white; light of 550 nm alone is greener than any screen.
+    const auto white = ljus::seen<double>([](double) { return 1.0; });
+    for (int i = 0; i < 3; ++i) CHECK(white[i] == doctest::Approx(1).epsilon(1e-12));
+    CHECK(ljus::xyz_to_rgb(ljus::cie_observer(550.0)).x < 0);
+}
+
+TEST_CASE("observer: a colour that cannot be shown keeps its luminance") {
+    Draws draws{7};
+    for (int i = 0; i < 10000; ++i) {
+        const glm::dvec3 c{draws.between(-0.5, 1.5), draws.between(-0.5, 1.5),
+                           draws.between(-0.5, 1.5)};
+        const double y = ljus::luminance(c);
+        const glm::dvec3 shown = ljus::into_gamut(c);
+        for (int k = 0; k < 3; ++k) {
+            REQUIRE(shown[k] >= 0);
+            REQUIRE(shown[k] <= 1);
+        }
+        if (y >= 0 && y <= 1)
+            REQUIRE(ljus::luminance(shown) == doctest::Approx(y).epsilon(1e-12));
+    }
+    const glm::dvec3 possible{0.2, 0.3, 0.4};
+    CHECK(ljus::into_gamut(possible) == possible);
+}
+
+TEST_CASE("film colours: black without thickness, grey with a millimetre") {
+    for (const double c : {1.0, 0.7, 0.3}) {
+        const auto black = ljus::film_spectral(c, 1.33, 0.0);
+        const auto grey = ljus::film_spectral(c, 1.33, 1e6);
+        for (int i = 0; i < 3; ++i) {
+            CHECK(black[i] == 0);
+            CHECK(grey[i] == doctest::Approx(ljus::thick_film(c, 1.33)).epsilon(1e-5));
+            CHECK(ljus::film_preintegrated(c, 1.33, 1e6)[i] ==
+                  doctest::Approx(ljus::thick_film(c, 1.33)).epsilon(1e-9));
+            CHECK(std::abs(ljus::film_preintegrated(c, 1.33, 0.0)[i]) < 5e-3);
+        }
+    }
+    // By three wavelengths a film of 1 mm is still coloured: wrong.
+    const auto three = ljus::film_three(1.0, 1.33, 1e6);
+    CHECK(three.z < 0.1 * three.x);
+}
+
+TEST_CASE("film colours: the integrals made beforehand are near the spectrum") {
+    double worst = 0, three = 0;
+    for (int d = 0; d <= 1500; d += 10)
+        for (const double c : {1.0, 0.8, 0.6}) {
+            const auto right = ljus::film_spectral(c, 1.33, double(d));
+            const auto distance = [&](const glm::dvec3& color) {
+                return ljus::max_component(glm::abs(color - right));
+            };
+            worst =
+                std::max(worst, distance(ljus::film_preintegrated(c, 1.33, double(d))));
+            three = std::max(three, distance(ljus::film_three(c, 1.33, double(d))));
+        }
+    MESSAGE("largest distance ", worst, ", of three wavelengths ", three);
+    CHECK(worst < 0.012);
+    CHECK(three > 0.04);
+}
+
+TEST_CASE(
+    "film table: as the spectrum, from the thinnest film (5 nm) to the thickest") {
+    const auto table = ljus::bake_film_table(1.33);
+    CHECK(table.greyed > 0);
+    CHECK(table.worst < 0);
+    Draws draws{11};
+    double worst = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const double c = i % 3 == 0 ? std::pow(10.0, draws.between(-3.0, 0.0))
+                                    : draws.unit<double>();
+        const double d = i % 5 == 0 ? std::pow(10.0, draws.between(0.7, 1.0))
+                                    : draws.between(0.0, 3500.0);
+        const auto right = ljus::into_gamut(ljus::film_spectral(c, 1.33, d));
+        const auto found = ljus::look_up(table, c, d);
+        worst = std::max(worst, ljus::max_component(glm::abs(found - right)));
+        for (int k = 0; k < 3; ++k) {
+            REQUIRE(found[k] >= 0);
+            REQUIRE(found[k] <= 1);
+        }
+    }
+    MESSAGE("largest distance ", worst);
+    CHECK(worst < 0.04); // at grazing angles, where R goes from 0.1 to 1
+    // Thicker than the table: the mean. At both ends of both axes.
+    for (const double c : {0.0, 0.25, 1.0}) {
+        CHECK(ljus::look_up(table, c, 1e6).x ==
+              doctest::Approx(ljus::thick_film(c, 1.33)).epsilon(2e-3));
+        CHECK(ljus::look_up(table, c, 0.0) == glm::dvec3(0));
+    }
+    CHECK(std::isfinite(ljus::look_up(table, 1.0, double(INFINITY)).x));
+    CHECK(std::isfinite(ljus::look_up(table, 0.5, double(NAN)).x));
+}
+
+TEST_CASE("film table: an index or a size that cannot be is refused by name") {
+    for (const float index : {0.0f, -1.0f, 0.9f, NAN, INFINITY})
+        CHECK_THROWS_AS((void)ljus::bake_film_table(index), std::invalid_argument);
+    CHECK_THROWS_AS((void)ljus::bake_film_table(1.33f, {.cosines = 1}),
+                    std::invalid_argument);
+    CHECK_THROWS_AS((void)ljus::bake_film_table(1.33f, {.paths = 1}),
+                    std::invalid_argument);
+    CHECK_THROWS_AS((void)ljus::bake_film_table(1.33f, {.longest = 0}),
+                    std::invalid_argument);
+    const auto none = ljus::bake_film_table(1.0f, {.cosines = 2, .paths = 2});
+    for (const auto& cell : none.cells) CHECK(cell == ljus::Rgb{0}); // air is no film
+}
