@@ -222,6 +222,49 @@ TEST_CASE("load_json: numbers of vertices are checked") {
           "a.json: objects[3].indices is 7; it must be a list.");
 }
 
+// The good scene with another glass.
+static std::string with(const std::string& material) {
+    return changed("{\"type\": \"dielectric\", \"ior\": 1.5}", material);
+}
+
+TEST_CASE("load_json: metal, rough matt, gloss and checkers") {
+    const auto first = [](const std::string& material, auto type) {
+        const LoadedScene loaded = read_json_scene(with(material), "a.json");
+        return std::get<std::vector<decltype(type)>>(loaded.scene.materials).at(0);
+    };
+    CHECK(first(R"({"type": "metal", "metal": "silver"})", Metal{}).index.k ==
+          silver<float>.k);
+    const Eon eon =
+        first(R"({"type": "eon", "albedo": [0.5, 0.25, 1], "roughness": 0.5})", Eon{});
+    CHECK(eon.albedo == Rgb{0.5f, 0.25f, 1});
+    CHECK(eon.roughness == 0.5f);
+    const Glossy gloss =
+        first(R"({"type": "glossy", "reflectance": [0.5, 0.25, 1], "roughness": 0.25})",
+              Glossy{});
+    CHECK(gloss.reflectance == Rgb{0.5f, 0.25f, 1});
+    CHECK(gloss.roughness == 0.25f);
+    const auto board = first(R"({"type": "checker", "even": [1, 1, 1], "odd": [0, 0, 0],
+        "origin": [1, 2, 3], "edge_u": [2, 0, 0], "edge_v": [0, 0, 4]})",
+                             Textured<Lambertian, Checker>{});
+    CHECK(board.texture.map.edge_v == Vec3{0, 0, 4});
+    CHECK(material_at(board, Vec3{1.5f, 0, 3.5f}).albedo == Rgb{1});
+    CHECK(material_at(board, Vec3{2.5f, 0, 3.5f}).albedo == Rgb{0});
+
+    CHECK(
+        refusal(with(R"({"type": "metal", "metal": "tin"})")) ==
+        "a.json: materials.glass.metal is \"tin\"; it must be gold, copper or silver.");
+    CHECK(refusal(with(
+              R"({"type": "glossy", "reflectance": [1, 1, 1], "roughness": 0.001})")) ==
+          "a.json: materials.glass.roughness is 0.001; it must be 0 or within [0.01, "
+          "1].");
+    CHECK(refusal(with(R"({"type": "eon", "albedo": [1, 1, 1], "roughness": 2})")) ==
+          "a.json: materials.glass.roughness is 2; it must be within [0, 1].");
+    CHECK(refusal(with(R"({"type": "checker", "even": [1, 1, 1], "odd": [0, 0, 0],
+        "origin": [1, 2, 3], "edge_u": [0, 0, 0], "edge_v": [0, 0, 4]})")) ==
+          "a.json: materials.glass.edge_u is [0,0,0]; it must be a vector that is not "
+          "0.");
+}
+
 TEST_CASE("load_json: unknown and missing fields, types and materials are named") {
     CHECK(refusal("\"radius\": 0.75", "\"radios\": 0.75") ==
           "a.json: objects[2].radios is not known; the fields here are type, name, "
@@ -241,7 +284,7 @@ TEST_CASE("load_json: unknown and missing fields, types and materials are named"
           std::string::npos);
     CHECK(refusal("\"type\": \"dielectric\"", "\"type\": \"crystal\"") ==
           "a.json: materials.glass.type is \"crystal\"; it must be lambertian, "
-          "oren-nayar, mirror or dielectric.");
+          "oren-nayar, mirror, dielectric, eon, metal, glossy or checker.");
     CHECK(refusal("\"type\": \"sphere\"", "\"type\": \"cube\"") ==
           "a.json: objects[2].type is \"cube\"; it must be sphere, triangles or mesh.");
     CHECK(refusal("\"type\": \"sphere\", ", "") ==

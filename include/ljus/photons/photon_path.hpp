@@ -228,7 +228,7 @@ void trace(const Scene& scene, PhotonLaw law, const FlightT<T>& flight,
             mark(photon, surface, material, law, out);
             return send_on(photon, surface, material, law, stream, audit);
         };
-        if (!scene.visit_material(made_of, at_material)) return;
+        if (!visit_material_of(scene, surface, at_material)) return;
     }
     add_to(audit.cut);
 }

@@ -163,7 +163,7 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
             return send_on(path, at, material, Lobes::all, depth == limits.max_depth,
                            stream, log);
         };
-        if (!scene.visit_material(at.surface.object.material, at_material)) break;
+        if (!visit_material_of(scene, at.surface, at_material)) break;
         if (is_black(path.throughput)) break;
         if (depth >= limits.roulette_depth &&
             !survives(path.throughput, path.squeeze, next_1d<T>(stream)))

@@ -56,7 +56,7 @@ template <typename Scene, std::floating_point T>
             pixel(image, x, y) =
                 shines ? RgbT<T>{T(0.5)}
                        : T(0.16) * (T(0.3) + T(0.7) * std::abs(wo.z)) *
-                             scene.visit_material(surface.object.material, own_color);
+                             visit_material_of(scene, surface, own_color);
         }
     return image;
 }

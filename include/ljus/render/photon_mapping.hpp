@@ -186,8 +186,7 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
                                by_rays ? Lobes::all : Lobes::specular, false, stream,
                                log);
             };
-            if (!mapper.scene.visit_material(at.surface.object.material, at_material))
-                return;
+            if (!visit_material_of(mapper.scene, at.surface, at_material)) return;
             if (is_black(path.throughput)) return;
             if (depth >= settings.roulette_depth &&
                 !survives(path.throughput, path.squeeze, next_1d<T>(stream)))

@@ -11,11 +11,8 @@
 #include "ljus/geometry/pair_triangles.hpp"
 #include "ljus/image/file.hpp"
 #include "ljus/image/image.hpp"
-#include "ljus/materials/glass.hpp"
-#include "ljus/materials/lambertian.hpp"
-#include "ljus/materials/mirror.hpp"
-#include "ljus/materials/oren_nayar.hpp"
 #include "ljus/scene/camera.hpp"
+#include "ljus/scene/json_materials.hpp"
 #include "ljus/scene/parse_json.hpp"
 #include "ljus/scene/scene.hpp"
 
@@ -31,12 +28,7 @@ namespace ljus {
 ///      "objects": [{"type": "sphere", "material": "grey", "center": [0, 1, 0],
 ///                   "radius": 1, "emission": [2, 2, 2]}]}
 ///
-/// | `type` of a material | its fields                                             |
-/// |----------------------|--------------------------------------------------------|
-/// | lambertian           | albedo                                                 |
-/// | oren-nayar           | albedo, sigma_deg: the slope angle's deviation, degrees |
-/// | mirror               | reflectance                                            |
-/// | dielectric           | ior: smooth, clear glass                               |
+/// The materials are those of \ref json_materials.
 ///
 /// | `type` of an object | its fields, besides material, name and emission         |
 /// |---------------------|---------------------------------------------------------|
@@ -52,8 +44,7 @@ namespace ljus {
 /// A scene of whatever a scene file may hold.
 template <std::floating_point T>
 using FileSceneT =
-    Scene<Shapes<QuadT<T>, SphereT<T>, TriangleT<T>, MeshT<T>>,
-          Materials<LambertianT<T>, OrenNayarT<T>, MirrorT<T>, GlassT<T>>>;
+    Scene<Shapes<QuadT<T>, SphereT<T>, TriangleT<T>, MeshT<T>>, FileMaterialsT<T>>;
 
 /// What a scene file says.
 template <std::floating_point T>
@@ -83,33 +74,6 @@ struct NoMeshes {
 
 namespace detail {
 
-constexpr double max_length = 1e9;
-constexpr double max_radiance = 1e12;
-
-inline glm::dvec3 vector_field(const JsonField& field, double low, double high,
-                               std::string_view right) {
-    if (list_size(field) != 3) refuse_value(field, "a list of three numbers");
-    return {number(entry(field, 0), low, high, right),
-            number(entry(field, 1), low, high, right),
-            number(entry(field, 2), low, high, right)};
-}
-
-inline glm::dvec3 point_field(const JsonField& field) {
-    return vector_field(field, -max_length, max_length, "within [-1e9, 1e9]");
-}
-
-inline glm::dvec3 share_field(const JsonField& field) {
-    return vector_field(field, 0, 1, "within [0, 1]");
-}
-
-// One of the names in a list.
-inline void require_one_of(const JsonField& field,
-                           const std::vector<std::string>& names) {
-    for (const std::string& name : names)
-        if (text(field) == name) return;
-    refuse_value(field, in_a_row(names, "or"));
-}
-
 template <std::floating_point T>
 CameraT<T> read_camera(const JsonField& field) {
     require_object(field, {"position", "look_at", "up", "vfov_deg"});
@@ -127,34 +91,6 @@ CameraT<T> read_camera(const JsonField& field) {
     } catch (const std::invalid_argument&) {
         refuse_value(member(field, "up"), "a direction that is not along the view");
     }
-}
-
-template <std::floating_point T>
-MaterialId read_material(const JsonField& field, FileSceneT<T>& scene) {
-    if (!field.value.is_object()) refuse_value(field, "an object");
-    const JsonField type = member(field, "type");
-    require_one_of(type, {"lambertian", "oren-nayar", "mirror", "dielectric"});
-    if (text(type) == "lambertian") {
-        require_object(field, {"type", "albedo"});
-        return scene.add(LambertianT<T>{.albedo{share_field(member(field, "albedo"))}});
-    }
-    if (text(type) == "oren-nayar") {
-        require_object(field, {"type", "albedo", "sigma_deg"});
-        const double degrees =
-            number(member(field, "sigma_deg"), 0, 90, "within [0, 90] degrees");
-        return scene.add(
-            OrenNayarT<T>{.albedo{share_field(member(field, "albedo"))},
-                          .sigma = static_cast<T>(degrees * std::numbers::pi / 180)});
-    }
-    if (text(type) == "mirror") {
-        require_object(field, {"type", "reflectance"});
-        return scene.add(
-            MirrorT<T>{.reflectance{share_field(member(field, "reflectance"))}});
-    }
-    require_object(field, {"type", "ior"});
-    const double index =
-        number(member(field, "ior"), 1e-3, 1e3, "within [0.001, 1000]");
-    return scene.add(GlassT<T>{.index = static_cast<T>(index)});
 }
 
 // The triangles of an object, as quads where two of them are one.

@@ -4,6 +4,7 @@
 /// \brief What a ray meets first, and whether anything is in its way.
 
 #include <optional>
+#include <type_traits>
 
 #include "ljus/scene/scene.hpp"
 
@@ -126,6 +127,27 @@ template <typename Scene, std::floating_point T>
     return surface;
 }
 // [surface_at]
+
+/// Calls f(material) with what a surface is made of where the ray met it: what
+/// visit_material() does for an object, this does for a place of it. A textured
+/// material is its base in another colour there; all others are themselves.
+/// \param scene    The scene.
+/// \param surface  Of surface_at().
+/// \param f        Called with the material, as its own type.
+// [visit_material_of]
+template <typename Scene, std::floating_point T, typename F>
+decltype(auto) visit_material_of(const Scene& scene, const SurfaceT<T>& surface,
+                                 F&& f) {
+    return scene.visit_material(surface.object.material, [&](const auto& m) {
+        using Here = decltype(material_at(m, surface.point.position));
+        // A soap film's point is no material: scatter() asks for it.
+        if constexpr (Bsdf<std::remove_cvref_t<Here>>)
+            return f(material_at(m, surface.point.position));
+        else
+            return f(m);
+    });
+}
+// [visit_material_of]
 
 /// \}
 

@@ -1,0 +1,170 @@
+#pragma once
+
+/// \file ljus/materials/glossy.hpp
+/// \brief Brushed metal, satin, a worn mirror: facets that reflect.
+
+#include <limits>
+
+#include "ljus/materials/bsdf.hpp"
+#include "ljus/math/require.hpp"
+#include "ljus/optics/conductor.hpp"
+#include "ljus/optics/microfacet.hpp"
+#include "ljus/optics/reflection.hpp"
+#include "ljus/optics/schlick.hpp"
+
+namespace ljus {
+
+/// \defgroup glossy Gloss
+/// \brief Section 3.2.4, rough mirrors: one microfacet model, from a mirror to satin.
+/// \{
+
+/// The reflectance of a facet that is given by its colour straight on: Schlick's.
+/// \param color      At normal incidence, in [0, 1].
+/// \param cos_theta  Cosine between ray and facet, in [0, 1].
+/// \return In [0, 1].
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> facet_reflectance(const RgbT<T>& color, T cos_theta) noexcept {
+    return {schlick(color.x, cos_theta), schlick(color.y, cos_theta),
+            schlick(color.z, cos_theta)};
+}
+
+/// The reflectance of a facet of metal.
+/// \param index      The metal's.
+/// \param cos_theta  Cosine between ray and facet, in [0, 1].
+/// \return In [0, 1].
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> facet_reflectance(const ConductorIndexT<T>& index,
+                                        T cos_theta) noexcept {
+    return fresnel_conductor(cos_theta, index);
+}
+
+/// The least roughness besides 0: below it a float's rounding of a direction is not
+/// small beside alpha.
+template <std::floating_point T>
+inline constexpr T least_roughness = T(0.01);
+
+/// A surface of small mirrors, on both sides. Light that hits a second facet is lost:
+/// of white, at roughness 1, more than half.
+/// \tparam Facet  What says how a facet reflects: a colour straight on, or a metal's
+///                index.
+template <std::floating_point T, typename Facet = RgbT<T>>
+struct GlossyT {
+    using Scalar = T;     ///< The precision of its numbers.
+    Facet reflectance{};  ///< Of a facet.
+    T roughness = T(0.3); ///< alpha = roughness^2; 0, a mirror, or in [0.01, 1].
+};
+using Glossy = GlossyT<float>;                             ///< Of a colour, in float.
+using RoughMetal = GlossyT<float, ConductorIndexT<float>>; ///< Of metal, in float.
+
+/// What there is: a part that counts as diffuse, because it has an f; with roughness 0
+/// a specular one.
+template <std::floating_point T, typename F>
+[[nodiscard]] constexpr Lobes lobes(const GlossyT<T, F>& gloss) noexcept {
+    return gloss.roughness > T(0) ? Lobes::diffuse : Lobes::specular;
+}
+
+/// The microfacet BRDF of Torrance and Sparrow,
+///
+/// \f[ f = \frac{F(w_o \cdot h)\, D(h)\, G_2(w_o, w_i)}{4\, w_{o,z}\, w_{i,z}}
+///       = \frac{F\, D}{2\,(w_{i,z}\, r(w_o) + w_{o,z}\, r(w_i))} \f]
+///
+/// with ggx_normals() and ggx_root().
+/// \param gloss  The surface.
+/// \param wo     Towards where the light goes.
+/// \param wi     Towards where it comes from.
+/// \return f in 1/sr, without the cosine; 0 on different sides, and where both graze so
+///         that f is beyond the largest T.
+/// \cost Three square roots, one division for each cosine.
+/// \cite walter2007 \cite heitz2014
+// [glossy]
+template <std::floating_point T, typename F>
+[[nodiscard]] RgbT<T> evaluate(const GlossyT<T, F>& gloss, const Vec3T<T>& wo,
+                               const Vec3T<T>& wi) noexcept {
+    if (!(gloss.roughness > T(0)) || !same_side(wo, wi)) return RgbT<T>{T(0)};
+    const T alpha = gloss.roughness * gloss.roughness;
+    const Vec3T<T> out{wo.x, wo.y, std::abs(wo.z)};
+    const Vec3T<T> in{wi.x, wi.y, std::abs(wi.z)};
+    const Vec3T<T> h = middle_of(out, in);
+    const T cos_facet = std::min(glm::dot(out, h), T(1));
+    const T r_out = ggx_root(alpha, out), r_in = ggx_root(alpha, in);
+    const T shadowed = out.z * r_in + in.z * r_out;
+    const T f = ggx_normals(alpha, h) / (T(2) * shadowed);
+    if (!(f <= std::numeric_limits<T>::max())) return RgbT<T>{T(0)};
+    return f * facet_reflectance(gloss.reflectance, cos_facet);
+}
+// [glossy]
+
+/// The density of sample().
+/// \param gloss  The surface.
+/// \param wo     Towards where the light goes.
+/// \param wi     Towards where it comes from.
+/// \param which  The parts to sample from.
+/// \return \f$ G_1 D / 4 w_{o,z} = D / 2 (w_{o,z} + r(w_o)) \f$ per steradian on the
+///         side of `wo`; 0 elsewhere. Its integral is below 1: what is missing are
+///         directions into the surface.
+/// \cite heitz2018
+// [glossy pdf]
+template <std::floating_point T, typename F>
+[[nodiscard]] T pdf(const GlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& wi,
+                    Lobes which = Lobes::all) noexcept {
+    if (!has(which & lobes(gloss), Lobes::diffuse) || !same_side(wo, wi)) return T(0);
+    const T alpha = gloss.roughness * gloss.roughness;
+    const Vec3T<T> out{wo.x, wo.y, std::abs(wo.z)};
+    const Vec3T<T> in{wi.x, wi.y, std::abs(wi.z)};
+    return ggx_normals(alpha, middle_of(out, in)) /
+           (T(2) * (out.z + ggx_root(alpha, out)));
+}
+// [glossy pdf]
+
+/// A facet that is seen from `wo`, and the mirror direction of it. The weight is
+/// \f$ F\, G_2 / G_1 \f$, at most F.
+/// \param gloss  The surface.
+/// \param wo     Towards where the light goes.
+/// \param u      Point of [0,1)^3; z is not used.
+/// \param which  The parts to sample from.
+/// \return The sample; nothing if `wo` lies on the surface, if the direction would lead
+///         into it, or without the part.
+/// \cost One sine, one cosine, eight square roots.
+/// \cite heitz2018
+// [glossy sample]
+template <std::floating_point T, typename F>
+[[nodiscard]] std::optional<BsdfSampleT<T>>
+sample(const GlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& u,
+       Transport /*transport*/, Lobes which = Lobes::all) noexcept {
+    if (!has(which, lobes(gloss)) || !(wo.z > T(0) || wo.z < T(0))) return std::nullopt;
+    const Vec3T<T> out{wo.x, wo.y, std::abs(wo.z)};
+    if (gloss.roughness == T(0))
+        return specular_sample(
+            reflect(wo), facet_reflectance(gloss.reflectance, std::min(out.z, T(1))));
+
+    const T alpha = gloss.roughness * gloss.roughness;
+    const Vec3T<T> h = sample_visible_normal(alpha, out, Vec2T<T>{u.x, u.y});
+    Vec3T<T> in = glm::normalize(reflect(-out, h));
+    if (!(in.z > T(0))) return std::nullopt; // into the surface: lost
+    const T r_out = ggx_root(alpha, out);
+    const T g2_over_g1 = (out.z + r_out) / (r_out + out.z / in.z * ggx_root(alpha, in));
+    const T cos_facet = std::min(glm::dot(out, middle_of(out, in)), T(1));
+    in.z = std::copysign(in.z, wo.z);
+    const RgbT<T> weight = g2_over_g1 * facet_reflectance(gloss.reflectance, cos_facet);
+    if (is_black(weight)) return std::nullopt;
+    return diffuse_sample(in, weight, pdf(gloss, wo, in));
+}
+// [glossy sample]
+
+/// Refuses what no facet can reflect, and a roughness out of range.
+/// \param gloss  The surface.
+/// \throws std::invalid_argument naming the member.
+template <std::floating_point T, typename F>
+void check(const GlossyT<T, F>& gloss) {
+    if constexpr (std::same_as<F, RgbT<T>>)
+        require_unit("glossy.reflectance", gloss.reflectance);
+    else
+        require_conductor("glossy.reflectance", gloss.reflectance);
+    const T r = gloss.roughness;
+    require(r == T(0) || (r >= least_roughness<T> && r <= T(1)), "glossy.roughness", r,
+            "0, which is a mirror, or within [0.01, 1]");
+}
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,202 @@
+/// \file texture_test.cpp
+/// \brief The right colour in the right place, and nothing else changed by it.
+
+#include "ljus/materials/texture.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "ljus/image/png.hpp"
+#include "ljus/materials/glossy.hpp"
+#include "ljus/materials/lambertian.hpp"
+#include "ljus/materials/mirror.hpp"
+#include "ljus/materials/textured.hpp"
+#include "ljus/materials/thin_glass.hpp"
+#include "ljus/render/path_tracing.hpp"
+#include "ljus/render/render.hpp"
+#include "ljus/scene/make_scene.hpp"
+#include "scratch_folder.hpp"
+#include "support/bsdf_checks.hpp"
+
+#if __has_include(<stb/stb_image.h>)
+#include "ljus/image/load_image.hpp"
+#endif
+
+using namespace ljus;
+using ljus_test::Draws, ljus_test::refusal;
+
+namespace {
+
+/// Four pixels: red and green above, blue and white below.
+Image four() {
+    Image image = make_image<float>(2, 2);
+    pixel(image, 0, 0) = {1, 0, 0};
+    pixel(image, 1, 0) = {0, 1, 0};
+    pixel(image, 0, 1) = {0, 0, 1};
+    pixel(image, 1, 1) = {1, 1, 1};
+    return image;
+}
+
+/// A map whose (u, v) are (x, y).
+PlaneMap flat() {
+    return {.edge_u{1, 0, 0}, .edge_v{0, 1, 0}};
+}
+
+} // namespace
+
+TEST_CASE("texture: a chessboard has 64 fields, in turn, and goes on") {
+    const Checker board{
+        .map = flat(), .even = Rgb{0.75f}, .odd = Rgb{0.25f}, .columns = 8, .rows = 8};
+    for (int row = -8; row < 16; ++row)
+        for (int column = -8; column < 16; ++column) {
+            const Vec3 middle{(float(column) + 0.5f) / 8, (float(row) + 0.5f) / 8, 7};
+            const bool even = (row + column) % 2 == 0;
+            REQUIRE(color_at(board, middle).x == (even ? 0.75f : 0.25f));
+        }
+    // Far away it is one of the two colours still.
+    for (const float far : {1e9f, -3e30f, 3e38f})
+        CHECK(color_at(board, Vec3{far, 0.1f, 0}).x > 0);
+}
+
+TEST_CASE("texture: places of a plane and of a globe") {
+    const PlaneMapT<double> plane{.origin{1, 2, 3}, .edge_u{0, 2, 0}, .edge_v{0, 0, 4}};
+    const auto uv = coordinates(plane, Vec3T<double>{9, 3, 4});
+    CHECK(uv.x == 0.5);
+    CHECK(uv.y == 0.25);
+    const GlobeMapT<double> globe{.center{1, 1, 1}};
+    const auto at = [&](double x, double y, double z) {
+        return coordinates(globe, Vec3T<double>{1 + x, 1 + y, 1 + z});
+    };
+    CHECK(at(1, 0, 0).x == 0);
+    CHECK(at(0, 0, -1).x == doctest::Approx(0.25));
+    CHECK(at(-1, 0, 0).x == doctest::Approx(0.5));
+    CHECK(at(0, 0, 1).x == doctest::Approx(0.75));
+    CHECK(at(0, 2, 0).y == doctest::Approx(1));
+    CHECK(at(0, -2, 0).y == doctest::Approx(0));
+    CHECK(at(1, 1, 0).y == doctest::Approx(0.75));
+    CHECK(at(0, 0, 0).y == doctest::Approx(0.5));
+}
+
+TEST_CASE("texture: an image stands upright, is smooth between pixels, and repeats") {
+    const PictureTexture texture{.image = four(), .map = flat()};
+    const auto at = [&](float u, float v) { return color_at(texture, Vec3{u, v, 0}); };
+    CHECK(at(0.25f, 0.75f) == Rgb{1, 0, 0});
+    CHECK(at(0.75f, 0.75f) == Rgb{0, 1, 0});
+    CHECK(at(0.25f, 0.25f) == Rgb{0, 0, 1});
+    CHECK(at(0.75f, 0.25f) == Rgb{1, 1, 1});
+    CHECK(at(0.5f, 0.5f) == Rgb{0.5f});
+    CHECK(at(0.5f, 0.75f) == Rgb{0.5f, 0.5f, 0});
+    CHECK(at(3.25f, -1.25f) == Rgb{1, 0, 0});
+    CHECK(at(0.0f, 0.75f) == at(1.0f, 0.75f));
+    Draws draws;
+    for (int i = 0; i < 20000; ++i) {
+        const float size = std::pow(10.0f, draws.between(-30.0f, 30.0f));
+        const Rgb c = at(size * draws.between(-1.0f, 1.0f), draws.between(-3.0f, 3.0f));
+        REQUIRE(max_component(c) <= 1 + 1e-6f);
+        REQUIRE(c.x >= 0);
+    }
+    CHECK(is_finite(at(NAN, INFINITY)));
+}
+
+TEST_CASE(
+    "texture: the hook gives each material its colour, and plain ones themselves") {
+    const Checker board{.map = flat(), .even = Rgb{0.5f}, .odd = Rgb{1}};
+    const Vec3 here{0.25f, 0.25f, 0}, there{0.75f, 0.25f, 0};
+    const Textured<Lambertian, Checker> matt{{.albedo = Rgb{0.8f}}, board};
+    CHECK(material_at(matt, here).albedo == Rgb{0.4f});
+    CHECK(material_at(matt, there).albedo == Rgb{0.8f});
+    const Textured<Mirror, Checker> mirror{{}, board};
+    CHECK(material_at(mirror, here).reflectance == Rgb{0.5f});
+    CHECK(is_specular(mirror));
+    const Textured<Glossy, Checker> gloss{{.reflectance = Rgb{1}}, board};
+    CHECK(material_at(gloss, here).reflectance == Rgb{0.5f});
+    const Textured<ThinGlass, Checker> pane{{}, board};
+    CHECK(material_at(pane, here).tint == Rgb{0.5f});
+    const Lambertian plain;
+    CHECK(&material_at(plain, here) == &plain); // not even copied
+}
+
+TEST_CASE("texture: in a white furnace a textured floor shines as its fields do") {
+    // Open to a sky of radiance 1: what comes back is the albedo of the place.
+    const auto scene = make_scene(
+        placed(Sphere{.radius = 50}, Lambertian{.albedo = Rgb{0}}, Rgb{1}, true),
+        placed(Quad{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}},
+               Textured<Lambertian, PictureTexture>{
+                   {.albedo = Rgb{1}},
+                   {.image = four(),
+                    .map{.origin{-1, -1, 0}, .edge_u{2, 0, 0}, .edge_v{0, 2, 0}}}}));
+    const auto camera = look_at(
+        {.position{0, 0, 5}, .target{0, 0, 0}, .up{0, 1, 0}, .vfov_degrees = 15});
+    const auto image = render(make_path_tracer(scene), camera,
+                              {.width = 32, .height = 32, .rays = 64, .threads = 1})
+                           .image;
+    // Columns and rows 8 and 24 see the middles of the pixels, nearly.
+    const auto near = [&](int x, int y, const Rgb& right) {
+        const Rgb c = pixel(image, x, y);
+        for (int k = 0; k < 3; ++k)
+            CHECK(c[k] == doctest::Approx(right[k]).epsilon(0.25));
+    };
+    near(6, 6, {1, 0, 0});
+    near(25, 6, {0, 1, 0});
+    near(6, 25, {0, 0, 1});
+    near(25, 25, {1, 1, 1});
+}
+
+TEST_CASE(
+    "texture: fields, edges, colours and pixels out of range are refused by name") {
+    const auto matt = [](const auto& texture) {
+        return refusal(
+            Textured<Lambertian, std::remove_cvref_t<decltype(texture)>>{{}, texture});
+    };
+    CHECK(matt(Checker{}).empty());
+    CHECK(matt(GlobeChecker{}).empty());
+    CHECK(matt(Checker{.columns = 3}).find("checker.columns is 3") == 0);
+    CHECK(matt(Checker{.rows = 0}).find("checker.rows is 0") == 0);
+    CHECK(matt(Checker{.even{1.5f, 0, 0}}).find("checker.even") == 0);
+    CHECK(matt(Checker{.odd{NAN, 0, 0}}).find("checker.odd") == 0);
+    CHECK(matt(Checker{.map{.edge_u{0, 0, 0}}}).find("plane_map.edge_u") == 0);
+    CHECK(matt(Checker{.map{.edge_v{NAN, 0, 0}}}).find("plane_map.edge_v") == 0);
+    CHECK(matt(PictureTexture{.image = four()}).empty());
+    CHECK(matt(PictureTexture{}).find("The image's size is 0 x 0") == 0);
+    Image bright = four();
+    pixel(bright, 1, 0).y = 2;
+    CHECK(matt(PictureTexture{.image = bright})
+              .find("picture_texture.image, pixel (1, 0)") == 0);
+    const Textured<Lambertian, Checker> base{{.albedo = Rgb{1.5f}}, {}};
+    CHECK(refusal(base).find("lambertian.albedo") == 0);
+}
+
+#if __has_include(<stb/stb_image.h>)
+TEST_CASE("texture: what is saved as PNG is loaded again; what is not is named") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("four.png");
+    save_png(four(), path);
+    CHECK(load_image(path).pixels == four().pixels);
+    Image grey = make_image<float>(3, 1, Rgb{0.2f});
+    const Image back = decode_image(encode_png(grey), "grey.png");
+    CHECK(back.width == 3);
+    CHECK(back.pixels[1].x == doctest::Approx(0.2).epsilon(0.01));
+
+    const auto said = [](auto f) -> std::string {
+        try {
+            f();
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    CHECK(said([&] { (void)load_image(folder.file("none.png")); }) ==
+          "cannot read '" + folder.file("none.png") + "': No such file or directory.");
+    Bytes bytes = encode_png(four());
+    bytes.resize(bytes.size() / 2);
+    CHECK(said([&] {
+              (void)decode_image(bytes, "half.png");
+          }).find("half.png is damaged: ") == 0);
+    CHECK(said([&] {
+              (void)decode_image({}, "empty.png");
+          }).find("empty.png is no picture that can be read: ") == 0);
+}
+#endif
