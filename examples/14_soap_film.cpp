@@ -66,8 +66,8 @@ void strip(const examples::Options& options, const std::string& file, Color colo
     save_png(image, options.path(file + ".png"));
 }
 
-/// CIE 1976 L*a*b* of a reflectance. White is twice what thick films reflect at the same
-/// angle, about the brightest that a thin one can be.
+/// CIE 1976 L*a*b* of a reflectance. White is twice what thick films reflect at the
+/// same angle, about the brightest that a thin one can be.
 glm::dvec3 lab(const glm::dvec3& rgb, double cosine) {
     const glm::dvec3 c = rgb / (2 * ljus::thick_film(cosine, water));
     const glm::dvec3 xyz{(0.4124 * c.x + 0.3576 * c.y + 0.1805 * c.z) / 0.9505,

@@ -42,7 +42,7 @@ SoapFilm strong() {
     return {.thickness = 260, .index = 2.4f};
 }
 
-/// A closed box with a lamp below the ceiling, a bubble, and a mirror within the bubble.
+/// A closed box with a lamp below the ceiling, a bubble, and a mirror within it.
 Room room_with(const SoapFilm* film, bool mirror = false) {
     Room room;
     const auto grey = room.add(Lambertian{.albedo = Rgb{0.5f}});
@@ -271,8 +271,8 @@ TEST_CASE("thin sheets: who owns which path") {
         for (int x = 4; x < 24; x += 4)
             for (const auto& part : take_apart(mapper, camera, picture, x, y).sums)
                 found.insert(part.path + " " + part.owner);
-    // Through the bubble by shadow rays, and by its reflection as a caustic; a mirror in
-    // it is seen through it. No path has a letter for what goes straight on.
+    // Through the bubble by shadow rays, and by its reflection as a caustic; a mirror
+    // in it is seen through it. No path has a letter for what goes straight on.
     CHECK(found.count("EDL shadow ray") == 1);
     CHECK(found.count("EDS+L caustics map") == 1);
     CHECK(found.count("EDDL shadow ray") == 1);

@@ -1,7 +1,7 @@
 // needs: boost
 /// \file thin_film_test.cpp
-/// \brief Airy's sum against Airy's series and matrices in 50 digits; the colours against
-/// the spectrum.
+/// \brief Airy's sum against Airy's series and matrices in 50 digits; the colours
+/// against the spectrum.
 
 #include "ljus/optics/thin_film.hpp"
 
@@ -28,8 +28,8 @@ Real full_turn() {
     return 8 * atan(Real(1));
 }
 
-/// The film as a matrix between the fields at its two faces (Born and Wolf, 1.6), with a
-/// complex cosine inside. R, and T of its own: not one minus R.
+/// The film as a matrix between the fields at its two faces (Born and Wolf, 1.6), with
+/// a complex cosine inside. R, and T of its own: not one minus R.
 std::array<Real, 2> by_matrix(const Real& c, const Real& n, const Real& turns) {
     const Complex one(1, 0), i(0, 1), cosine(c, 0), index(n, 0);
     const Complex inside = sqrt(one - (one - cosine * cosine) / (index * index));
@@ -156,8 +156,8 @@ TEST_CASE("thin film: all light is reflected or goes through, to 1e-12") {
 }
 
 TEST_CASE("thin film: where nothing is refracted, light tunnels through a thin gap") {
-    // A gap of air within glass: 1/1.5, at 60 degrees. As thick as the wavelength it is a
-    // mirror, as thin as a tenth it is not.
+    // A gap of air within glass: 1/1.5, at 60 degrees. As thick as the wavelength it is
+    // a mirror, as thin as a tenth it is not.
     CHECK(ljus::thin_film(0.5, 1 / 1.5, 600.0, 600.0).reflected > 0.99);
     CHECK(ljus::thin_film(0.5, 1 / 1.5, 60.0, 600.0).reflected < 0.6);
     CHECK(ljus::thin_film(0.5, 1 / 1.5, 1e9, 600.0).reflected == 1); // sinh is infinite

@@ -6,14 +6,14 @@ ljus_break_it(NAME direct-light-cosine HEADER render/direct_light.hpp TEST direc
 
 # The inverse square, as the report's program has it.
 ljus_break_it(NAME direct-light-distance HEADER scene/light.hpp TEST direct_light
-    FROM ".weight = light.emission / distance2"
-    TO   ".weight = light.emission"
+    FROM ".weight = share * light.emission / distance2"
+    TO   ".weight = share * light.emission"
     CASES "direct light: a point light*")
 
 # The density of the point of a lamp.
 ljus_break_it(NAME direct-light-pdf HEADER scene/light.hpp TEST direct_light
     FROM ".weight = light.emission / seen.pdf"
-    TO   ".weight = light.emission"
+    TO   ".weight = share * light.emission"
     CASES "direct light: lamps give*")
 
 # A lamp that shines on both sides.

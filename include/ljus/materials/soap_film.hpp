@@ -100,8 +100,8 @@ template <std::floating_point T>
     return {film, thickness_at(film, position)};
 }
 
-/// What goes straight on through a film: all that is not reflected. A material with this
-/// function is a thin sheet.
+/// What goes straight on through a film: all that is not reflected. A material with
+/// this function is a thin sheet.
 /// \param film      The film.
 /// \param position  Where.
 /// \param wo        Towards where the light goes.

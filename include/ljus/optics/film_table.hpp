@@ -14,7 +14,7 @@ namespace ljus {
 /// \addtogroup film_color
 /// \{
 
-/// The colours of films of one index, over the angle and the optical path: evenly spaced
+/// The colours of films of one index, over angle and optical path: evenly spaced
 /// in the square root of the cosine, because a film turns into a mirror just before the
 /// grazing angle, and in the square root of the path n d cos(theta_t), because the
 /// fringes run along it and fade.

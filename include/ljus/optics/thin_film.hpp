@@ -13,8 +13,8 @@ namespace ljus {
 /// \defgroup thin_film Thin films
 /// \brief The soap bubble of figure 4.
 ///
-/// A film has two surfaces. Light that the second one reflects comes out later than that
-/// of the first, and what comes out together adds up as waves do.
+/// A film has two surfaces. Light that the second one reflects comes out later than
+/// that of the first, and what comes out together adds up as waves do.
 /// \{
 
 /// What a film does with the light of one wavelength.
