@@ -48,8 +48,8 @@ ljus_break_it(NAME caustics-area HEADER photons/aiming.hpp TEST caustics
 
 # The report's program: photons do not reflect from glass.
 ljus_break_it(NAME caustics-reflect HEADER materials/glass.hpp TEST caustics
-    FROM "!refracted || u.z < fresnel("
-    TO   "!refracted || u.z < T(0) * fresnel("
+    FROM "!met.refracted || u.z < met.reflectance"
+    TO   "!met.refracted"
     CASES "caustics: the light of a point light*")
 
 # The report's program: a photon starts a tenth of a unit inside the glass, which is then

@@ -37,20 +37,18 @@ ljus_break_it(NAME general-map-shadow-mirror HEADER photons/photon_path.hpp TEST
 
 # Each photon says that it comes from the first light.
 ljus_break_it(NAME general-map-light HEADER photons/emission.hpp TEST general_map
-    FROM [[.flux = light.flux / chosen.probability,
-                      .light = static_cast<std::uint16_t>(chosen.light)};]]
-    TO   [[.flux = light.flux / chosen.probability,
-                      .light = 0};]]
+    FROM ".light = static_cast<std::uint16_t>(chosen.light)};"
+    TO   ".light = 0};"
     CASES "general map: photons lie on matt*")
 
 # Direct photons counted as indirect, and the other way round.
 ljus_break_it(NAME general-map-kind HEADER photons/photon_path.hpp TEST general_map
-    FROM "met_diffuse    ? PhotonKind::indirect"
-    TO   "!met_diffuse   ? PhotonKind::indirect"
+    FROM "if (photon.met_diffuse) return PhotonKind::indirect;"
+    TO   "if (!photon.met_diffuse) return PhotonKind::indirect;"
     CASES "general map: direct and indirect*")
 
 # The power of all paths in each photon.
-ljus_break_it(NAME general-map-number HEADER photons/photon_path.hpp TEST general_map
+ljus_break_it(NAME general-map-number HEADER photons/tracing.hpp TEST general_map
     FROM [[flight.flux /= static_cast<T>(pass.photons);]]
     TO   [[(void)0;]]
     CASES "general map: direct and indirect*")

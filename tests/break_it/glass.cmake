@@ -21,6 +21,6 @@ ljus_break_it(NAME glass-half-vector HEADER materials/glass.hpp TEST glass
 
 # Photons that never reflect.
 ljus_break_it(NAME glass-no-reflection HEADER materials/glass.hpp TEST glass
-    FROM "if (!refracted || u.z < fresnel(glass.fresnel, std::abs(wo.z), n_i, n_t))"
-    TO   "if (!refracted)"
+    FROM "if (!met.refracted || u.z < met.reflectance)"
+    TO   "if (!met.refracted)"
     CASES "glass: the share*,glass: a slab*")

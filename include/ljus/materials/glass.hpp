@@ -53,6 +53,36 @@ template <std::floating_point T>
     return T(0);
 }
 
+/// What light meets that comes to the boundary: how much is reflected, and where the
+/// rest goes.
+template <std::floating_point T>
+struct GlassBoundaryT {
+    std::optional<Vec3T<T>> refracted{}; ///< Nothing in total internal reflection.
+    T reflectance = T(1);                ///< F, in [0, 1].
+    T squeeze = T(1);                    ///< Of radiance that is refracted.
+};
+
+/// The boundary, met along a direction.
+/// \param glass      The glass.
+/// \param wo         Towards where the light goes; z < 0 is inside.
+/// \param transport  Radiance from index n_t is scaled by (n_i/n_t)^2; flux is not.
+/// \return The two ways.
+/// \cost Three square roots, three divisions; F is not evaluated in total reflection.
+/// \report{Section 3.2.5}
+template <std::floating_point T>
+[[nodiscard]] GlassBoundaryT<T> boundary(const GlassT<T>& glass, const Vec3T<T>& wo,
+                                         Transport transport) noexcept {
+    const bool outside = wo.z > T(0);
+    const T n_i = outside ? T(1) : glass.index;
+    const T n_t = outside ? glass.index : T(1);
+    const T eta = n_i / n_t;
+    const auto refracted = refract(wo, eta);
+    if (!refracted) return {};
+    return {.refracted = refracted,
+            .reflectance = fresnel(glass.fresnel, std::abs(wo.z), n_i, n_t),
+            .squeeze = transport == Transport::radiance ? eta * eta : T(1)};
+}
+
 /// One of the two branches: reflection with probability F, refraction with 1 - F. Each
 /// is chosen as often as it carries light, so that both have the weight 1; radiance
 /// that comes from index n_t is then scaled by (n_i/n_t)^2.
@@ -62,7 +92,7 @@ template <std::floating_point T>
 /// \param transport  Radiance or flux.
 /// \param which      The parts to sample from.
 /// \return The sample; nothing if `wo` lies on the surface or without Lobes::specular.
-/// \cost Three square roots, three divisions; F is not evaluated in total reflection.
+/// \cost As boundary().
 /// \report{Section 3.2.5}
 // [glass sample]
 template <std::floating_point T>
@@ -71,16 +101,10 @@ sample(const GlassT<T>& glass, const Vec3T<T>& wo, const Vec3T<T>& u,
        Transport transport, Lobes which = Lobes::all) noexcept {
     if (!has(which, Lobes::specular)) return std::nullopt;
     if (!(wo.z > T(0) || wo.z < T(0))) return std::nullopt;
-    const bool outside = wo.z > T(0);
-    const T n_i = outside ? T(1) : glass.index;
-    const T n_t = outside ? glass.index : T(1);
-    const T eta = n_i / n_t;
-
-    const auto refracted = refract(wo, eta);
-    if (!refracted || u.z < fresnel(glass.fresnel, std::abs(wo.z), n_i, n_t))
+    const GlassBoundaryT<T> met = boundary(glass, wo, transport);
+    if (!met.refracted || u.z < met.reflectance)
         return specular_sample(reflect(wo), RgbT<T>{T(1)});
-    const T scale = transport == Transport::radiance ? eta * eta : T(1);
-    return specular_sample(*refracted, RgbT<T>{T(1)}, scale);
+    return specular_sample(*met.refracted, RgbT<T>{T(1)}, met.squeeze);
 }
 // [glass sample]
 
@@ -94,16 +118,11 @@ sample(const GlassT<T>& glass, const Vec3T<T>& wo, const Vec3T<T>& u,
 template <std::floating_point T>
 [[nodiscard]] std::optional<std::array<BsdfSampleT<T>, 2>>
 both_ways(const GlassT<T>& glass, const Vec3T<T>& wo, Transport transport) noexcept {
-    const bool outside = wo.z > T(0);
-    const T n_i = outside ? T(1) : glass.index;
-    const T n_t = outside ? glass.index : T(1);
-    const T eta = n_i / n_t;
-    const auto refracted = refract(wo, eta);
-    if (!refracted) return std::nullopt;
-    const T f = fresnel(glass.fresnel, std::abs(wo.z), n_i, n_t);
-    const T scale = transport == Transport::flux ? T(1) : eta * eta;
+    const GlassBoundaryT<T> met = boundary(glass, wo, transport);
+    if (!met.refracted) return std::nullopt;
+    const T f = met.reflectance;
     return std::array{specular_sample(reflect(wo), RgbT<T>{f}),
-                      specular_sample(*refracted, RgbT<T>{T(1) - f}, scale)};
+                      specular_sample(*met.refracted, RgbT<T>{T(1) - f}, met.squeeze)};
 }
 // [both ways]
 
