@@ -35,7 +35,7 @@ Real exact(const Real& cos_theta, const Real& n, const Real& k) {
 }
 
 /// How much the reflectance changes when each input moves by a unit of roundoff.
-Real sensitivity(const Real& c, const Real& n, const Real& k, double u) {
+Real sensitivity(const Real& c, const Real& n, const Real& k, const Real& u) {
     const Real here = exact(c, n, k);
     return abs(exact(c * (1 - u), n, k) - here) + abs(exact(c, n * (1 + u), k) - here) +
            abs(exact(c, n, k * (1 + u)) - here);
@@ -63,7 +63,7 @@ TEST_CASE_TEMPLATE("conductor: as complex numbers have it, for any n, k and angl
         worst = std::max(worst, (error / unit).convert_to<double>());
     }
     MESSAGE("largest error ", worst, " times u + what the rounding of the inputs does");
-    CHECK(worst <= 24); // the largest where n is the sine and k small: no metal
+    CHECK(worst <= 8);
 }
 
 TEST_CASE(
