@@ -13,6 +13,8 @@
 
 #include <glm/common.hpp>
 
+#include "ljus/version.hpp"
+
 namespace ljus {
 
 /// \defgroup isosurface Isosurfaces

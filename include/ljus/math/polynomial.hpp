@@ -12,6 +12,8 @@
 
 #include <glm/common.hpp>
 
+#include "ljus/version.hpp"
+
 namespace ljus {
 
 /// \defgroup polynomial Polynomials

@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <numbers>
 
+#include "ljus/version.hpp"
+
 namespace ljus {
 
 /// \defgroup quartic_formula The quartic formula

@@ -108,9 +108,18 @@ void widen(LightT<T>& sun, const Vec3T<T>& low, const Vec3T<T>& high) {
 }
 // [widen]
 
-/// The type that make_light() makes of a light.
-template <typename Light>
-using LightOf = decltype(make_light(std::declval<const Light&>()));
+/// Any of the lights that are no objects, made ready; they turn into it by themselves.
+template <std::floating_point T>
+struct LightSourceT {
+    LightT<T> made; ///< What make_light() has made.
+
+    /// \name One of the lights
+    /// \{
+    LightSourceT(const PointLightT<T>& light) : made(make_light(light)) {} ///< A point.
+    LightSourceT(const SpotLightT<T>& light) : made(make_light(light)) {}  ///< A spot.
+    LightSourceT(const SunLightT<T>& light) : made(make_light(light)) {}   ///< A sun.
+    /// \}
+};
 
 /// \}
 

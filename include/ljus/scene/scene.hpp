@@ -129,15 +129,12 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
         return id;
     }
 
-    /// Adds a light that is no object: a PointLight, a SpotLight or a SunLight. A sun's
-    /// flux is what falls into a sphere around all shapes; it grows with each that is
-    /// added, before or after.
-    /// \param light  The light.
+    /// Adds a light that is no object. A sun's flux is what falls into a sphere around
+    /// all shapes; it grows with each that is added, before or after.
+    /// \param light  A PointLight, a SpotLight or a SunLight.
     /// \throws std::invalid_argument  as make_light().
-    template <typename Light>
-    requires std::same_as<LightOf<Light>, LightT<Scalar>>
-    void add(const Light& light) {
-        LightT<Scalar> made = make_light(light);
+    void add(const LightSourceT<Scalar>& light) {
+        LightT<Scalar> made = light.made;
         if (is_black(made.emission)) return;
         if (made.kind == LightKind::sun) {
             if (size() > 0) widen(made, low, high);
