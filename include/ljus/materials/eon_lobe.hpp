@@ -20,7 +20,10 @@ namespace ljus {
 /// azimuth of wo. The four numbers are the fit of \cite eon2025, listing 2.
 template <std::floating_point T>
 struct EonLobeT {
-    T a, b, c, d;   ///< Of the matrix.
+    T a;            ///< Of the matrix, first row.
+    T b;            ///< The same.
+    T c;            ///< Second row.
+    T d;            ///< Third row, at most 0.
     T kept;         ///< The share of the lobe that lies above the horizon.
     T uniform;      ///< The probability of a uniform direction in place of the lobe's.
     Vec2T<T> along; ///< Unit: the azimuth of wo.

@@ -57,7 +57,7 @@ enum class LightKind : std::uint8_t {
 /// One light of a scene. Its number, the place in Scene::lights, goes with its photons.
 template <std::floating_point T>
 struct LightT {
-    LightKind kind = LightKind::point;
+    LightKind kind = LightKind::point; ///< What it is.
     std::optional<ObjectId> object{}; ///< The emissive object; none for other kinds.
     Vec3T<T> position{T(0)}; ///< Of a point or spot light; of a sun, the middle of the
                              ///< scene.

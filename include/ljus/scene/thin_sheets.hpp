@@ -36,19 +36,25 @@ concept ThinSheet = requires(const M& m, const Vec3T<typename M::Scalar>& v) {
 /// Whether a type of scene lists a thin sheet among its materials.
 template <typename S>
 inline constexpr bool lists_thin_sheets = false;
+/// Of a scene: whether one of its materials is.
 template <typename ShapeList, Bsdf... M>
 inline constexpr bool
     lists_thin_sheets<Scene<ShapeList, Materials<M...>>> = (ThinSheet<M> || ...);
+/// Of an indexed scene: what its scene says.
 template <typename S, typename Compute>
 inline constexpr bool lists_thin_sheets<IndexedScene<S, Compute>> =
     lists_thin_sheets<S>;
 
 /// Whether a scene has a thin sheet among its materials: the pass is on.
 /// \param scene  The scene.
+/// \return What has_thin_sheets() of its scene says.
 template <typename S, typename Compute>
 [[nodiscard]] bool has_thin_sheets(const IndexedScene<S, Compute>& scene) noexcept {
     return has_thin_sheets(scene.scene);
 }
+/// Whether a scene has a thin sheet among its materials.
+/// \param scene  The scene.
+/// \return False also if it only lists such a type, and has none.
 template <typename ShapeList, Bsdf... M>
 [[nodiscard]] bool
 has_thin_sheets(const Scene<ShapeList, Materials<M...>>& scene) noexcept {
