@@ -28,6 +28,9 @@ function(ljus_break_it)
         message(FATAL_ERROR "ljus_break_it(${row_NAME}): '${row_UNPARSED_ARGUMENTS}' is no "
             "field; a text with quotes or semicolons is written [[like this]].")
     endif()
+    if(row_TEST IN_LIST ljus_tests_left_out) # a package that it needs is missing
+        return()
+    endif()
     # A third of the rows, say: those whose name hashes to the share that is asked for.
     string(MD5 hash "${row_NAME}")
     string(SUBSTRING "${hash}" 0 6 hash)

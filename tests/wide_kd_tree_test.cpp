@@ -30,8 +30,6 @@ using photon_test::point_sets;
 using photon_test::Points;
 using photon_test::PointSet;
 
-namespace {} // namespace
-
 TEST_CASE("wide_kd_tree: every search is what asking all points gives") {
     Numbers numbers{5};
     for (const std::size_t n : {0u, 1u, 2u, 3u, 7u, 8u, 64u, 500u})

@@ -1,21 +1,19 @@
 # The square root's two parts the wrong way round: metals turn into glass.
-if(TARGET conductor_test)
-    ljus_break_it(NAME conductor-root HEADER optics/conductor.hpp TEST conductor
-        FROM "const T a = real >= T(0) ? larger : smaller;"
-        TO   "const T a = larger;")
+ljus_break_it(NAME conductor-root HEADER optics/conductor.hpp TEST conductor
+    FROM "const T a = real >= T(0) ? larger : smaller;"
+    TO   "const T a = larger;")
 
-    # One polarisation for both: no minimum before the grazing angle.
-    ljus_break_it(NAME conductor-polarisation HEADER optics/conductor.hpp TEST conductor
-        FROM "return r_s * (T(1) + ratio) / T(2);"
-        TO   "return r_s;"
-        CASES "conductor: the light that*")
+# One polarisation for both: no minimum before the grazing angle.
+ljus_break_it(NAME conductor-polarisation HEADER optics/conductor.hpp TEST conductor
+    FROM "return r_s * (T(1) + ratio) / T(2);"
+    TO   "return r_s;"
+    CASES "conductor: the light that*")
 
-    # The extinction forgotten.
-    ljus_break_it(NAME conductor-extinction HEADER optics/conductor.hpp TEST conductor
-        FROM "const T real = (n - k) * (n + k) - sin2;"
-        TO   "const T real = n * n - sin2;"
-        CASES "conductor: what is known*")
-endif()
+# The extinction forgotten.
+ljus_break_it(NAME conductor-extinction HEADER optics/conductor.hpp TEST conductor
+    FROM "const T real = (n - k) * (n + k) - sin2;"
+    TO   "const T real = n * n - sin2;"
+    CASES "conductor: what is known*")
 
 # A metal that forgets at which angle it is seen.
 ljus_break_it(NAME metal-angle HEADER materials/metal.hpp TEST metal

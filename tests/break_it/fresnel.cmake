@@ -17,8 +17,6 @@ ljus_break_it(NAME fresnel-polarisation HEADER optics/fresnel.hpp TEST fresnel
     CASES "fresnel: at Brewster*")
 
 # 1 - small never used: three times the roundings.
-if(TARGET fresnel_exact_test)
-    ljus_break_it(NAME fresnel-roundings HEADER optics/fresnel.hpp TEST fresnel_exact
-        FROM "if (through < T(0.6)) return T(1) - through;"
-        TO   "")
-endif()
+ljus_break_it(NAME fresnel-roundings HEADER optics/fresnel.hpp TEST fresnel_exact
+    FROM "if (through < T(0.6)) return T(1) - through;"
+    TO   "")

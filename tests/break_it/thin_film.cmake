@@ -1,38 +1,36 @@
-if(TARGET thin_film_test)
-    # A wave that is reflected by the denser side turns over. Forgotten, a film of no
-    # thickness is the brightest.
-    ljus_break_it(NAME thin_film-half-wave HEADER optics/thin_film.hpp TEST thin_film
-        FROM "std::sin(per_g * g)"
-        TO   "std::cos(per_g * g)"
-        CASES "thin film: the numbers*")
+# A wave that is reflected by the denser side turns over. Forgotten, a film of no
+# thickness is the brightest.
+ljus_break_it(NAME thin_film-half-wave HEADER optics/thin_film.hpp TEST thin_film
+    FROM "std::sin(per_g * g)"
+    TO   "std::cos(per_g * g)"
+    CASES "thin film: the numbers*")
 
-    # The cosine outside in place of the one in the film: right from above only.
-    ljus_break_it(NAME thin_film-cosine HEADER optics/thin_film.hpp TEST thin_film
-        FROM "return cos_theta * cos_theta + (index - T(1)) * (index + T(1));"
-        TO   "return index * index * cos_theta * cos_theta;"
-        CASES "thin film: any index*")
+# The cosine outside in place of the one in the film: right from above only.
+ljus_break_it(NAME thin_film-cosine HEADER optics/thin_film.hpp TEST thin_film
+    FROM "return cos_theta * cos_theta + (index - T(1)) * (index + T(1));"
+    TO   "return index * index * cos_theta * cos_theta;"
+    CASES "thin film: any index*")
 
-    # One polarisation for both: no Brewster's angle.
-    ljus_break_it(NAME thin_film-polarisation HEADER optics/thin_film.hpp TEST thin_film
-        FROM "const auto p_wave = shares(p);"
-        TO   "const auto p_wave = shares(p == T(0) ? p : beat);"
-        CASES "thin film: any index*")
+# One polarisation for both: no Brewster's angle.
+ljus_break_it(NAME thin_film-polarisation HEADER optics/thin_film.hpp TEST thin_film
+    FROM "const auto p_wave = shares(p);"
+    TO   "const auto p_wave = shares(p == T(0) ? p : beat);"
+    CASES "thin film: any index*")
 
-    # Colours that no screen shows, cut off instead of mixed with grey.
-    ljus_break_it(NAME cie_observer-cut HEADER optics/cie_observer.hpp TEST thin_film
-        FROM "if (keep == T(1)) return c;"
-        TO   "return glm::clamp(c, T(0), T(1));"
-        CASES "observer: a colour*")
+# Colours that no screen shows, cut off instead of mixed with grey.
+ljus_break_it(NAME cie_observer-cut HEADER optics/cie_observer.hpp TEST thin_film
+    FROM "if (keep == T(1)) return c;"
+    TO   "return glm::clamp(c, T(0), T(1));"
+    CASES "observer: a colour*")
 
-    # An eye that sees fringes however thick the film is.
-    ljus_break_it(NAME film_color-fade HEADER optics/film_color.hpp TEST thin_film
-        FROM "std::exp(-g.variance * phase * phase)"
-        TO   "T(1)"
-        CASES "film colours:*")
+# An eye that sees fringes however thick the film is.
+ljus_break_it(NAME film_color-fade HEADER optics/film_color.hpp TEST thin_film
+    FROM "std::exp(-g.variance * phase * phase)"
+    TO   "T(1)"
+    CASES "film colours:*")
 
-    # Beyond the table: nothing.
-    ljus_break_it(NAME film_table-mean HEADER optics/film_table.hpp TEST thin_film
-        FROM "thick_film(cosine(column), n)"
-        TO   "0 * n"
-        CASES "film table: as*")
-endif()
+# Beyond the table: nothing.
+ljus_break_it(NAME film_table-mean HEADER optics/film_table.hpp TEST thin_film
+    FROM "thick_film(cosine(column), n)"
+    TO   "0 * n"
+    CASES "film table: as*")
