@@ -4,8 +4,6 @@
 /// \brief The form factor between any two flat patches, by an integral along their
 /// edges.
 
-#include <algorithm>
-
 #include "ljus/geometry/form_factor.hpp"
 
 namespace ljus {
@@ -32,7 +30,7 @@ namespace detail {
            d * z * std::atan2(z, d);
 }
 
-// Nodes within (0, 1) for an integrand that ends in s ln s: the double exponential rule.
+// Nodes within (0, 1) for what ends in s ln s: the double exponential rule.
 struct EdgeRule {
     static constexpr int count = 49;
     std::array<double, count> place{};
@@ -100,7 +98,7 @@ struct EdgeRule {
     const double cosine = glm::dot(u, along) / length_u;
     if (std::abs(cosine) < 1e-15) return 0;
     const glm::dvec3 way = b - a;
-    const double longer = std::max(length_u, length_v);
+    const double longer = glm::max(length_u, length_v);
     if (glm::length(way) > 8 * longer) return detail::edges_apart(way, u, v, unit);
     const double ahead = glm::dot(way, along);
     if (glm::length(glm::cross(u, along)) <= 1e-14 * length_u) {
@@ -122,8 +120,11 @@ struct EdgeRule {
     std::array<double, 5> ends{0, glm::dot(way, u) / (length_u * length_u),
                                glm::dot(way + v, u) / (length_u * length_u),
                                glm::dot(way, off) / glm::dot(off, off), 1};
-    for (double& end : ends) end = std::clamp(end, 0.0, 1.0);
-    std::sort(ends.begin(), ends.end());
+    for (std::size_t i = 1; i < 4; ++i) {
+        ends[i] = glm::clamp(ends[i], 0.0, 1.0);
+        for (std::size_t k = i; ends[k] < ends[k - 1]; --k)
+            std::swap(ends[k], ends[k - 1]);
+    }
     const detail::EdgeRule& rule = detail::edge_rule();
     double sum = 0;
     for (std::size_t piece = 1; piece < ends.size(); ++piece) {

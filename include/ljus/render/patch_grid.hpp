@@ -104,7 +104,7 @@ struct CellPlace {
 /// Which cell a place of the shape belongs to.
 /// \param grid  The grid.
 /// \param at    The place; what rounding put outside belongs to the border.
-/// \param local Where in the cell's own square it lies; nothing is written if it is null.
+/// \param local Takes where in the cell's own square it lies, unless it is null.
 /// \return Its number within the grid.
 // [cell_of]
 [[nodiscard]] inline std::uint32_t cell_of(const PatchGrid& grid, const glm::dvec2& at,

@@ -165,6 +165,8 @@ template <typename Scene>
 [[nodiscard]] Patches make_patches(const Scene& scene,
                                    const PatchSettings& settings = {}) {
     require_positive("patch size", settings.size);
+    require(settings.most <= 65536, "most", static_cast<long long>(settings.most),
+            "at most 65536: their form factors take 34 GB");
     Patches all;
     all.grid_of.resize(scene.objects.size());
     long long unknown = 0, shiny = 0, lamps = 0;

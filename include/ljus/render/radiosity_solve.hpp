@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "ljus/render/form_factors.hpp"
+#include "ljus/render/radiosity_lu.hpp"
 
 namespace ljus {
 
@@ -79,68 +79,7 @@ namespace detail {
     return share;
 }
 
-// Solves a x = b in place by elimination; rows are exchanged for the largest pivot.
-inline void eliminate(std::vector<double>& a, std::vector<RgbT<double>>& b) {
-    const std::size_t n = b.size();
-    for (std::size_t k = 0; k < n; ++k) {
-        std::size_t best = k;
-        for (std::size_t i = k + 1; i < n; ++i)
-            if (std::abs(a[i * n + k]) > std::abs(a[best * n + k])) best = i;
-        if (best != k) {
-            std::swap_ranges(a.begin() + static_cast<std::ptrdiff_t>(k * n),
-                             a.begin() + static_cast<std::ptrdiff_t>(k * n + n),
-                             a.begin() + static_cast<std::ptrdiff_t>(best * n));
-            std::swap(b[k], b[best]);
-        }
-        const double* const top = a.data() + k * n;
-        for (std::size_t i = k + 1; i < n; ++i) {
-            double* const row = a.data() + i * n;
-            const double factor = row[k] / top[k];
-            if (factor == 0) continue;
-            for (std::size_t j = k + 1; j < n; ++j) row[j] -= factor * top[j];
-            b[i] -= factor * b[k];
-        }
-    }
-    for (std::size_t k = n; k-- > 0;) {
-        for (std::size_t j = k + 1; j < n; ++j) b[k] -= a[k * n + j] * b[j];
-        b[k] /= a[k * n + k];
-    }
-}
-
 } // namespace detail
-
-/// Solves by elimination: all channels at once if every patch is grey, else one by one.
-/// \param factors  The form factors.
-/// \param patches  Albedo and emission.
-/// \return Radiosity, W/m^2.
-/// \cost n^2 numbers of memory, n^3/3 multiplications: 10 s for 3000 patches.
-// [solve_lu]
-[[nodiscard]] inline std::vector<RgbT<double>>
-solve_lu(const FormFactors& factors, const std::vector<Patch>& patches) {
-    const std::size_t n = patches.size();
-    bool grey = true;
-    for (const Patch& patch : patches)
-        grey = grey && patch.albedo == RgbT<double>(patch.albedo.x);
-    std::vector<RgbT<double>> radiosity(n);
-    for (int channel = 0; channel < (grey ? 1 : 3); ++channel) {
-        std::vector<double> matrix(n * n);
-        std::vector<RgbT<double>> right(n);
-        for (std::size_t i = 0; i < n; ++i) {
-            const double scale = patches[i].albedo[channel] / factors.area[i];
-            for (std::size_t j = 0; j < n; ++j)
-                matrix[i * n + j] = (i == j ? 1.0 : 0.0) - scale * factors.row(i)[j];
-            right[i] = patches[i].emitted;
-        }
-        detail::eliminate(matrix, right);
-        for (std::size_t i = 0; i < n; ++i)
-            if (grey)
-                radiosity[i] = right[i];
-            else
-                radiosity[i][channel] = right[i][channel];
-    }
-    return radiosity;
-}
-// [solve_lu]
 
 /// Sends the waiting light of one patch to all others. Gauss-Seidel and shooting are
 /// this step, in different orders.
@@ -163,6 +102,24 @@ inline void relax(const FormFactors& factors, const std::vector<Patch>& patches,
     unsent[i] = RgbT<double>(0);
 }
 // [relax]
+
+/// The patch with the most flux to send: Southwell's choice.
+/// \param factors  The form factors.
+/// \param unsent   Radiosity that waits on each patch.
+/// \return Its number; the first one of equals.
+// [brightest]
+[[nodiscard]] inline std::size_t brightest(const FormFactors& factors,
+                                           const std::vector<RgbT<double>>& unsent) {
+    std::size_t best = 0;
+    double most = -1;
+    for (std::size_t i = 0; i < unsent.size(); ++i) {
+        const double waits =
+            factors.area[i] * (unsent[i].x + unsent[i].y + unsent[i].z);
+        if (waits > most) best = i, most = waits;
+    }
+    return best;
+}
+// [brightest]
 
 /// Solves the equations of radiosity.
 ///
@@ -206,16 +163,6 @@ solve_radiosity(const FormFactors& factors, const std::vector<Patch>& patches,
         const auto arrives = gather(factors, unsent, settings.threads);
         for (std::size_t i = 0; i < n; ++i) unsent[i] = patches[i].albedo * arrives[i];
     };
-    const auto brightest = [&] {
-        std::size_t best = 0;
-        double most_flux = -1;
-        for (std::size_t i = 0; i < n; ++i) {
-            const double waits =
-                factors.area[i] * (unsent[i].x + unsent[i].y + unsent[i].z);
-            if (waits > most_flux) best = i, most_flux = waits;
-        }
-        return best;
-    };
     const auto rest = [&] { return detail::unsent_share(factors, unsent, flux); };
     solution.residual.push_back(rest());
     for (int sweep = 0; solution.residual.back() > settings.tolerance; ++sweep) {
@@ -228,7 +175,9 @@ solve_radiosity(const FormFactors& factors, const std::vector<Patch>& patches,
         else
             for (std::size_t step = 0; step < n; ++step)
                 relax(factors, patches,
-                      settings.solver == RadiositySolver::shooting ? brightest() : step,
+                      settings.solver == RadiositySolver::shooting
+                          ? brightest(factors, unsent)
+                          : step,
                       solution.radiosity, unsent);
         solution.residual.push_back(rest());
     }
