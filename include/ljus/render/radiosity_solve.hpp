@@ -148,8 +148,8 @@ solve_radiosity(const FormFactors& factors, const std::vector<Patch>& patches,
         flux += factors.area[i] * unsent[i];
         most = std::max(most, max_component(patches[i].albedo) * factors.row_sum(i));
     }
-    require(most < 1, "the largest share of its light that a patch gets back", most,
-            "below 1: take a smaller albedo, more rays, or `closed` in a closed room");
+    require(most < 1 - 1e-12, "the largest share of its light that a patch gets back",
+            most, "below 1: take smaller albedos, more rays, or `closed` factors");
     if (settings.solver == RadiositySolver::lu) {
         solution.radiosity = solve_lu(factors, patches);
         const auto irradiance = gather(factors, solution.radiosity, settings.threads);
