@@ -37,9 +37,10 @@ struct Sizes {
 /// A picture, with a bar while it is made.
 template <typename Renderer>
 Image rendered(const std::string& name, const Renderer& renderer, const Camera& camera,
-               const examples::Options& options, int rays = 0) {
+               const examples::Options& options, int rays = 0, bool wide = false) {
     examples::ProgressBar bar(name, options.quiet);
-    Picture picture{options.width, options.height, rays > 0 ? rays : options.rays,
+    const int height = wide ? std::max(1, options.height / 2) : options.height;
+    Picture picture{options.width, height, rays > 0 ? rays : options.rays,
                     options.seed};
     picture.progress = bar;
     picture.threads = options.threads;
@@ -94,9 +95,9 @@ Room<Stage> two_rooms(double wall) {
     scene.add(Quad{o + x, z, y}, blue);
     scene.add(Quad{{float(wall), 0, -1}, y, z}, white);
     scene.add(Quad{{-1.2f, 1.99f, -0.2f}, {0.4f, 0, 0}, {0, 0, 0.4f}},
-              scene.add(Lambertian{.albedo = Rgb{0}}), Rgb{20, 18, 15});
+              scene.add(Lambertian{.albedo = Rgb{0}}), Rgb{60, 54, 45});
     room.camera = look_at(View{
-        .position{0, 1, 4.6f}, .target{0, 1, 0}, .up{0, 1, 0}, .vfov_degrees = 50});
+        .position{0, 1, 4.6f}, .target{0, 1, 0}, .up{0, 1, 0}, .vfov_degrees = 32});
     return room;
 }
 
@@ -269,7 +270,7 @@ void error_of_size(const examples::Options& options, const Sizes& sizes) {
 void room_pictures(const examples::Options& options, const Sizes& sizes) {
     const auto room = block_room();
     const auto tracer = make_path_tracer(room.scene);
-    const int many = options.pick(64, 1024, 8192);
+    const int many = options.pick(32, 1024, 8192);
     const Image truth =
         rendered("reference", tracer, room.camera, options, options.rays * 4 + many);
     save_png(truth, options.path("radiosity-path.png"));
@@ -278,7 +279,7 @@ void room_pictures(const examples::Options& options, const Sizes& sizes) {
                                       "equations, s", "a view, s",
                                       "error of 10 x 10 pixels"}};
     const auto error = [&](const Image& image) {
-        return examples::text(100 * block_error(image, truth), "%.2f %%");
+        return examples::text(100 * std::sqrt(block_error(image, truth)), "%.1f %%");
     };
     for (int step = sizes.steps - 1; step >= 0; --step) {
         const double size = sizes.patch * (1 << step);
@@ -319,7 +320,7 @@ void room_pictures(const examples::Options& options, const Sizes& sizes) {
                      options.path(name + "-flat.png"));
         }
     }
-    for (const int rays : {1, 4, 16, 64}) {
+    for (const int rays : {1, 4, 16}) {
         const double start = examples::processor_seconds();
         Picture other{options.width, options.height, rays, options.seed + 77};
         other.threads = options.threads;
@@ -346,7 +347,9 @@ void views(const examples::Options& options, const Sizes& sizes) {
         start = now;
         return spent;
     };
-    const auto all = make_radiosity(room.scene, {.patches = {.size = sizes.patch}});
+    const auto all =
+        make_radiosity(room.scene, {.patches = {.size = sizes.patch},
+                                    .factors = {.analytic = false, .rays = 1024}});
     const auto view = make_light_map_view(room.scene, all->map);
     const double solved = next();
     constexpr int count = 5;
@@ -427,7 +430,7 @@ void leaks(const examples::Options& options, const Sizes& sizes) {
                 };
                 row.push_back(examples::text(100 * near(1) / near(-1), "%.2f %%"));
                 if (wall > 0)
-                    save_png(rendered("leak", view, room.camera, options),
+                    save_png(rendered("leak", view, room.camera, options, 0, true),
                              options.path("radiosity-leak-" + std::to_string(step) +
                                           (smooth ? "-smooth.png" : "-flat.png")));
             }
@@ -437,7 +440,7 @@ void leaks(const examples::Options& options, const Sizes& sizes) {
     save_table(options.out, table);
     const auto room = two_rooms(0.11);
     save_png(rendered("leak paths", make_path_tracer(room.scene), room.camera, options,
-                      4 * options.rays),
+                      8 * options.rays, true),
              options.path("radiosity-leak-path.png"));
     if (!options.quiet)
         for (const auto& row : table.rows)
@@ -449,13 +452,13 @@ void leaks(const examples::Options& options, const Sizes& sizes) {
 void report_room(const examples::Options& options, const Sizes& sizes) {
     const auto room = final_room();
     const auto all =
-        make_radiosity(room.scene, {.patches = {.size = 3 * sizes.patch},
+        make_radiosity(room.scene, {.patches = {.size = 7 * sizes.patch},
                                     .factors = {.analytic = false, .rays = 2048}});
     save_png(rendered("report", make_light_map_view(room.scene, all->map), room.camera,
                       options),
              options.path("radiosity-report.png"));
     save_png(rendered("report paths", make_path_tracer(room.scene), room.camera,
-                      options, 4 * options.rays),
+                      options, 2 * options.rays),
              options.path("radiosity-report-path.png"));
     const auto sum =
         energy_balance(all->patches, all->factors, all->solution.radiosity);
