@@ -21,9 +21,10 @@
 #include "common/terminal.hpp"
 
 using namespace ljus;
-using Color = RgbT<double>;
 
 namespace {
+
+using Color = RgbT<double>;
 
 constexpr double pi = std::numbers::pi;
 using Stage = Scene<Shapes<Quad>, Materials<Lambertian>>;
