@@ -25,7 +25,7 @@ struct FluxDiscT {
     T radius = T(1);                      ///< Between 1e-15 and 1e15.
     T thickness = T(0.5);                 ///< Half its height over its radius.
     Kernel kernel = Kernel::epanechnikov; ///< The weight by distance.
-    std::uint32_t kinds = 15;             ///< Which kinds count, a bit each.
+    PhotonKinds kinds = all_kinds;        ///< Which kinds count.
 };
 
 /// The weighted flux in a disc, of photons that come from one side.
@@ -68,7 +68,7 @@ flux_in_disc(const WideKdTreeT<T>& tree, const PhotonRecordsT<T>& records,
             x[i] = block.distance2.lane[i] * per_radius2;
             inside[i] = (x[i] < std::numeric_limits<T>::infinity()) & (h <= height) &
                         (-h <= height) & !turned &
-                        static_cast<int>(disc.kinds >> kind & 1u);
+                        static_cast<int>(disc.kinds.bits >> kind & 1u);
             count += inside[i];
         });
         gathered += static_cast<std::uint64_t>(count);
