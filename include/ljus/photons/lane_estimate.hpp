@@ -87,7 +87,7 @@ flux_in_disc(const WideKdTreeT<T>& tree, const PhotonRecordsT<T>& records,
         if (++parts == 16) add_part();
     };
     tree.visit_blocks(c, disc.radius, visit);
-    add_part();
+    if (parts > 0) add_part();
     return sum;
 }
 // [flux in disc]
