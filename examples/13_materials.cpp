@@ -355,7 +355,7 @@ void plot_gloss(const std::string& folder, int count) {
     save_plot(folder, noise);
 }
 
-/// Nanoseconds a call of f(wo, u or wi), the best of 15 runs.
+/// Nanoseconds a call of f(wo, u or wi), the best of some runs.
 template <typename F>
 double nanoseconds(F f) {
     std::vector<Vec3> wo, u;
@@ -364,18 +364,13 @@ double nanoseconds(F f) {
         wo.push_back(ljus::sample_cosine_hemisphere(next_2d<float>(stream)));
         u.push_back(next_3d<float>(stream));
     }
-    double best = std::numeric_limits<double>::infinity();
-    volatile float keep = 0;
-    for (int run = 0; run < 15; ++run) {
-        const examples::StopWatch watch;
+    return examples::nanoseconds_a_call(4.0 * double(wo.size()), [&] {
         float sum = 0;
         for (int round = 0; round < 4; ++round)
             for (std::size_t i = 1; i < wo.size(); ++i)
                 sum += f(wo[i], wo[i - 1], u[i]);
-        best = std::min(best, watch.seconds() * 1e9 / (4.0 * double(wo.size())));
-        keep = keep + sum;
-    }
-    return best;
+        return sum;
+    });
 }
 
 /// Table: nanoseconds and noise of each material.

@@ -83,17 +83,17 @@ glm::dvec3 lab(const glm::dvec3& rgb, double cosine) {
 /// Nanoseconds of one call, over thicknesses and angles; the best of five.
 template <typename Color>
 double nanoseconds(Color color, int calls) {
-    double best = 1e300;
-    volatile float sink = 0;
-    for (int repeat = 0; repeat < 5; ++repeat) {
-        const examples::StopWatch watch;
-        for (int i = 0; i < calls; ++i) {
-            const float c = 0.3f + 0.7f * float(i % 97) / 97;
-            sink = sink + color(c, 1500 * float(i % 1009) / 1009).y;
-        }
-        best = std::min(best, 1e9 * watch.seconds() / calls);
-    }
-    return best;
+    return examples::nanoseconds_a_call(
+        calls,
+        [&] {
+            float sum = 0;
+            for (int i = 0; i < calls; ++i) {
+                const float c = 0.3f + 0.7f * float(i % 97) / 97;
+                sum += color(c, 1500 * float(i % 1009) / 1009).y;
+            }
+            return sum;
+        },
+        5);
 }
 
 /// Table and plot: how far each method is from the spectrum, and what it costs.
