@@ -119,6 +119,7 @@
 #include "ljus/scene/report_room.hpp"
 #include "ljus/scene/report_rooms.hpp"
 #include "ljus/scene/room.hpp"
+#include "ljus/scene/sampling_pattern.hpp"
 #include "ljus/scene/scatter.hpp"
 #include "ljus/scene/scene.hpp"
 #include "ljus/scene/stratified.hpp"
