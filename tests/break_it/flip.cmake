@@ -18,7 +18,7 @@ ljus_break_it(NAME flip-hyab HEADER image/flip_color.hpp TEST flip
 
 # Edges are found, and points are not.
 ljus_break_it(NAME flip-points HEADER image/flip.hpp TEST flip
-    FROM "std::max(std::abs(change.x), std::abs(change.y))"
+    FROM "glm::max(std::abs(change.x), std::abs(change.y))"
     TO   "std::abs(change.x)"
     CASES "flip: a second*")
 
@@ -36,8 +36,8 @@ ljus_break_it(NAME flip-blur HEADER image/flip_filter.hpp TEST flip
 
 # Outside of the picture it is dark.
 ljus_break_it(NAME flip-border HEADER image/flip_filter.hpp TEST flip
-    FROM "const int row = std::clamp(y + i, 0, height - 1);"
-    TO   "const int row = std::clamp(y + i, 0, height - 1); if (row != y + i) continue;"
+    FROM "const int row = glm::clamp(y + i, 0, height - 1);"
+    TO   "const int row = glm::clamp(y + i, 0, height - 1); if (row != y + i) continue;"
     CASES "flip: pictures without*")
 
 # One exposure for all.

@@ -3,14 +3,13 @@
 /// \file ljus/image/flip.hpp
 /// \brief FLIP: how different two pictures look, to somebody who flips between them.
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "ljus/image/flip_color.hpp"
 #include "ljus/image/flip_filter.hpp"
-#include "ljus/image/metrics.hpp"
 #include "ljus/math/require.hpp"
+#include "ljus/math/sum.hpp"
 
 namespace ljus {
 
@@ -80,7 +79,7 @@ template <std::floating_point T, std::floating_point U>
     for (std::size_t i = 0; i < map.pixels.size(); ++i) {
         const double color = color_error(seen_a.pixels[i], seen_b.pixels[i]);
         const RgbT<double> change = features_a.pixels[i] - features_b.pixels[i];
-        const double larger = std::max(std::abs(change.x), std::abs(change.y));
+        const double larger = glm::max(std::abs(change.x), std::abs(change.y));
         const double feature = std::sqrt(larger / std::numbers::sqrt2);
         map.pixels[i] = RgbT<double>(std::pow(color, 1 - feature));
     }

@@ -3,8 +3,6 @@
 /// \file ljus/image/flip_filter.hpp
 /// \brief What the eye does before it compares: it blurs, and it finds edges and points.
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -74,11 +72,11 @@ inline void make_unit(Weights& weights) noexcept {
             for (int i = -radius_x; i <= radius_x; ++i)
                 rows[at(x, y)] +=
                     along_x[static_cast<std::size_t>(i + radius_x)] *
-                    pixel(image, std::clamp(x + i, 0, width - 1), y)[channel];
+                    pixel(image, glm::clamp(x + i, 0, width - 1), y)[channel];
     for (int y = 0; y < height; ++y)
         for (int i = -radius_y; i <= radius_y; ++i) {
             const double weight = along_y[static_cast<std::size_t>(i + radius_y)];
-            const int row = std::clamp(y + i, 0, height - 1);
+            const int row = glm::clamp(y + i, 0, height - 1);
             for (int x = 0; x < width; ++x)
                 result[at(x, y)] += weight * rows[at(x, row)];
         }
@@ -92,7 +90,7 @@ inline void make_unit(Weights& weights) noexcept {
 template <std::floating_point T>
 [[nodiscard]] ImageT<double> opponent_image(const ImageT<T>& image) {
     ImageT<double> result = make_image<double>(image.width, image.height);
-    const auto shown = [](T x) { return x > T(0) ? std::min(double(x), 1.0) : 0.0; };
+    const auto shown = [](T x) { return x > T(0) ? glm::min(double(x), 1.0) : 0.0; };
     for (std::size_t i = 0; i < result.pixels.size(); ++i) {
         const RgbT<T>& c = image.pixels[i];
         result.pixels[i] = opponent({shown(c.x), shown(c.y), shown(c.z)});
