@@ -101,6 +101,8 @@
 #include "ljus/render/counts.hpp"
 #include "ljus/render/direct_light.hpp"
 #include "ljus/render/explain.hpp"
+#include "ljus/render/light_transport.hpp"
+#include "ljus/render/path_class.hpp"
 #include "ljus/render/path_log.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_dots.hpp"
