@@ -1,4 +1,5 @@
-// FLIP against numbers from elsewhere: closed forms, a constant of other programs, and a second program in another language (plain Python, 2-D kernels, written from the
+// FLIP against numbers from elsewhere: closed forms, a constant of other programs, and
+// a second program in another language (plain Python, 2-D kernels, written from the
 // paper) on small pictures made of whole numbers.
 #include <doctest/doctest.h>
 

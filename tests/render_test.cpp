@@ -85,8 +85,9 @@ TEST_CASE("render: each pixel is the mean over its own square, from the upper le
                 const double side = 2.0 / height;
                 const double dx = double(mean.x) - (x + 0.5 - width / 2.0) * side;
                 const double dy = double(mean.y) - (height / 2.0 - y - 0.5) * side;
-                // Within the pixel; and the more rays the nearer to its middle: stratified
-                // means of n rays lie within 1/(2 sqrt(n)) of it at the very worst.
+                // Within the pixel; and the more rays the nearer to its middle:
+                // stratified means of n rays lie within 1/(2 sqrt(n)) of it at the
+                // very worst.
                 const double bound =
                     rays == 1 ? 0.5 : 0.5 / std::floor(std::sqrt(rays / 4.0) + 0.5);
                 CHECK(std::abs(dx) <= bound * side + 1e-6);

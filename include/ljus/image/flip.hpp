@@ -15,7 +15,8 @@ namespace ljus {
 
 /// \defgroup flip FLIP
 /// \brief Footnote 1: "all we really need is to make the results look real". A number
-/// for it, after Andersson et al. \cite andersson2020. Chapter: \ref ch_light_transport.
+/// for it, after Andersson et al. \cite andersson2020.
+/// Chapter: \ref ch_light_transport.
 /// \{
 
 /// How large a pixel is to the viewer.
@@ -56,12 +57,13 @@ namespace ljus {
 /// What is too fine for the eye is blurred away, channel by channel, before colours are
 /// compared; and where an edge or a point stands in one picture and not in the other,
 /// the colours' difference is raised by a power below 1.
-/// \param image      Linear sRGB; what is not within [0, 1] is taken to its border, as a
-///                   screen does.
+/// \param image      Linear sRGB; what is not within [0, 1] is taken to its border, as
+///                   a screen does.
 /// \param reference  The other picture, of the same size.
 /// \param ppd        From pixels_per_degree().
 /// \return A grey image in [0, 1]: 0 where nobody sees a difference.
-/// \throws std::invalid_argument  as require_same_size(), or unless ppd is in [1, 1000].
+/// \throws std::invalid_argument  as require_same_size(), or for a ppd outside of
+///         [1, 1000].
 /// \cost Proportional to pixels times ppd.
 /// \cite andersson2020
 // [flip_map]

@@ -74,8 +74,8 @@ inline constexpr Vec3T<double> xyz_shares[3] = {
 }
 // [hunt_lab]
 
-/// The distance HyAB, made for large differences: lightness by its amount, colour by its
-/// length.
+/// The distance HyAB, made for large differences: lightness by its amount, colour by
+/// its length.
 /// \param a  From hunt_lab().
 /// \param b  The other one.
 /// \return |L1 - L2| + |(a1, b1) - (a2, b2)|.

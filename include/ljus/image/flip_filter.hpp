@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/image/flip_filter.hpp
-/// \brief What the eye does before it compares: it blurs, and it finds edges and points.
+/// \brief What the eye does before it compares: it blurs, and finds edges and
+/// points.
 
 #include <cmath>
 #include <numbers>
@@ -21,8 +22,8 @@ struct EyeGaussian {
     double b; ///< Its breadth, in square degrees.
 };
 
-/// What the eye blurs light, red-green and blue-yellow by: the sum of two Gaussians each
-/// \cite andersson2020.
+/// What the eye blurs light, red-green and blue-yellow by: the sum of two Gaussians
+/// each \cite andersson2020.
 inline constexpr EyeGaussian eye_gaussians[3][2] = {
     {{1, 0.0047}, {0, 1e-5}}, {{1, 0.0053}, {0, 1e-5}}, {{34.1, 0.04}, {13.5, 0.025}}};
 
@@ -134,9 +135,9 @@ template <std::floating_point T>
 }
 // [as_seen]
 
-/// The strength of edges and of points at each pixel: the length of the first and of the
-/// second derivative of its light, over the breadth of what the eye takes for an edge,
-/// 0.082 degrees.
+/// The strength of edges and of points at each pixel: the length of the first and of
+/// the second derivative of its light, over the breadth of what the eye takes for an
+/// edge, 0.082 degrees.
 /// \param image  In YCxCz.
 /// \param ppd    Pixels in a degree.
 /// \return Edges in the first channel, points in the second.

@@ -65,7 +65,8 @@ template <std::floating_point T>
 }
 // [exposures_of]
 
-/// HDR-FLIP of each pixel: the largest flip_map() over the exposures_of() the reference.
+/// HDR-FLIP of each pixel: the largest flip_map() over the exposures_of() the
+/// reference.
 /// \param image      Linear sRGB of any brightness.
 /// \param reference  The truth, of the same size; it alone decides the exposures.
 /// \param ppd        From pixels_per_degree().

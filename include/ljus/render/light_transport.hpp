@@ -22,7 +22,8 @@ namespace ljus {
 /// \param x      One point of a surface.
 /// \param other  Another one.
 /// \return 0 if something stands between them, glass too, or if they are the same
-///         point; else 1/r^2, per square of scene units. The same if they are exchanged.
+///         point; else 1/r^2, per square of scene units. The same if they are
+///         exchanged.
 /// \report{Eq. (1)}
 /// \erratum{The report has 1/r^2 only, so that no surface casts a shadow.}
 // [transport_factor]

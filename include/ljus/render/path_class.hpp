@@ -15,8 +15,8 @@
 namespace ljus {
 
 /// \defgroup path_class Classes of light paths
-/// \brief Eq. 1 is a sum over paths; a renderer is known by those it leaves out. Chapter:
-/// \ref ch_light_transport.
+/// \brief Eq. 1 is a sum over paths; a renderer is known by those it leaves out.
+/// Chapter: \ref ch_light_transport.
 ///
 /// A path is a word: E the eye, D a diffuse or a glossy surface, S a mirror or a
 /// boundary of glass, L the light. A class of paths is a regular expression over these
@@ -54,7 +54,8 @@ namespace detail {
 
 // Reads an expression from the left, and notes which letter may follow which.
 struct PathClassReader {
-    // A part of the expression: where it may begin and end, and whether it may be empty.
+    // A part of the expression: where it may begin and end, and whether it may be
+    // empty.
     struct Part {
         std::uint64_t first = 0, last = 0;
         bool empty = true;
@@ -130,8 +131,8 @@ struct PathClassReader {
 } // namespace detail
 
 /// Makes a class of paths ready.
-/// \param expression  As "ES*D?L": E, D, S, L, '.' for D or S, and | ( ) * + ? as usual;
-///                    at most 63 letters. It must outlive the class.
+/// \param expression  As "ES*D?L": E, D, S, L, '.' for D or S, and | ( ) * + ? as
+///                    usual; at most 63 letters. It must outlive the class.
 /// \return The class; the compiler makes it, if it is constexpr.
 /// \throws std::invalid_argument  for an expression that is none.
 // [path_class]

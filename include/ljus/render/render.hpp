@@ -22,12 +22,12 @@ namespace ljus {
 
 /// The picture that is asked for.
 struct Picture {
-    int width = 400;        ///< Pixels, at least 1.
-    int height = 400;       ///< Pixels, at least 1.
-    int rays = 64;          ///< Primary rays in a pixel, at least 1; exactly as many.
+    int width = 400;  ///< Pixels, at least 1.
+    int height = 400; ///< Pixels, at least 1.
+    int rays = 64;    ///< Primary rays in a pixel, at least 1; exactly as many.
     Sampling sampling = Sampling::multi_jittered; ///< How they are spread over it.
-    std::uint64_t seed = 1; ///< Of the random streams.
-    int threads = 0;        ///< 0: all that there are.
+    std::uint64_t seed = 1;                       ///< Of the random streams.
+    int threads = 0;                              ///< 0: all that there are.
     Progress progress = {}; ///< Called with (done, total); false stops.
 };
 
@@ -52,8 +52,9 @@ struct RenderedT {
 /// \return Radiance, W/(m^2 sr).
 template <typename Renderer, std::floating_point T, typename Log = NoLog>
 [[nodiscard]] RgbT<T> sample_pixel(const Renderer& renderer, const CameraT<T>& camera,
-                                   const Picture& picture, const Pattern& pattern, int x,
-                                   int y, int number, Counts& counts, Log&& log = {}) {
+                                   const Picture& picture, const Pattern& pattern,
+                                   int x, int y, int number, Counts& counts,
+                                   Log&& log = {}) {
     const auto pixel =
         static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(picture.width) +
         static_cast<std::uint64_t>(x);

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/scene/sampling_pattern.hpp
-/// \brief Where the rays of a pixel go through it: four patterns, for any number of them.
+/// \brief Where the rays of a pixel go through it: four patterns for any
+/// number.
 
 #include <cstdint>
 
