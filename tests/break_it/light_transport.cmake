@@ -17,7 +17,7 @@ ljus_break_it(NAME transport-vertex HEADER render/light_transport.hpp
     TEST light_transport
     FROM "states = wanted.step(states, letter);"
     TO   "(void)letter;"
-    CASES "light_transport: the parts*")
+    CASES "light_transport: cut short*")
 
 # A star that asks for one at least.
 ljus_break_it(NAME class-star HEADER render/path_class.hpp TEST light_transport
