@@ -23,10 +23,10 @@ ljus_break_it(NAME transport-vertex HEADER render/light_transport.hpp
 ljus_break_it(NAME class-star HEADER render/path_class.hpp TEST light_transport
     FROM "if (sign != '+') part.empty = true;"
     TO   "if (sign == '?') part.empty = true;"
-    CASES "light_transport: classes of paths, 120*")
+    CASES "light_transport: classes of paths*")
 
 # A part that may be empty hides what stands before it.
 ljus_break_it(NAME class-empty HEADER render/path_class.hpp TEST light_transport
     FROM "next.last | (next.empty ? all.last : 0)"
     TO   "next.last"
-    CASES "light_transport: classes of paths, 120*")
+    CASES "light_transport: classes of paths*")
