@@ -30,20 +30,6 @@ namespace ljus {
 /// elsewhere (0.1 times the mean radiance)^2.
 inline constexpr double default_epsilon = 0.01;
 
-/// Refuses to compare two images.
-/// \throws std::invalid_argument  if their sizes differ, or as check() for either.
-template <std::floating_point T, std::floating_point U>
-void require_same_size(const ImageT<T>& image, const ImageT<U>& reference) {
-    check(image);
-    check(reference);
-    if (image.width == reference.width && image.height == reference.height) return;
-    throw std::invalid_argument("The image's size is " + std::to_string(image.width) +
-                                " x " + std::to_string(image.height) +
-                                "; the reference has " +
-                                std::to_string(reference.width) + " x " +
-                                std::to_string(reference.height) + ".");
-}
-
 namespace detail {
 
 inline void require_epsilon(double epsilon) {

@@ -11,7 +11,7 @@
 #include "ljus/render/counts.hpp"
 #include "ljus/render/path_log.hpp"
 #include "ljus/scene/camera.hpp"
-#include "ljus/scene/stratified.hpp"
+#include "ljus/scene/sampling_pattern.hpp"
 
 namespace ljus {
 
@@ -22,11 +22,12 @@ namespace ljus {
 
 /// The picture that is asked for.
 struct Picture {
-    int width = 400;        ///< Pixels, at least 1.
-    int height = 400;       ///< Pixels, at least 1.
-    int rays = 64;          ///< Primary rays in a pixel, at least 1; exactly as many.
-    std::uint64_t seed = 1; ///< Of the random streams.
-    int threads = 0;        ///< 0: all that there are.
+    int width = 400;  ///< Pixels, at least 1.
+    int height = 400; ///< Pixels, at least 1.
+    int rays = 64;    ///< Primary rays in a pixel, at least 1; exactly as many.
+    Sampling sampling = Sampling::multi_jittered; ///< How they are spread over it.
+    std::uint64_t seed = 1;                       ///< Of the random streams.
+    int threads = 0;                              ///< 0: all that there are.
     Progress progress = {}; ///< Called with (done, total); false stops.
 };
 
@@ -42,7 +43,7 @@ struct RenderedT {
 /// \param renderer  A PathTracer, a PhotonMapper, or anything with a radiance().
 /// \param camera    The camera.
 /// \param picture   Size and rays.
-/// \param strata    strata_for() the rays of a pixel.
+/// \param pattern   make_pattern() for the rays of a pixel.
 /// \param x         Column of the pixel.
 /// \param y         Row of the pixel.
 /// \param number    Which of the pixel's rays.
@@ -51,8 +52,9 @@ struct RenderedT {
 /// \return Radiance, W/(m^2 sr).
 template <typename Renderer, std::floating_point T, typename Log = NoLog>
 [[nodiscard]] RgbT<T> sample_pixel(const Renderer& renderer, const CameraT<T>& camera,
-                                   const Picture& picture, const Strata& strata, int x,
-                                   int y, int number, Counts& counts, Log&& log = {}) {
+                                   const Picture& picture, const Pattern& pattern,
+                                   int x, int y, int number, Counts& counts,
+                                   Log&& log = {}) {
     const auto pixel =
         static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(picture.width) +
         static_cast<std::uint64_t>(x);
@@ -60,7 +62,7 @@ template <typename Renderer, std::floating_point T, typename Log = NoLog>
                       static_cast<std::uint64_t>(number);
     RandomStream stream = random_stream(picture.seed, Pass::camera, 0, path);
     const Vec2T<T> place =
-        stratified(strata, number, mix(picture.seed) ^ pixel, next_2d<T>(stream));
+        spread(pattern, number, mix(picture.seed) ^ pixel, next_2d<T>(stream));
     const RayT<T> ray = primary_ray(camera, Vec2T<T>{T(x), T(y)} + place, picture.width,
                                     picture.height);
     ++counts.camera_rays;
@@ -81,7 +83,7 @@ template <typename Renderer, std::floating_point T>
     require(picture.rays >= 1, "rays", static_cast<long long>(picture.rays),
             "at least 1");
     RenderedT<T> result{.image = make_image<T>(picture.width, picture.height)};
-    const Strata strata = strata_for(picture.rays);
+    const Pattern pattern = make_pattern(picture.sampling, picture.rays);
     const int tiles = (picture.width + 15) / 16;
     std::vector<Counts> counts(static_cast<std::size_t>(tiles) *
                                static_cast<std::size_t>(picture.height));
@@ -93,7 +95,7 @@ template <typename Renderer, std::floating_point T>
             RgbT<double> sum{0}; // a float would lose the last of 100 000 samples
             for (int i = 0; i < picture.rays; ++i) {
                 const RgbT<T> sample =
-                    sample_pixel(renderer, camera, picture, strata, x, y, i, cost);
+                    sample_pixel(renderer, camera, picture, pattern, x, y, i, cost);
                 if (is_finite(sample))
                     sum += RgbT<double>(sample);
                 else
