@@ -104,6 +104,7 @@
 #include "ljus/render/render.hpp"
 #include "ljus/render/shading.hpp"
 #include "ljus/render/survey.hpp"
+#include "ljus/render/whitted.hpp"
 #include "ljus/scene/camera.hpp"
 #include "ljus/scene/cornell_box.hpp"
 #include "ljus/scene/furnaces.hpp"
