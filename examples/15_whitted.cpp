@@ -38,7 +38,7 @@ const Rgb sky{0.16f, 0.27f, 0.5f};
 TwoBalls two_balls() {
     TwoBalls scene;
     const auto glass = scene.add(ljus::Glass{.index = 1.5f});
-    const auto mirror = scene.add(ljus::Mirror{.reflectance = Rgb{0.9f}});
+    const auto mirror = scene.add(ljus::Mirror{.reflectance{0.75f, 0.73f, 0.68f}});
     const auto black = scene.add(ljus::Lambertian{.albedo = Rgb{0}});
     const auto floor = scene.add(TiledFloor{{.albedo = Rgb{1}},
                                             {.map{.edge_u{2, 0, 0}, .edge_v{0, 0, 2}},
@@ -84,8 +84,8 @@ void depths(const TwoBalls& scene, const examples::Options& options) {
     examples::Plot plot{.name = "whitted-rays",
                         .columns = {"depth", "every ray meets glass: 2^(d+1) - 1",
                                     "rays that hit one ball of glass: 1 + 2d",
-                                    "the two balls, both branches",
-                                    "the two balls, one branch"},
+                                    "the two balls by both branches",
+                                    "the two balls by one branch"},
                         .y_label = "rays a camera ray, without shadow rays",
                         .log_y = true,
                         .more = "set yrange [0.8:200]\nset format y '%g'\n"};
@@ -143,7 +143,7 @@ void branches(const TwoBalls& scene, const examples::Options& options) {
                  options)
             .image;
     examples::Plot plot{.name = "whitted-cost",
-                        .columns = {"rays a pixel of the picture, of all kinds",
+                        .columns = {"rays a pixel of all kinds",
                                     "both branches", "one branch by roulette"},
                         .y_label = "RMS error on the glass ball",
                         .log_x = true,
