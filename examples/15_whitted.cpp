@@ -143,8 +143,8 @@ void branches(const TwoBalls& scene, const examples::Options& options) {
                  options)
             .image;
     examples::Plot plot{.name = "whitted-cost",
-                        .columns = {"rays a pixel of all kinds",
-                                    "both branches", "one branch by roulette"},
+                        .columns = {"rays a pixel of all kinds", "both branches",
+                                    "one branch by roulette"},
                         .y_label = "RMS error on the glass ball",
                         .log_x = true,
                         .log_y = true};
