@@ -178,8 +178,8 @@ TEST_CASE("distributed rays: the error falls by n^-1/2, stratified by n^-3/4") {
     const D2 floor{0.1, 0.15};
     const double right = lit_by_quadrature(floor);
     const auto error_with = [&](auto stream) {
-        return [&, stream](int n) {
-            using Stream = decltype(stream);
+        using Stream = decltype(stream);
+        return [&](int n) {
             double sum = 0;
             for (std::uint64_t pixel = 0; pixel < 150; ++pixel) {
                 const double seen =

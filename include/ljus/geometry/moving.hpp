@@ -9,7 +9,8 @@
 namespace ljus {
 
 /// \defgroup moving Moving shapes
-/// \brief Section 2.1, distributed rays: motion blur. Chapter: \ref ch_distributed_rays.
+/// \brief Section 2.1, distributed rays: motion blur. Chapter:
+/// \ref ch_distributed_rays.
 /// \{
 
 /// \name Moved shapes

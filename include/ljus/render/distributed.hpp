@@ -34,8 +34,8 @@ struct DistributedTracer {
     DistributedRays settings; ///< How.
 };
 
-/// Makes a tracer: `make_distributed(scene)`, or `make_distributed<RandomStream>(scene)`
-/// to see what stratification is good for.
+/// Makes a tracer: `make_distributed(scene)`, or
+/// `make_distributed<RandomStream>(scene)` to see what stratification is good for.
 /// \tparam AnyStream  What it draws from.
 /// \param scene     Must outlive the tracer; a scene, which it indexes, or an
 ///                  IndexedScene.

@@ -148,7 +148,7 @@ void follow(const WhittedTracer<Scene>& tracer, PathT<T> path, int depth,
 
 /// The radiance that the tree of one primary ray finds.
 ///
-/// Nothing is left to chance: glass sends a ray both ways, and each light has one point.
+/// Nothing is left to chance: glass sends a ray both ways, each light has one point.
 /// Only a material that mixes several lobes, or a thin sheet, still chooses by lot.
 /// \param tracer  The scene and the settings.
 /// \param ray     A primary ray.
