@@ -50,7 +50,7 @@ make_distributed(const Scene& scene, const DistributedRays& settings = {}) {
     return {IndexedT<Scene>(scene), settings};
 }
 
-/// Whether a material is a blurred mirror: rays are sent on from it, and find the lamps.
+/// Whether a material is a blurred mirror: it sends rays on, and they find the lamps.
 template <typename M>
 inline constexpr bool is_gloss = false;
 /// Facets are.
