@@ -71,8 +71,8 @@ ljus_break_it(NAME lane-estimate-turned HEADER photons/lane_estimate.hpp TEST ph
     TO   "T(127) * along"
     CASES "photon_map: eight*")
 ljus_break_it(NAME lane-estimate-kinds HEADER photons/lane_estimate.hpp TEST photon_map
-    FROM "disc.kinds.bits >> kind & 1u"
-    TO   "disc.kinds.bits | 1u"
+    FROM "kinds >> wanted[i] & 1"
+    TO   "kinds | 1"
     CASES "photon_map: eight*")
 
 # A sum in float alone.

@@ -18,8 +18,8 @@ ljus_break_it(NAME photon-mapping-cosine HEADER photons/photon_map.hpp TEST phot
     CASES "photon mapping: a matt ball embedded*")
 ljus_break_it(NAME photon-mapping-lane-cosine HEADER photons/lane_estimate.hpp
     TEST photon_mapping
-    FROM "lit ? weight[i] : T(0)"
-    TO   "lit ? -towards * weight[i] : T(0)"
+    FROM "lit ? weight.lane[i] : T(0)"
+    TO   "lit ? -towards * weight.lane[i] : T(0)"
     CASES "photon mapping: a matt ball embedded*")
 
 # The report's weight of a photon, a hill whose volume is not 1.
