@@ -26,7 +26,7 @@ ljus_break_it(NAME full_glossy-pdf HEADER materials/full_glossy.hpp TEST full_gl
 # All cells of the table as likely as each other: the density of other directions.
 ljus_break_it(NAME facet_loss-pdf HEADER optics/facet_loss.hpp TEST full_glossy
     FROM "return (loss.below[cell + 1] - loss.below[cell]) * cos_theta *"
-    TO   "return T(1) / T(loss.cells) * cos_theta *"
+    TO   "return (T(0) * loss.below[cell] + T(1) / T(loss.cells)) * cos_theta *"
     CASES "full glossy: samples*")
 
 # A table in the cosine itself: too coarse at the horizon.
