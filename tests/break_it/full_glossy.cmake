@@ -23,10 +23,10 @@ ljus_break_it(NAME full_glossy-pdf HEADER materials/full_glossy.hpp TEST full_gl
     TO   "return first;"
     CASES "full glossy: samples*")
 
-# Cells of the table as evenly filled by height, not by cosine.
-ljus_break_it(NAME facet_loss-cell HEADER optics/facet_loss.hpp TEST full_glossy
-    FROM "return std::sqrt(low * low + share * (high - low) * (high + low));"
-    TO   "return low + share * share * (high - low);"
+# All cells of the table as likely as each other: the density of other directions.
+ljus_break_it(NAME facet_loss-pdf HEADER optics/facet_loss.hpp TEST full_glossy
+    FROM "return (loss.below[cell + 1] - loss.below[cell]) * cos_theta *"
+    TO   "return (T(0) * loss.below[cell] + T(1) / T(loss.cells)) * cos_theta *"
     CASES "full glossy: samples*")
 
 # A table in the cosine itself: too coarse at the horizon.
