@@ -26,6 +26,7 @@
 #include "ljus/geometry/triangle_bvh.hpp"
 #include "ljus/geometry/watertight.hpp"
 #include "ljus/geometry/wide_bvh.hpp"
+#include "ljus/image/bias_variance.hpp"
 #include "ljus/image/byte_reader.hpp"
 #include "ljus/image/color.hpp"
 #include "ljus/image/file.hpp"
