@@ -97,6 +97,26 @@ TEST_CASE("render: each pixel is the mean over its own square, from the upper le
     }
 }
 
+TEST_CASE("render: pictures of one pixel, one row and one column, through any angle") {
+    for (const float angle : {1e-3f, 45.0f, 179.99f})
+        for (const auto& [width, height] : {std::pair{1, 1}, {1, 300}, {300, 1}}) {
+            const Camera camera = look_at({.vfov_degrees = angle});
+            const auto seen =
+                render(Probe{}, camera,
+                       {.width = width, .height = height, .rays = 5, .threads = 1});
+            CHECK(seen.counts.camera_rays ==
+                  5 * static_cast<std::uint64_t>(width) * std::uint64_t(height));
+            CHECK(seen.counts.rejected == 0);
+            // What the borders should be, in units of half the height.
+            const double side = 2.0 / height, h = double(camera.half_height);
+            const double x = double(pixel(seen.image, width - 1, 0).x) / h;
+            const double y = double(pixel(seen.image, 0, height - 1).y) / h;
+            CAPTURE(angle);
+            CHECK(std::abs(x / side - (width / 2.0 - 0.5)) < 0.51);
+            CHECK(std::abs(y / side + (height / 2.0 - 0.5)) < 0.51);
+        }
+}
+
 TEST_CASE("render: a sample that is not finite is left out and counted, never shown") {
     const auto seen = render(Probe{.bad = true}, Camera{},
                              {.width = 20, .height = 20, .rays = 16, .threads = 1});

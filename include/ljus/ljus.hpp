@@ -37,6 +37,7 @@
 #include "ljus/geometry/wide_bvh.hpp"
 #include "ljus/geometry/wide_nodes.hpp"
 #include "ljus/geometry/wide_ray.hpp"
+#include "ljus/image/bias_variance.hpp"
 #include "ljus/image/byte_reader.hpp"
 #include "ljus/image/color.hpp"
 #include "ljus/image/file.hpp"
