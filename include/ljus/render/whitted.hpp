@@ -53,9 +53,11 @@ template <typename Scene>
 }
 
 /// \name The middle of a lamp
+/// \{
+
 /// The point of the unit square whose sample stands for the whole lamp: of a sphere the
 /// point that is nearest to the observer, of a quad its middle.
-/// \{
+/// \return The point.
 template <typename Lamp>
 [[nodiscard]] auto middle_of(const Lamp&) noexcept {
     return Vec2T<ScalarOf<Lamp>>{ScalarOf<Lamp>(0.5)};
