@@ -29,8 +29,8 @@ public:
     using Tree = std::conditional_t<std::is_same_v<T, float>, TriangleBvh, BvhT<T>>;
 
     /// Builds the tree.
-    /// \param data     What the mesh is made of; triangles without an area are kept, and
-    ///                 never hit.
+    /// \param data     What the mesh is made of; triangles without an area are kept,
+    ///                 and never hit.
     /// \param threads  That build the tree; 0: all that there are.
     /// \throws std::invalid_argument  naming the number and the value: a mesh without
     ///         an area, a vertex that is not there, a coordinate that is not finite.
