@@ -207,8 +207,8 @@ double error(const TestCard& card, Sampling sampling, int rays, int pixels,
                                  {.width = pixels,
                                   .height = pixels,
                                   .rays = rays,
-                                  .sampling = sampling,
-                                  .seed = static_cast<std::uint64_t>(seed)});
+                                  .seed = static_cast<std::uint64_t>(seed),
+                                  .sampling = sampling});
         for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
             const double exact = double(truth.pixels[i].x);
             if (card.edges && (exact == 0 || exact == 1)) continue;

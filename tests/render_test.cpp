@@ -50,8 +50,8 @@ TEST_CASE("render: the rays of a pixel are spread as the picture says") {
                                  {.width = 20,
                                   .height = 20,
                                   .rays = 61,
-                                  .sampling = sampling,
-                                  .threads = 1});
+                                  .threads = 1,
+                                  .sampling = sampling});
         double sum = 0;
         for (int y = 0; y < 20; ++y)
             for (int x = 0; x < 20; ++x) {

@@ -22,13 +22,13 @@ namespace ljus {
 
 /// The picture that is asked for.
 struct Picture {
-    int width = 400;  ///< Pixels, at least 1.
-    int height = 400; ///< Pixels, at least 1.
-    int rays = 64;    ///< Primary rays in a pixel, at least 1; exactly as many.
-    Sampling sampling = Sampling::multi_jittered; ///< How they are spread over it.
-    std::uint64_t seed = 1;                       ///< Of the random streams.
-    int threads = 0;                              ///< 0: all that there are.
+    int width = 400;        ///< Pixels, at least 1.
+    int height = 400;       ///< Pixels, at least 1.
+    int rays = 64;          ///< Primary rays in a pixel, at least 1; exactly as many.
+    std::uint64_t seed = 1; ///< Of the random streams.
+    int threads = 0;        ///< 0: all that there are.
     Progress progress = {}; ///< Called with (done, total); false stops.
+    Sampling sampling = Sampling::multi_jittered; ///< Where in a pixel they go.
 };
 
 /// What a rendering brings.
