@@ -226,11 +226,10 @@ TEST_CASE("photon mapping: away from edges the bias falls with the square of the
         const PhotonMap map = make_photon_map(traced.photons);
         std::uint64_t gathered = 0;
         for (std::size_t i = 0; i < 4; ++i)
-            seen[i].add(
-                double(estimate_radiance(
-                           map, surface, white, Vec3{0, 0, 1}, {.radius = radii[i]},
-                           [](PhotonKind) { return true; }, gathered)
-                           .x));
+            seen[i].add(double(estimate_radiance(map, surface, white, Vec3{0, 0, 1},
+                                                 {.radius = radii[i]}, ljus::all_kinds,
+                                                 gathered)
+                                   .x));
     }
     const double exact = smoothed_radiance(0);
     double bias[4];
@@ -322,17 +321,15 @@ TEST_CASE("photon mapping: a matt ball embedded in glass in a furnace") {
         bool rough;
         Gather gather;
     };
-    for (const Way& way :
-         {Way{"in lanes", false, {.radius = 0.1f}},
-          Way{"one by one", true, {.radius = 0.1f}},
-          Way{"k nearest", false, {.radius = 0.2f, .nearest = 40}}}) {
+    for (const Way& way : {Way{"in lanes", false, {.radius = 0.1f}},
+                           Way{"one by one", true, {.radius = 0.1f}},
+                           Way{"k nearest", false, {.radius = 0.2f, .nearest = 40}}}) {
         Room room;
         const auto black = room.add(Lambertian{.albedo = Rgb{0}});
         const auto glass = room.add(Glass{.index = float(n)});
         const Rgb grey{float(albedo)};
-        const auto matt = way.rough
-                              ? room.add(OrenNayar{.albedo = grey, .sigma = 0})
-                              : room.add(Lambertian{.albedo = grey});
+        const auto matt = way.rough ? room.add(OrenNayar{.albedo = grey, .sigma = 0})
+                                    : room.add(Lambertian{.albedo = grey});
         room.add(Sphere{.radius = 2}, black, Rgb{1}, true);
         room.add(Sphere{.radius = 1}, glass);
         room.add(Sphere{.radius = float(a)}, matt);
