@@ -28,7 +28,7 @@ struct Picture {
     std::uint64_t seed = 1; ///< Of the random streams.
     int threads = 0;        ///< 0: all that there are.
     Progress progress = {}; ///< Called with (done, total); false stops.
-    Sampling sampling = Sampling::multi_jittered; ///< How they are spread over it.
+    Sampling sampling = Sampling::multi_jittered; ///< Where in a pixel they go.
 };
 
 /// What a rendering brings.
