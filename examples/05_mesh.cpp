@@ -13,6 +13,7 @@
 #include "common/command_line.hpp"
 #include "common/plot.hpp"
 #include "ljus/geometry/mesh.hpp"
+#include "ljus/geometry/mesh_formulas.hpp"
 #include "ljus/image/png.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping.hpp"

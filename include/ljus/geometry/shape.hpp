@@ -107,6 +107,11 @@ template <std::floating_point T>
 /// Refuses data that no picture can be made of, with a sentence.
 /// \throws std::invalid_argument  with the name and the value.
 template <std::floating_point T>
+void check(const SphereT<T>& sphere) {
+    require_finite("sphere.center", sphere.center);
+    require_positive("sphere.radius", sphere.radius);
+}
+template <std::floating_point T>
 void check(const TriangleT<T>& triangle) {
     require_finite("triangle.v1", triangle.v1);
     require_finite("triangle.v2", triangle.v2);

@@ -11,7 +11,7 @@
 #include "ljus/render/counts.hpp"
 #include "ljus/render/path_log.hpp"
 #include "ljus/scene/camera.hpp"
-#include "ljus/scene/stratified.hpp"
+#include "ljus/scene/sampling_pattern.hpp"
 
 namespace ljus {
 
@@ -28,6 +28,7 @@ struct Picture {
     std::uint64_t seed = 1; ///< Of the random streams.
     int threads = 0;        ///< 0: all that there are.
     Progress progress = {}; ///< Called with (done, total); false stops.
+    Sampling sampling = Sampling::multi_jittered; ///< How they are spread over it.
 };
 
 /// What a rendering brings.
@@ -70,7 +71,7 @@ constexpr void start_ray(RandomStream& stream, std::uint64_t seed, std::uint64_t
 /// \param renderer  A PathTracer, a PhotonMapper, or anything with a radiance().
 /// \param camera    A CameraT, or anything with a camera_ray().
 /// \param picture   Size and rays.
-/// \param strata    strata_for() the rays of a pixel.
+/// \param pattern   make_pattern() for the rays of a pixel.
 /// \param x         Column of the pixel.
 /// \param y         Row of the pixel.
 /// \param number    Which of the pixel's rays.
@@ -80,15 +81,16 @@ constexpr void start_ray(RandomStream& stream, std::uint64_t seed, std::uint64_t
 template <typename Renderer, template <std::floating_point> typename AnyCamera,
           std::floating_point T, typename Log = NoLog>
 [[nodiscard]] RgbT<T> sample_pixel(const Renderer& renderer, const AnyCamera<T>& camera,
-                                   const Picture& picture, const Strata& strata, int x,
-                                   int y, int number, Counts& counts, Log&& log = {}) {
+                                   const Picture& picture, const Pattern& pattern,
+                                   int x, int y, int number, Counts& counts,
+                                   Log&& log = {}) {
     const auto pixel =
         static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(picture.width) +
         static_cast<std::uint64_t>(x);
     typename StreamOf<Renderer>::Type stream;
     start_ray(stream, picture.seed, pixel, number, picture.rays);
     const Vec2T<T> place =
-        stratified(strata, number, mix(picture.seed) ^ pixel, next_2d<T>(stream));
+        spread(pattern, number, mix(picture.seed) ^ pixel, next_2d<T>(stream));
     const RayT<T> ray = camera_ray(camera, Vec2T<T>{T(x), T(y)} + place, picture.width,
                                    picture.height, stream);
     ++counts.camera_rays;
@@ -110,7 +112,7 @@ template <typename Renderer, template <std::floating_point> typename AnyCamera,
     require(picture.rays >= 1, "rays", static_cast<long long>(picture.rays),
             "at least 1");
     RenderedT<T> result{.image = make_image<T>(picture.width, picture.height)};
-    const Strata strata = strata_for(picture.rays);
+    const Pattern pattern = make_pattern(picture.sampling, picture.rays);
     const int tiles = (picture.width + 15) / 16;
     std::vector<Counts> counts(static_cast<std::size_t>(tiles) *
                                static_cast<std::size_t>(picture.height));
@@ -122,7 +124,7 @@ template <typename Renderer, template <std::floating_point> typename AnyCamera,
             RgbT<double> sum{0}; // a float would lose the last of 100 000 samples
             for (int i = 0; i < picture.rays; ++i) {
                 const RgbT<T> sample =
-                    sample_pixel(renderer, camera, picture, strata, x, y, i, cost);
+                    sample_pixel(renderer, camera, picture, pattern, x, y, i, cost);
                 if (is_finite(sample))
                     sum += RgbT<double>(sample);
                 else
