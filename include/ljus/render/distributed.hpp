@@ -61,7 +61,7 @@ inline constexpr bool is_gloss<GlossyT<T, Facet>> = true;
 /// \param scene     The scene, at the ray's time.
 /// \param at        The surface.
 /// \param material  What it is made of.
-/// \param stream    Two numbers a light.
+/// \param stream    Two numbers for each light with a size.
 /// \param counts    Counts the rays.
 /// \return Radiance towards wo.
 /// \report{Section 2.1}
@@ -73,8 +73,8 @@ template <typename Scene, std::floating_point T, typename Material, typename Str
     const auto whole = [](const LightSampleT<T>&, const Vec3T<T>&) { return T(1); };
     RgbT<T> sum{T(0)};
     for (const LightT<T>& light : scene.lights) {
-        const Vec2T<T> u = next_2d<T>(stream);
         if (is_gloss<Material> && light.object) continue;
+        const Vec2T<T> u = light.object ? next_2d<T>(stream) : Vec2T<T>{T(0)};
         sum += direct_light(scene, light, at, material, u, whole, counts);
     }
     return sum;
