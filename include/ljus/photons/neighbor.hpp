@@ -26,8 +26,8 @@ struct Neighbor {
 };
 
 /// \f$ x^2 + y^2 + z^2 \f$, rounded after each of its five operations. A compiler may
-/// fuse a product with a sum, in one place and not in another, and a point on the border
-/// of a ball would lie in it or not according to who asks.
+/// fuse a product with a sum, in one place and not in another, and a point on the
+/// border of a ball would lie in it or not according to who asks.
 // [sum of squares]
 [[nodiscard]] inline double sum_of_squares(double x, double y, double z) noexcept {
     const volatile double x2 = x * x, y2 = y * y, z2 = z * z; // products of their own
