@@ -184,7 +184,7 @@ Image row_in_furnace(const examples::Options& options, const Row& row) {
         examples::ProgressBar bar(std::string("furnace: ") + name, options.quiet);
         ljus::Picture picture = picture_of(options, bar);
         picture.width = to - from;
-        picture.rays = std::max(1, options.rays / 4); // less noise here than in a room
+        picture.rays = std::max(1, options.rays / 2); // less noise here than in a room
         const auto result = render(make_path_tracer(alone),
                                    row_camera(ball_at(place).center.x), picture);
         examples::stop_if_asked();
