@@ -16,9 +16,9 @@ namespace ljus {
 /// \addtogroup microfacet
 /// \{
 
-/// What white facets do not return of light at an angle, in a table over the cosine mu,
-/// with steps that are small at the horizon, and within alpha of it smaller still: there
-/// the loss is steep.
+/// What white facets do not return of light at an angle \cite kulla2017, in a table
+/// over the cosine mu, with steps that are small at the horizon, and within alpha of it
+/// smaller still: there the loss is steep.
 template <std::floating_point T>
 struct FacetLossT {
     static constexpr int cells = 128; ///< Between the cosines of the table.

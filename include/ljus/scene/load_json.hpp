@@ -29,8 +29,8 @@ namespace ljus {
 ///      "objects": [{"type": "sphere", "material": "grey", "center": [0, 1, 0],
 ///                   "radius": 1, "emission": [2, 2, 2]}]}
 ///
-/// The materials are those of \ref json_materials. A list `lights` may follow, of points,
-/// spots and suns: \ref json_lights.
+/// The materials are those of \ref json_materials. A list `lights` may follow, of
+/// points, spots and suns: \ref json_lights.
 ///
 /// | `type` of an object | its fields, besides material, name and emission         |
 /// |---------------------|---------------------------------------------------------|
