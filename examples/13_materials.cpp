@@ -335,7 +335,7 @@ void plot_gloss(const std::string& folder, int count) {
                         .columns = {"roughness", "straight on", "60 degrees",
                                     "80 degrees", "88 degrees"},
                         .y_label = "share of a white sky that white returns",
-                        .more = "set yrange [0:1.05]\nset key left bottom\n"};
+                        .more = "set yrange [0:1.05]\nset key inside left bottom\n"};
     examples::Plot noise{
         .name = "materials-sampling",
         .columns = {"roughness", "visible normals", "cosine-weighted directions"},
