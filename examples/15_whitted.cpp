@@ -1,5 +1,5 @@
 // figures: whitted
-// smoke: --quality draft --width 24 --height 16 --rays 1 --photons 1000
+// smoke: --quality draft --width 24 --height 16 --rays 1 --photons 1000 --most 4
 /// \file 15_whitted.cpp
 /// \brief Chapter 15: two balls over a checkered floor, turn by turn; how the tree
 /// grows; both branches or one; and what the tree does not carry.
@@ -134,9 +134,9 @@ double error_on_glass(const Image& image, const Image& truth) {
 }
 
 /// Both branches, or one: error against rays.
-void branches(const TwoBalls& scene, const examples::Options& options) {
+void branches(const TwoBalls& scene, int most, const examples::Options& options) {
     const int width = options.pick(48, 120, 180), height = width * 2 / 3;
-    const int most = options.pick(64, 256, 1024), depth = 8;
+    const int depth = 8;
     const Image truth =
         rendered("reference", make_whitted(scene, settings_of(depth)),
                  {.width = width, .height = height, .rays = 16 * most, .seed = 77},
@@ -200,6 +200,9 @@ int main(int argc, char** argv) {
         line.about("Whitted's ray tracing: the two balls, turn by turn.");
         line.add("--photons", photons, "Of the picture to compare with; 0: by quality",
                  0, 1'000'000'000);
+        int most = 0;
+        line.add("--most", most, "Most rays a pixel in the error curves; 0: by quality",
+                 0, 1 << 16);
         const examples::Options options =
             line.parse({.draft{.width = 300, .height = 200, .rays = 9},
                         .report{.width = 600, .height = 400, .rays = 36},
@@ -208,7 +211,8 @@ int main(int argc, char** argv) {
         const TwoBalls scene = two_balls();
         depths(scene, options);
         by_photons(scene, photons, options);
-        branches(scene, options);
+        if (most == 0) most = options.pick(64, 256, 1024);
+        branches(scene, most, options);
         return 0;
     });
 }

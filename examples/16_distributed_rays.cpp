@@ -170,35 +170,32 @@ Shot everything() {
     return shot;
 }
 
-/// A picture whose rays draw all their numbers, the place in the pixel as well, from
-/// one kind of stream.
+/// A picture whose rays share out all their numbers by one pattern, and stay in the
+/// middle of the pixel if told to.
 // [picture_by]
-template <typename Stream>
-Image picture_by(const Shot& shot, int width, int height, int rays, std::uint64_t seed,
-                 bool pixel, int threads) {
-    const auto tracer = ljus::make_distributed<Stream>(shot.scene);
+Image picture_by(const Shot& shot, int width, int height, int rays,
+                 ljus::Sampling sampling, std::uint64_t seed, bool pixel, int threads) {
+    const auto tracer = make_distributed(shot.scene);
+    const ljus::Pattern pattern = ljus::make_pattern(sampling, rays);
     Image image = ljus::make_image<float>(width, height);
-    (void)ljus::parallel_blocks(
-        height,
-        [&](long long row) {
-            ljus::Counts counts;
-            for (int x = 0; x < width; ++x) {
-                glm::dvec3 sum{0};
-                const auto y = static_cast<int>(row);
-                const auto number = static_cast<std::uint64_t>(y * width + x);
-                for (int i = 0; i < rays; ++i) {
-                    Stream stream;
-                    start_ray(stream, seed, number, i, rays);
-                    const auto place = next_2d(stream);
-                    const Vec2 at{float(x) + (pixel ? place.x : 0.5f),
-                                  float(y) + (pixel ? place.y : 0.5f)};
-                    const auto ray = camera_ray(shot.camera, at, width, height, stream);
-                    sum += glm::dvec3(radiance(tracer, ray, stream, counts));
-                }
-                ljus::pixel(image, x, y) = Rgb(sum / double(rays));
+    const auto row = [&](long long number) {
+        const int y = static_cast<int>(number);
+        ljus::Counts counts;
+        for (int x = 0; x < width; ++x) {
+            glm::dvec3 sum{0};
+            for (int i = 0; i < rays; ++i) {
+                ljus::StratifiedStream stream;
+                start_ray(stream, seed, static_cast<std::uint64_t>(y * width + x), i,
+                          pattern);
+                const Vec2 place = next_2d(stream);
+                const Vec2 at = Vec2{float(x), float(y)} + (pixel ? place : Vec2{0.5f});
+                const auto ray = camera_ray(shot.camera, at, width, height, stream);
+                sum += glm::dvec3(radiance(tracer, ray, stream, counts));
             }
-        },
-        {.threads = threads});
+            ljus::pixel(image, x, y) = Rgb(sum / double(rays));
+        }
+    };
+    (void)ljus::parallel_blocks(height, row, {.threads = threads});
     examples::stop_if_asked();
     return image;
 }
@@ -228,49 +225,48 @@ double slope(const std::vector<double>& x, const std::vector<double>& y) {
     return sxy / sxx;
 }
 
-/// Error against rays for the three streams; adds a row to the table of slopes.
+/// Error against rays for each pattern; adds a row to the table of slopes.
 void curves(const std::string& name, const Shot& shot, int most,
             const examples::Options& options, examples::Table& table) {
+    using ljus::Sampling;
     const int width = options.pick(30, 48, 72), height = width * 2 / 3;
-    const Image truth = picture_by<ljus::SobolStream>(shot, width, height, 16 * most,
-                                                      99, shot.pixel, options.threads);
-    examples::Plot plot{.name = "distributed_rays-" + name + "-error",
-                        .columns = {"rays a pixel", "random", "stratified",
-                                    "Sobol with Owen's scrambling"},
-                        .y_label = "RMS error",
-                        .log_x = true,
-                        .log_y = true};
-    std::vector<double> n, error[3];
+    const auto by = [&](Sampling sampling, int rays, std::uint64_t seed) {
+        return picture_by(shot, width, height, rays, sampling, seed, shot.pixel,
+                          options.threads);
+    };
+    const Image truth = by(Sampling::sobol, 16 * most, 99);
+    examples::Plot plot{
+        .name = "distributed_rays-" + name + "-error",
+        .columns = {"rays a pixel", "random", "jittered", "multi-jittered", "Sobol"},
+        .y_label = "RMS error",
+        .log_x = true,
+        .log_y = true};
+    std::vector<double> n, error[4];
     for (int rays = 1; rays <= most; rays *= 4) {
-        const auto add = [&](std::size_t kind, const Image& image) {
-            error[kind].push_back(rms(image, truth));
-        };
         n.push_back(rays);
-        const auto seed = options.seed;
-        const bool pixel = shot.pixel;
-        const int threads = options.threads;
-        add(0, picture_by<ljus::RandomStream>(shot, width, height, rays, seed, pixel,
-                                              threads));
-        add(1, picture_by<ljus::StratifiedStream>(shot, width, height, rays, seed,
-                                                  pixel, threads));
-        add(2, picture_by<ljus::SobolStream>(shot, width, height, rays, seed, pixel,
-                                             threads));
-        plot.rows.push_back(
-            {n.back(), error[0].back(), error[1].back(), error[2].back()});
+        examples::Row row{double(rays)};
+        std::size_t kind = 0;
+        for (const Sampling sampling : {Sampling::random, Sampling::jittered,
+                                        Sampling::multi_jittered, Sampling::sobol}) {
+            row.push_back(rms(by(sampling, rays, options.seed), truth));
+            error[kind++].push_back(row.back());
+        }
+        plot.rows.push_back(row);
     }
     save_plot(options.path(""), plot);
-    std::vector<std::string> row{name};
+    std::vector<std::string> cells{name};
     for (const auto& curve : error)
-        row.push_back(examples::text(slope(n, curve), "%.2f"));
-    for (const std::size_t kind : {0u, 1u})
-        row.push_back(examples::text(error[kind].back(), "%.2g"));
-    // How many more random rays the stratified error would need, by the law n^-1/2.
-    const double ratio = error[0].back() / error[1].back();
-    row.push_back(examples::text(ratio * ratio, "%.1f"));
-    table.rows.push_back(row);
+        cells.push_back(examples::text(slope(n, curve), "%.2f"));
+    // How many more random rays have the same error, by the law n^-1/2.
+    const double ratio = error[0].back() / error[2].back();
+    cells.push_back(examples::text(error[2].back(), "%.2g"));
+    cells.push_back(examples::text(ratio * ratio, "%.1f"));
+    table.rows.push_back(cells);
     if (!options.quiet)
-        std::printf("%s: slopes %s (random), %s (stratified), %s (Sobol)\n",
-                    name.c_str(), row[1].c_str(), row[2].c_str(), row[3].c_str());
+        std::printf("%s: slopes %s (random), %s (jittered), %s (multi-jittered), "
+                    "%s (Sobol)\n",
+                    name.c_str(), cells[1].c_str(), cells[2].c_str(), cells[3].c_str(),
+                    cells[4].c_str());
 }
 
 /// A picture with few and one with many rays.
@@ -293,8 +289,8 @@ void picture(const std::string& name, const Shot& shot, int few,
 
 /// One ray through the middle of each pixel.
 void jagged(const Shot& shot, const examples::Options& options) {
-    save_png(picture_by<ljus::RandomStream>(shot, options.width, options.height, 1, 1,
-                                            false, options.threads),
+    save_png(picture_by(shot, options.width, options.height, 1, ljus::Sampling::random,
+                        1, false, options.threads),
              options.path("distributed_rays-pixel-few.png"));
 }
 
@@ -313,9 +309,8 @@ int main(int argc, char** argv) {
                         .reference{.width = 900, .height = 600, .rays = 1024}});
         if (most == 0) most = options.pick(64, 256, 1024);
         examples::Table table{.name = "distributed_rays-slopes",
-                              .columns = {"spread over", "slope, random",
-                                          "slope, stratified", "slope, Sobol",
-                                          "error, random", "error, stratified",
+                              .columns = {"spread over", "random", "jittered",
+                                          "multi-jittered", "Sobol", "error",
                                           "random rays for one"}};
         const auto both = [&](const std::string& name, const Shot& shot) {
             picture(name, shot, 1, options);

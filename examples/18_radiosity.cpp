@@ -21,9 +21,10 @@
 #include "common/terminal.hpp"
 
 using namespace ljus;
-using Color = RgbT<double>;
 
 namespace {
+
+using Color = RgbT<double>;
 
 constexpr double pi = std::numbers::pi;
 using Stage = Scene<Shapes<Quad>, Materials<Lambertian>>;
@@ -270,7 +271,7 @@ void error_of_size(const examples::Options& options, const Sizes& sizes) {
 void room_pictures(const examples::Options& options, const Sizes& sizes) {
     const auto room = block_room();
     const auto tracer = make_path_tracer(room.scene);
-    const int many = options.pick(32, 1024, 8192);
+    const int many = options.pick(32, 128, 4096);
     const Image truth =
         rendered("reference", tracer, room.camera, options, options.rays * 4 + many);
     save_png(truth, options.path("radiosity-path.png"));

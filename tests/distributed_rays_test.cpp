@@ -33,14 +33,15 @@ using MattD = LambertianT<double>;
 using RgbD = RgbT<double>;
 
 /// The mean of n rays of one pixel, as render() draws them.
-template <typename Stream, typename Tracer, typename T>
+template <typename Tracer, typename T>
 double mean_of_rays(const Tracer& tracer, const RayT<T>& ray, int rays,
-                    std::uint64_t pixel) {
+                    std::uint64_t pixel, Sampling sampling = Sampling::multi_jittered) {
+    const Pattern pattern = make_pattern(sampling, rays);
     double sum = 0;
     Counts counts;
     for (int i = 0; i < rays; ++i) {
-        Stream stream;
-        start_ray(stream, 3, pixel, i, rays);
+        StratifiedStream stream;
+        start_ray(stream, 3, pixel, i, pattern);
         sum += double(radiance(tracer, ray, stream, counts).x);
     }
     return sum / rays;
@@ -134,7 +135,7 @@ TEST_CASE("distributed rays: the visible part of a square lamp behind an edge is
         double open = 0;
         for (int i = 0; i < rays; ++i) {
             StratifiedStream stream;
-            start_ray(stream, 1, 5, i, rays);
+            start_ray(stream, 1, 5, i, make_pattern(Sampling::jittered, rays));
             const auto to = sample_area(lamp, next_2d<double>(stream));
             open += visibility(index, from, to).x / rays;
         }
@@ -158,7 +159,7 @@ TEST_CASE("distributed rays: the penumbra's radiance is the quadrature with cosi
         const D2 floor{x, 0.15};
         Mean seen;
         for (std::uint64_t pixel = 0; pixel < 60; ++pixel)
-            seen.add(mean_of_rays<StratifiedStream>(tracer, down_to(floor), 64, pixel));
+            seen.add(mean_of_rays(tracer, down_to(floor), 64, pixel));
         const double right = lit_by_quadrature(floor);
         CAPTURE(x);
         CAPTURE(seen.mean);
@@ -177,26 +178,28 @@ TEST_CASE("distributed rays: the error falls by n^-1/2, stratified by n^-3/4") {
     const auto tracer = make_distributed(scene);
     const D2 floor{0.1, 0.15};
     const double right = lit_by_quadrature(floor);
-    const auto error_with = [&](auto stream) {
-        using Stream = decltype(stream);
-        return [&](int n) {
+    const auto error_with = [&](Sampling sampling) {
+        return [&, sampling](int n) {
             double sum = 0;
             for (std::uint64_t pixel = 0; pixel < 150; ++pixel) {
                 const double seen =
-                    mean_of_rays<Stream>(tracer, down_to(floor), n, pixel);
+                    mean_of_rays(tracer, down_to(floor), n, pixel, sampling);
                 sum += (seen - right) * (seen - right) / 150;
             }
             return std::sqrt(sum);
         };
     };
-    const double random = slope(error_with(RandomStream{}));
-    const double stratified = slope(error_with(StratifiedStream{}));
-    const double sobol = slope(error_with(SobolStream{}));
+    const double random = slope(error_with(Sampling::random));
+    const double jittered = slope(error_with(Sampling::jittered));
+    const double multi = slope(error_with(Sampling::multi_jittered));
+    const double sobol = slope(error_with(Sampling::sobol));
     CAPTURE(random);
-    CAPTURE(stratified);
+    CAPTURE(jittered);
+    CAPTURE(multi);
     CAPTURE(sobol);
     CHECK(random == doctest::Approx(-0.5).epsilon(0.2));
-    CHECK(stratified == doctest::Approx(-0.75).epsilon(0.15));
+    CHECK(jittered == doctest::Approx(-0.75).epsilon(0.15));
+    CHECK(multi == doctest::Approx(-0.75).epsilon(0.15));
     CHECK(sobol < -0.65);
 }
 
@@ -222,7 +225,7 @@ TEST_CASE("distributed rays: gloss sees a lamp as the integral over it says") {
     Mean seen;
     const auto tracer = make_distributed(scene);
     for (std::uint64_t pixel = 0; pixel < 200; ++pixel)
-        seen.add(mean_of_rays<StratifiedStream>(
+        seen.add(mean_of_rays(
             tracer, RayT<double>{.origin = 3.0 * wo, .direction = -wo}, 64, pixel));
     CAPTURE(seen.mean);
     CAPTURE(right);
@@ -241,8 +244,12 @@ TEST_CASE(
     room.add(Sphere{.center{1.5f, 0.5f, 1}, .radius = 0.5f}, matt);
     room.add(PointLight{.position{2, 5, 4}, .intensity = Rgb{60}});
     const auto camera = look_at({.position{1, 2, 6}, .target{0, 0.7f, 0}});
-    const Picture picture{.width = 24, .height = 16, .rays = 1, .threads = 1};
-    const auto blurred = render(make_distributed<RandomStream>(room), camera, picture);
+    const Picture picture{.width = 24,
+                          .height = 16,
+                          .rays = 1,
+                          .threads = 1,
+                          .sampling = Sampling::random};
+    const auto blurred = render(make_distributed(room), camera, picture);
     const auto sharp = render(make_whitted(room), camera, picture);
     CHECK(blurred.image.pixels == sharp.image.pixels);
     CHECK(blurred.counts.rays() == sharp.counts.rays());
@@ -266,8 +273,7 @@ TEST_CASE("distributed rays: a moving strip covers a ray as long as it takes to 
         const Ray ray{.origin{float(x), 0, 2}, .direction{0, 0, -1}};
         // The times are in cells: one at each end of the interval may err.
         for (const int rays : {7, 64, 1000})
-            CHECK(std::abs(mean_of_rays<StratifiedStream>(tracer, ray, rays, 2) -
-                           right) <= 2.0 / rays);
+            CHECK(std::abs(mean_of_rays(tracer, ray, rays, 2) - right) <= 2.0 / rays);
     }
 }
 
@@ -346,7 +352,7 @@ TEST_CASE("distributed rays: a moving lamp lights as the mean over its places") 
     Mean seen;
     const auto tracer = make_distributed(room);
     for (std::uint64_t pixel = 0; pixel < 60; ++pixel)
-        seen.add(mean_of_rays<StratifiedStream>(tracer, down_to({0, 0}), 64, pixel));
+        seen.add(mean_of_rays(tracer, down_to({0, 0}), 64, pixel));
     CAPTURE(seen.mean);
     CAPTURE(right);
     CHECK(std::abs(apart(seen, right, 1e-4)) < 4);
@@ -355,7 +361,7 @@ TEST_CASE("distributed rays: a moving lamp lights as the mean over its places") 
 
 TEST_CASE("distributed rays: a scene in which nothing moves draws no time") {
     const auto scene = edge_scene();
-    const auto tracer = make_distributed<RandomStream>(scene);
+    const auto tracer = make_distributed(scene);
     CHECK(&at_time(tracer.scene, 0.5) == &tracer.scene); // the index itself
     static_assert(!lists_moving<decltype(scene)>);
     static_assert(lists_moving<Scene<Shapes<Quad, Moving<Sphere>>, Materials<Mirror>>>);

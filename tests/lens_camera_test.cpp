@@ -140,32 +140,30 @@ TEST_CASE_TEMPLATE("stratified stream: in each draw each ray of a pixel has a ce
                    "its own",
                    T, float, double) {
     for (const int rays : {1, 2, 5, 10, 16, 37, 64, 1000}) {
-        const Strata strata = strata_for(rays);
-        std::vector<std::set<int>> lines(6), cells(6);
+        const Pattern pattern = make_pattern(Sampling::multi_jittered, rays);
+        const int columns = pattern.strata.columns * pattern.strata.rows;
+        std::vector<std::set<int>> lines(6), across(6), up(6);
         for (int ray = 0; ray < rays; ++ray) {
             StratifiedStream stream;
-            start_ray(stream, 4, 11, ray, rays);
+            start_ray(stream, 4, 11, ray, pattern);
             for (std::size_t draw = 0; draw < 6; ++draw) {
                 if (draw == 3) start_bounce(stream, 2);
                 const T x = next_1d<T>(stream);
                 const auto u = next_2d<T>(stream);
                 REQUIRE(
                     (x >= 0 && x < 1 && u.x >= 0 && u.x < 1 && u.y >= 0 && u.y < 1));
-                // Half a cell is room for rounding.
                 lines[draw].insert(static_cast<int>(double(x) * rays));
-                const int column = static_cast<int>(double(u.x) * strata.columns);
-                const int row = static_cast<int>(double(u.y) * strata.rows);
-                cells[draw].insert(strata.rooks ? column
-                                                : row * strata.columns + column);
+                across[draw].insert(static_cast<int>(double(u.x) * columns));
+                up[draw].insert(static_cast<int>(double(u.y) * rays));
             }
         }
         CAPTURE(rays);
+        // In float a number next to a border may be rounded across it.
+        const auto all = static_cast<std::size_t>(rays) - (sizeof(T) == 4 ? 1u : 0u);
         for (std::size_t draw = 0; draw < 6; ++draw) {
-            // In float a number next to a border may be rounded across it.
-            CHECK(lines[draw].size() + (sizeof(T) == 4 ? 1u : 0u) >=
-                  static_cast<std::size_t>(rays));
-            CHECK(cells[draw].size() + (sizeof(T) == 4 ? 1u : 0u) >=
-                  static_cast<std::size_t>(rays));
+            CHECK(lines[draw].size() >= all);
+            CHECK(across[draw].size() >= all);
+            CHECK(up[draw].size() >= all);
         }
     }
 }
@@ -178,9 +176,10 @@ TEST_CASE("stratified stream: draws are uniform, and independent of each other")
         return static_cast<std::size_t>(8 * a) * 8 + static_cast<std::size_t>(8 * b);
     };
     constexpr int pixels = 2000, rays = 10;
+    const Pattern pattern = make_pattern(Sampling::multi_jittered, rays);
     for (std::uint64_t pixel = 0; pixel < pixels; ++pixel) {
         StratifiedStream stream;
-        start_ray(stream, 4, pixel, static_cast<int>(pixel) % rays, rays);
+        start_ray(stream, 4, pixel, static_cast<int>(pixel) % rays, pattern);
         const auto lens = next_2d<double>(stream);
         const double time = next_1d<double>(stream);
         const auto light = next_2d<double>(stream);
@@ -197,7 +196,7 @@ TEST_CASE("stratified stream: draws are uniform, and independent of each other")
     double x_time = 0, y_time = 0;
     for (int ray = 0; ray < many; ++ray) {
         StratifiedStream stream;
-        start_ray(stream, 4, 1, ray, many);
+        start_ray(stream, 4, 1, ray, make_pattern(Sampling::jittered, many));
         const auto lens = next_2d<double>(stream);
         const double time = next_1d<double>(stream);
         x_time += (lens.x - 0.5) * (time - 0.5) * 12 / many;
@@ -207,14 +206,17 @@ TEST_CASE("stratified stream: draws are uniform, and independent of each other")
     CHECK(std::abs(y_time) < 4 / std::sqrt(double(many)));
 }
 
-TEST_CASE("streams: the same ray draws the same numbers, another pixel others") {
-    const auto first = [](auto stream, std::uint64_t seed, std::uint64_t pixel) {
-        start_ray(stream, seed, pixel, 3, 16);
-        return next_2d<double>(stream);
-    };
-    CHECK(first(StratifiedStream{}, 1, 7) == first(StratifiedStream{}, 1, 7));
-    CHECK(first(StratifiedStream{}, 1, 7) != first(StratifiedStream{}, 1, 8));
-    CHECK(first(StratifiedStream{}, 1, 7) != first(StratifiedStream{}, 2, 7));
-    CHECK(first(SobolStream{}, 1, 7) == first(SobolStream{}, 1, 7));
-    CHECK(first(SobolStream{}, 1, 7) != first(SobolStream{}, 1, 8));
+TEST_CASE(
+    "stratified stream: the same ray draws the same numbers, another pixel others") {
+    for (const Sampling sampling : {Sampling::random, Sampling::jittered,
+                                    Sampling::multi_jittered, Sampling::sobol}) {
+        const auto first = [&](std::uint64_t seed, std::uint64_t pixel) {
+            StratifiedStream stream;
+            start_ray(stream, seed, pixel, 3, make_pattern(sampling, 16));
+            return next_2d<double>(stream);
+        };
+        CHECK(first(1, 7) == first(1, 7));
+        CHECK(first(1, 7) != first(1, 8));
+        CHECK(first(1, 7) != first(2, 7));
+    }
 }

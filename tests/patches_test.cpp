@@ -212,6 +212,22 @@ TEST_CASE("form_factors: rays agree with the closed form") {
                     std::invalid_argument);
 }
 
+TEST_CASE("form_factors: rays find the numbers of the tables") {
+    const auto box = unit_box();
+    constexpr int rays = 20000;
+    const auto found = make_form_factors(box, make_patches(box, {.size = 1}),
+                                         {.analytic = false, .rays = rays});
+    REQUIRE(found->size() == 6);
+    const double sigma = std::sqrt(0.2 * 0.8 / (2.0 * rays));
+    for (std::size_t i = 0; i < 6; ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            const bool facing = i / 2 == j / 2;
+            const double right =
+                facing ? form_factor_facing(1, 1, 1) : form_factor_corner(1, 1, 1);
+            CHECK(std::abs((*found)(i, j) - right) < 3 * sigma); // the seed is fixed
+        }
+}
+
 TEST_CASE("form_factors: rows are closed, and stay symmetric") {
     const auto box = unit_box();
     const Patches all = make_patches(box, {.size = 0.5});

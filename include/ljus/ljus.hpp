@@ -7,6 +7,7 @@
 #include "ljus/geometry/bvh.hpp"
 #include "ljus/geometry/bvh_bins.hpp"
 #include "ljus/geometry/bvh_build.hpp"
+#include "ljus/geometry/bvh_collapse.hpp"
 #include "ljus/geometry/bvh_nodes.hpp"
 #include "ljus/geometry/exchange_area.hpp"
 #include "ljus/geometry/field_on_ray.hpp"

@@ -68,13 +68,13 @@ ljus_break_it(NAME lens-camera-confusion HEADER scene/lens_camera.hpp TEST lens_
 # The same order in all draws: the time of a ray tells its place on the lens.
 ljus_break_it(NAME stratified-stream-order HEADER scene/stratified_stream.hpp
     TEST lens_camera
-    FROM "static_cast<std::uint32_t>(stream.rays), key);"
-    TO   "static_cast<std::uint32_t>(stream.rays), stream.key);"
+    FROM "static_cast<std::uint32_t>(stream.pattern.points), key);"
+    TO   "static_cast<std::uint32_t>(stream.pattern.points), stream.key);"
     CASES "stratified stream: *")
 
 # Cells that are not divided by their number.
 ljus_break_it(NAME stratified-stream-random HEADER scene/stratified_stream.hpp
     TEST lens_camera
-    FROM "stratified(stream.strata, cell, ~key, next_2d<T>(stream.rest));"
+    FROM "spread(stream.pattern, cell, ~key, next_2d<T>(stream.rest));"
     TO   "next_2d<T>(stream.rest); (void)cell;"
     CASES "stratified stream: in each*")

@@ -25,8 +25,9 @@ struct Facet {
 };
 
 /// \name The facet of a flat shape
-/// It faces along the shape's normal.
 /// \{
+
+/// The facet of a flat shape; it faces along the shape's normal.
 template <std::floating_point T>
 [[nodiscard]] Facet facet_of(const QuadT<T>& quad) noexcept {
     const glm::dvec3 c(quad.corner), u(quad.edge_u), v(quad.edge_v);

@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "ljus/geometry/bvh_nodes.hpp"
+#include "ljus/geometry/bvh_collapse.hpp"
 #include "ljus/math/lanes.hpp"
 #include "ljus/math/require.hpp"
 
@@ -50,30 +50,12 @@ struct WideNodes {
 
 namespace detail {
 
-// Makes a wide node of a binary one and of what is below it: the largest children are
-// opened until there are eight.
+// Makes a wide node of a plain one and of what is below it.
 // [widen]
 template <std::floating_point T>
-void widen(WideNodes& wide, const BvhNodesT<T>& tree, std::uint32_t from,
-           std::size_t to, std::uint32_t multiple) {
-    const auto area = [&](std::uint32_t node) {
-        const Vec3T<T> size = tree.nodes[node].box.high - tree.nodes[node].box.low;
-        return size.x * size.y + size.y * size.z + size.z * size.x;
-    };
-    std::array<std::uint32_t, lane_count> open{from};
-    std::size_t count = 1;
-    while (count < lane_count) {
-        std::size_t largest = count;
-        for (std::size_t i = 0; i < count; ++i)
-            if (tree.nodes[open[i]].count == 0 &&
-                (largest == count || area(open[i]) > area(open[largest])))
-                largest = i;
-        if (largest == count) break; // all are leaves
-        const std::uint32_t first = tree.nodes[open[largest]].first;
-        open[largest] = first;
-        open[count++] = first + 1;
-    }
-
+void widen(WideNodes& wide, const BvhNodesT<T>& tree, const BvhCollapse<T>& collapse,
+           std::uint32_t from, std::size_t to, std::uint32_t multiple) {
+    const auto [open, count] = collapse.children(from);
     WideNode node{};
     for (std::size_t i = 0; i < lane_count; ++i) {
         // Nothing enters a box around nothing.
@@ -101,7 +83,8 @@ void widen(WideNodes& wide, const BvhNodesT<T>& tree, std::uint32_t from,
     wide.nodes[to] = node;
     for (std::size_t i = 0; i < count; ++i)
         if (tree.nodes[open[i]].count == 0)
-            widen(wide, tree, open[i], node.child[i] / WideChild::stride, multiple);
+            widen(wide, tree, collapse, open[i], node.child[i] / WideChild::stride,
+                  multiple);
 }
 // [widen]
 
@@ -121,7 +104,7 @@ template <std::floating_point T>
     wide.middle = 0.5f * wide.box.low + 0.5f * wide.box.high;
     wide.half = 0.5f * wide.box.high - 0.5f * wide.box.low;
     wide.nodes.emplace_back();
-    detail::widen(wide, tree, 0, 0, multiple);
+    detail::widen(wide, tree, BvhCollapse<T>(tree), 0, 0, multiple);
     require(wide.order.size() < WideChild::first, "the number of places in a tree",
             static_cast<long long>(wide.order.size()), "below 2^27");
     wide.nodes.shrink_to_fit();

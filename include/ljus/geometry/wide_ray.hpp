@@ -42,22 +42,25 @@ struct WideRay {
 [[nodiscard]] inline bool make_ready(WideRay& r, const Ray& ray, const Vec3& middle,
                                      const Vec3& half) noexcept {
     const Vec3 origin = ray.origin - middle;
-    const Vec3 size = glm::abs(ray.direction);
-    const float reach = max_component(glm::abs(origin) + half);
+    const Vec3 size = sizes(ray.direction);
+    const float reach = max_component(sizes(origin) + half);
     r.length = max_component(size);
     r.last = 4 * reach / r.length;
     const Vec3 d = glm::max(size, Vec3{1e-12f * r.length});
     const float slack = 8 * std::numeric_limits<float>::epsilon() * reach;
     for (int axis = 0; axis < 3; ++axis) {
         const auto i = static_cast<std::size_t>(axis);
-        const bool back = std::signbit(ray.direction[axis]);
+        const std::size_t back = std::signbit(ray.direction[axis]) ? 1 : 0;
+        // Not by `back ?`: which way rays go a processor cannot guess.
         const float size_of_inverse = 1 / d[axis];
-        const float shift = origin[axis] * (back ? -size_of_inverse : size_of_inverse);
-        r.inverse[axis] = back ? -size_of_inverse : size_of_inverse;
-        r.near_shift[axis] = shift + slack * size_of_inverse;
-        r.far_shift[axis] = shift - slack * size_of_inverse;
-        r.near[i] = back ? i + 3 : i;
-        r.far[i] = back ? i : i + 3;
+        const float inverse = std::copysign(size_of_inverse, ray.direction[axis]);
+        const float shift = origin[axis] * inverse;
+        const float grown = slack * size_of_inverse;
+        r.inverse[axis] = inverse;
+        r.near_shift[axis] = shift + grown;
+        r.far_shift[axis] = shift - grown;
+        r.near[i] = i + 3 * back;
+        r.far[i] = i + 3 * (1 - back);
     }
     r.moderate = reach * reach * glm::max(reach, r.length) < 1e36f;
     // Their squares are still numbers: those of the directions, and of the distances.

@@ -16,8 +16,8 @@ namespace ljus {
 /// \addtogroup microfacet
 /// \{
 
-/// What white facets do not return of light at an angle \cite kulla2017, in a table over
-/// the cosine mu, with steps that are small at the horizon, and within alpha of it
+/// What white facets do not return of light at an angle \cite kulla2017, in a table
+/// over the cosine mu, with steps that are small at the horizon, and within alpha of it
 /// smaller still: there the loss is steep.
 template <std::floating_point T>
 struct FacetLossT {

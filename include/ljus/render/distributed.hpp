@@ -26,24 +26,22 @@ struct DistributedRays {
 };
 
 /// A scene, ready for distributed rays. It refers to the scene, which must outlive it.
-/// \tparam AnyStream  What it draws from: StratifiedStream, RandomStream, SobolStream.
-template <typename Scene, typename AnyStream = StratifiedStream>
+template <typename Scene>
 struct DistributedTracer {
-    using Stream = AnyStream; ///< What render() gives it to draw from.
-    IndexedT<Scene> scene;    ///< What is rendered.
-    DistributedRays settings; ///< How.
+    using Stream = StratifiedStream; ///< What render() gives it to draw from.
+    IndexedT<Scene> scene;           ///< What is rendered.
+    DistributedRays settings;        ///< How.
 };
 
-/// Makes a tracer: `make_distributed(scene)`, or
-/// `make_distributed<RandomStream>(scene)` to see what stratification is good for.
-/// \tparam AnyStream  What it draws from.
+/// Makes a tracer. How its rays are spread, over the pixel and all the rest, says
+/// Picture::sampling.
 /// \param scene     Must outlive the tracer; a scene, which it indexes, or an
 ///                  IndexedScene.
 /// \param settings  The depth.
 /// \return The tracer.
 /// \throws std::invalid_argument  if the depth is negative.
-template <typename AnyStream = StratifiedStream, typename Scene>
-[[nodiscard]] DistributedTracer<Scene, AnyStream>
+template <typename Scene>
+[[nodiscard]] DistributedTracer<Scene>
 make_distributed(const Scene& scene, const DistributedRays& settings = {}) {
     require(settings.max_depth >= 0, "max_depth",
             static_cast<long long>(settings.max_depth), "at least 0");
@@ -63,7 +61,7 @@ inline constexpr bool is_gloss<GlossyT<T, Facet>> = true;
 /// \param scene     The scene, at the ray's time.
 /// \param at        The surface.
 /// \param material  What it is made of.
-/// \param stream    Two numbers a light.
+/// \param stream    Two numbers for each light with a size.
 /// \param counts    Counts the rays.
 /// \return Radiance towards wo.
 /// \report{Section 2.1}
@@ -75,8 +73,8 @@ template <typename Scene, std::floating_point T, typename Material, typename Str
     const auto whole = [](const LightSampleT<T>&, const Vec3T<T>&) { return T(1); };
     RgbT<T> sum{T(0)};
     for (const LightT<T>& light : scene.lights) {
-        const Vec2T<T> u = next_2d<T>(stream);
         if (is_gloss<Material> && light.object) continue;
+        const Vec2T<T> u = light.object ? next_2d<T>(stream) : Vec2T<T>{T(0)};
         sum += direct_light(scene, light, at, material, u, whole, counts);
     }
     return sum;
@@ -95,9 +93,8 @@ template <typename Scene, std::floating_point T, typename Material, typename Str
 /// \cost At most max_depth + 1 rays, and as many shadow rays to each light.
 /// \report{Section 2.1}
 // [radiance]
-template <typename Scene, typename AnyStream, std::floating_point T, typename Stream,
-          typename Log = NoLog>
-[[nodiscard]] RgbT<T> radiance(const DistributedTracer<Scene, AnyStream>& tracer,
+template <typename Scene, std::floating_point T, typename Stream, typename Log = NoLog>
+[[nodiscard]] RgbT<T> radiance(const DistributedTracer<Scene>& tracer,
                                const RayT<T>& ray, Stream& stream, Counts& counts,
                                Log&& log = {}) {
     T time = T(0);

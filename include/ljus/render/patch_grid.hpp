@@ -50,11 +50,6 @@ struct PatchGrid {
     friend bool operator==(const PatchGrid&, const PatchGrid&) = default; ///< Equal?
 };
 
-/// \name How finely a shape is cut
-/// \param shape  A quad, a triangle or a sphere.
-/// \param size   The longest that an edge of a cell may be, in scene units.
-/// \return The grid, of the shape's front.
-/// \{
 namespace detail {
 inline std::uint32_t cells_along(double length, double size) noexcept {
     // Not all of a long side is asked for: a million cells are refused all the same.
@@ -62,6 +57,14 @@ inline std::uint32_t cells_along(double length, double size) noexcept {
         std::clamp(std::ceil(length / size * (1 - 1e-9)), 1.0, 1e6));
 }
 } // namespace detail
+
+/// \name How finely a shape is cut
+/// \{
+
+/// How a shape is cut.
+/// \param shape  A quad, a triangle or a sphere.
+/// \param size   The longest that an edge of a cell may be, in scene units.
+/// \return The grid, of the shape's front.
 template <std::floating_point T>
 [[nodiscard]] PatchGrid patch_grid(const QuadT<T>& shape, double size) noexcept {
     return {.columns = detail::cells_along(double(glm::length(shape.edge_u)), size),
@@ -124,9 +127,10 @@ struct CellPlace {
 // [cell_of]
 
 /// The place of a hit on its shape.
-/// \param hit    u and v of a flat shape.
-/// \param point  Its normal tells the place on a ball.
-/// \param kind   Of the grid.
+/// \param kind          Of the grid.
+/// \param hit           u and v of a flat shape.
+/// \param outer_normal  The shape's own normal: it tells the place on a ball.
+/// \return Point of the unit square.
 template <std::floating_point T>
 [[nodiscard]] glm::dvec2 place_on(GridKind kind, const FlatHitT<T>& hit,
                                   const Vec3T<T>& outer_normal) noexcept {

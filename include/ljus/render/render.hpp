@@ -55,15 +55,15 @@ struct StreamOf<Renderer> {
 };
 
 /// Sets a stream to the numbers of one ray of a pixel.
-/// \param stream  Any stream has such an overload.
-/// \param seed    The user's seed.
-/// \param pixel   The pixel's number within the picture.
-/// \param ray     The ray's number within the pixel.
-/// \param rays    Rays in a pixel.
+/// \param stream   Any stream has such an overload.
+/// \param seed     The user's seed.
+/// \param pixel    The pixel's number within the picture.
+/// \param ray      The ray's number within the pixel.
+/// \param pattern  make_pattern() for the rays of a pixel.
 constexpr void start_ray(RandomStream& stream, std::uint64_t seed, std::uint64_t pixel,
-                         int ray, int rays) noexcept {
+                         int ray, const Pattern& pattern) noexcept {
     stream = random_stream(seed, Pass::camera, 0,
-                           pixel * static_cast<std::uint64_t>(rays) +
+                           pixel * static_cast<std::uint64_t>(pattern.points) +
                                static_cast<std::uint64_t>(ray));
 }
 
@@ -88,7 +88,7 @@ template <typename Renderer, template <std::floating_point> typename AnyCamera,
         static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(picture.width) +
         static_cast<std::uint64_t>(x);
     typename StreamOf<Renderer>::Type stream;
-    start_ray(stream, picture.seed, pixel, number, picture.rays);
+    start_ray(stream, picture.seed, pixel, number, pattern);
     const Vec2T<T> place =
         spread(pattern, number, mix(picture.seed) ^ pixel, next_2d<T>(stream));
     const RayT<T> ray = camera_ray(camera, Vec2T<T>{T(x), T(y)} + place, picture.width,

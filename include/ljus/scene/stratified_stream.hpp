@@ -5,8 +5,7 @@
 
 #include <limits>
 
-#include "ljus/math/low_discrepancy.hpp"
-#include "ljus/scene/stratified.hpp"
+#include "ljus/scene/sampling_pattern.hpp"
 
 namespace ljus {
 
@@ -16,47 +15,32 @@ namespace ljus {
 /// \ref ch_distributed_rays.
 /// \{
 
-/// The numbers of one ray of a pixel. Each draw of the pixel's n rays falls into n
-/// cells, a ray in each. Which ray has which cell is another order for each draw, so
-/// that nothing ties the time to the place on the lens.
+/// The numbers of one ray of a pixel. In each draw the pixel's n rays share out the
+/// interval, or the square, by the pattern of the picture. Which ray has which place is
+/// another order for each draw, so that nothing ties the time to the place on the lens.
 struct StratifiedStream {
-    Strata strata{};             ///< strata_for() the rays of a pixel.
-    int ray = 0;                 ///< Which of them, in [0, rays).
-    int rays = 1;                ///< How many.
+    Pattern pattern{};           ///< Of the rays of a pixel.
+    int ray = 0;                 ///< Which of them, in [0, pattern.points).
     std::uint64_t key = 0;       ///< Of the pixel.
     std::uint64_t dimension = 0; ///< The next draw.
     RandomStream rest{};         ///< Where in its cell.
 };
 
 /// Sets a stream to the numbers of one ray of a pixel.
-/// \param stream  The stream.
-/// \param seed    The user's seed.
-/// \param pixel   The pixel's number within the picture.
-/// \param ray     The ray's number within the pixel.
-/// \param rays    Rays in a pixel.
+/// \param stream   The stream.
+/// \param seed     The user's seed.
+/// \param pixel    The pixel's number within the picture.
+/// \param ray      The ray's number within the pixel.
+/// \param pattern  make_pattern() for the rays of a pixel; with Sampling::random all
+///                 numbers are independent.
 constexpr void start_ray(StratifiedStream& stream, std::uint64_t seed,
-                         std::uint64_t pixel, int ray, int rays) noexcept {
-    const auto path =
-        pixel * static_cast<std::uint64_t>(rays) + static_cast<std::uint64_t>(ray);
-    stream = {.strata = strata_for(rays),
+                         std::uint64_t pixel, int ray,
+                         const Pattern& pattern) noexcept {
+    const auto path = pixel * static_cast<std::uint64_t>(pattern.points) +
+                      static_cast<std::uint64_t>(ray);
+    stream = {.pattern = pattern,
               .ray = ray,
-              .rays = rays,
               .key = random_stream(~seed, Pass::camera, 0, pixel).key,
-              .rest = random_stream(seed, Pass::camera, 0, path)};
-}
-
-/// The same for Owen-scrambled Sobol points: those of a pixel share a scrambling.
-/// \param stream  The stream.
-/// \param seed    The user's seed.
-/// \param pixel   The pixel's number within the picture.
-/// \param ray     The ray's number within the pixel.
-/// \param rays    Rays in a pixel.
-constexpr void start_ray(SobolStream& stream, std::uint64_t seed, std::uint64_t pixel,
-                         int ray, int rays) noexcept {
-    const auto path =
-        pixel * static_cast<std::uint64_t>(rays) + static_cast<std::uint64_t>(ray);
-    stream = {.seed = random_stream(~seed, Pass::camera, 0, pixel).key,
-              .index = static_cast<std::uint32_t>(ray),
               .rest = random_stream(seed, Pass::camera, 0, path)};
 }
 
@@ -68,15 +52,15 @@ constexpr void start_bounce(StratifiedStream& stream, std::uint64_t bounce) noex
     start_bounce(stream.rest, bounce);
 }
 
-/// The ray's cell of the next draw, and the draw's key.
+/// The ray's number in the order of the next draw, and the draw's key.
 /// \param stream  Moves on by one draw.
 /// \param key     Set to the draw's key.
-/// \return In [0, rays).
+/// \return In [0, pattern.points).
 [[nodiscard]] constexpr std::uint32_t next_cell(StratifiedStream& stream,
                                                 std::uint64_t& key) noexcept {
     key = mix(stream.key + 0x9e3779b97f4a7c15u * ++stream.dimension);
     return shuffled(static_cast<std::uint32_t>(stream.ray),
-                    static_cast<std::uint32_t>(stream.rays), key);
+                    static_cast<std::uint32_t>(stream.pattern.points), key);
 }
 
 /// What rounding may have put onto 1, put below it again.
@@ -93,12 +77,13 @@ template <std::floating_point T>
 template <std::floating_point T = float>
 [[nodiscard]] constexpr T next_1d(StratifiedStream& stream) noexcept {
     std::uint64_t key = 0;
-    const T cell = T(next_cell(stream, key));
-    return below_one((cell + next_1d<T>(stream.rest)) / T(stream.rays));
+    const T cell = T(next_cell(stream, key)), u = next_1d<T>(stream.rest);
+    if (stream.pattern.sampling == Sampling::random) return u;
+    return below_one((cell + u) / T(stream.pattern.points));
 }
 // [next 1d]
 
-/// The next point of the unit square: each of the pixel's rays has a cell of its own.
+/// The next point of the unit square: each of the pixel's rays has a place of its own.
 /// \param stream  Moves on by one draw.
 /// \return The point.
 // [next 2d]
@@ -106,7 +91,7 @@ template <std::floating_point T = float>
 [[nodiscard]] constexpr Vec2T<T> next_2d(StratifiedStream& stream) noexcept {
     std::uint64_t key = 0;
     const auto cell = static_cast<int>(next_cell(stream, key));
-    const Vec2T<T> u = stratified(stream.strata, cell, ~key, next_2d<T>(stream.rest));
+    const Vec2T<T> u = spread(stream.pattern, cell, ~key, next_2d<T>(stream.rest));
     return {below_one(u.x), below_one(u.y)};
 }
 // [next 2d]
