@@ -71,12 +71,12 @@ std::vector<PointSet<T>> point_sets(std::size_t n, double size, double offset) {
     return sets;
 }
 
-/// The squared distance, as the tree defines it: in double.
+/// The squared distance, as the tree defines it: in double, no product fused with a sum.
 template <typename T>
 double distance2(const Vec3T<T>& a, const Vec3T<T>& b) {
     const double x = double(a.x) - double(b.x), y = double(a.y) - double(b.y),
                  z = double(a.z) - double(b.z);
-    const double xx = x * x, yy = y * y, zz = z * z;
+    const volatile double xx = x * x, yy = y * y, zz = z * z;
     return xx + yy + zz;
 }
 

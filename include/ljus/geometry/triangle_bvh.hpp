@@ -128,6 +128,8 @@ public:
     }
     /// The tree of boxes.
     [[nodiscard]] const WideBvh& tree() const noexcept { return tree_; }
+    /// A box around everything.
+    [[nodiscard]] const Box& box() const noexcept { return tree_.box(); }
     /// The memory that it takes, with what it keeps of the triangles.
     [[nodiscard]] std::size_t bytes() const noexcept {
         return tree_.bytes() + blocks_.capacity() * sizeof(TriangleLanes);

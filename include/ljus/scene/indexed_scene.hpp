@@ -143,7 +143,7 @@ template <typename S, typename Compute, std::floating_point T>
     if (scene.ids.empty()) return occluded<Compute>(scene.scene, ray);
     return scene.tree.any(ray, [&](std::uint32_t place) {
         return scene.scene.visit_shape(scene.ids[place], [&](const auto& shape) {
-            return hit_of<Compute>(ray, shape).has_value();
+            return is_met<Compute>(ray, shape);
         });
     });
 }
