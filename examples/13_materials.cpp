@@ -184,7 +184,7 @@ Image row_in_furnace(const examples::Options& options, const Row& row) {
         examples::ProgressBar bar(std::string("furnace: ") + name, options.quiet);
         ljus::Picture picture = picture_of(options, bar);
         picture.width = to - from;
-        picture.rays = std::max(1, options.rays / 4); // less noise here than in a room
+        picture.rays = std::max(1, options.rays / 2); // less noise here than in a room
         const auto result = render(make_path_tracer(alone),
                                    row_camera(ball_at(place).center.x), picture);
         examples::stop_if_asked();
@@ -335,7 +335,7 @@ void plot_gloss(const std::string& folder, int count) {
                         .columns = {"roughness", "straight on", "60 degrees",
                                     "80 degrees", "88 degrees"},
                         .y_label = "share of a white sky that white returns",
-                        .more = "set yrange [0:1.05]\nset key left bottom\n"};
+                        .more = "set yrange [0:1.05]\nset key inside left bottom\n"};
     examples::Plot noise{
         .name = "materials-sampling",
         .columns = {"roughness", "visible normals", "cosine-weighted directions"},

@@ -338,6 +338,92 @@ void room_pictures(const examples::Options& options, const Sizes& sizes) {
         }
 }
 
+/// The light on each quarter of each wall: by radiosity, and by paths that begin there.
+void agreement(const examples::Options& options, const Sizes& sizes) {
+    const auto room = block_room();
+    const auto tracer = make_path_tracer(room.scene);
+    const int paths = options.pick(4000, 40000, 1000000);
+    struct Estimate {
+        double mean = 0;  ///< Irradiance over pi.
+        double error = 0; ///< Its standard error.
+    };
+    std::array<std::array<Estimate, 4>, 5> traced{};
+    constexpr std::array albedo{0.75, 0.75, 0.75, 0.06, 0.45}; // of the green channel
+    Counts counts;
+    for (std::uint32_t wall = 0; wall < 5; ++wall)
+        for (int quarter = 0; quarter < 4; ++quarter) {
+            double sum = 0, squares = 0;
+            for (int path = 0; path < paths; ++path) {
+                auto stream = random_stream(options.seed, Pass::user,
+                                            4 * wall + std::uint32_t(quarter),
+                                            static_cast<std::uint64_t>(path));
+                const Vec2 u = next_2d(stream);
+                const auto at = point_at(std::get<0>(room.scene.shapes)[wall],
+                                         (float(quarter % 2) + u.x) / 2,
+                                         (float(quarter / 2) + u.y) / 2);
+                // Seen from close by: albedo / pi of the light on the wall.
+                const Ray look{.origin = at.position + 0.0002f * at.normal,
+                               .direction = -at.normal};
+                const double light =
+                    double(radiance(tracer, look, stream, counts).y) / albedo[wall];
+                sum += light;
+                squares += light * light;
+            }
+            examples::stop_if_asked();
+            const double mean = sum / paths;
+            traced[wall][std::size_t(quarter)] = {
+                mean, std::sqrt((squares / paths - mean * mean) / paths)};
+        }
+    examples::Table table{.name = "radiosity-agreement",
+                          .columns = {"side of a patch", "patches", "difference",
+                                      "standard error of the paths",
+                                      "difference in standard errors"}};
+    for (int step = sizes.steps - 1; step >= options.pick(-1, 0, 0); --step) {
+        const double size = std::ldexp(sizes.patch, step);
+        const auto all = make_radiosity(
+            room.scene,
+            {.patches = {.size = size},
+             .factors = {.analytic = false, .rays = options.pick(1024, 4096, 4096)}});
+        double difference = 0, error = 0, both = 0;
+        for (std::uint32_t wall = 0; wall < 5; ++wall) {
+            const PatchGrid& grid = all->map.grids[wall];
+            std::array<double, 4> mean{};
+            for (std::uint32_t cell = 0; cell < grid.size(); ++cell) {
+                const CellPlace place = place_of(grid, cell);
+                // A patch across the middle belongs to both halves.
+                for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+                    const auto part = [](std::uint32_t i, std::uint32_t n, bool high) {
+                        const double from = high ? 0.5 : 0, to = from + 0.5;
+                        return std::max(0.0, std::min(to, (i + 1.0) / n) -
+                                                 std::max(from, double(i) / n));
+                    };
+                    mean[quarter] +=
+                        4 * part(place.column, grid.columns, quarter % 2 == 1) *
+                        part(place.row, grid.rows, quarter / 2 == 1) *
+                        all->map.irradiance[grid.first + cell].y;
+                }
+            }
+            for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+                const Estimate& right = traced[wall][quarter];
+                const double off = mean[quarter] / pi - right.mean;
+                difference += off * off / (right.mean * right.mean) / 20;
+                error += right.error * right.error / (right.mean * right.mean) / 20;
+                both += off * off / (right.error * right.error) / 20;
+            }
+        }
+        table.rows.push_back({examples::text(size), std::to_string(all->factors.size()),
+                              examples::text(100 * std::sqrt(difference), "%.2f %%"),
+                              examples::text(100 * std::sqrt(error), "%.2f %%"),
+                              examples::text(std::sqrt(both), "%.2f")});
+    }
+    save_table(options.out, table);
+    if (!options.quiet)
+        for (const auto& row : table.rows)
+            std::printf("agreement: side %s, %s patches: %s, paths %s, ratio %s\n",
+                        row[0].c_str(), row[1].c_str(), row[2].c_str(), row[3].c_str(),
+                        row[4].c_str());
+}
+
 /// One solution, many views: the first, each further one, and one from a file.
 void views(const examples::Options& options, const Sizes& sizes) {
     const auto room = block_room();
@@ -498,6 +584,7 @@ int main(int argc, char** argv) {
         progress(options, sizes);
         error_of_size(options, sizes);
         room_pictures(options, sizes);
+        agreement(options, sizes);
         views(options, sizes);
         leaks(options, sizes);
         report_room(options, sizes);

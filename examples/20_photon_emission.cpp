@@ -625,7 +625,7 @@ void plot_error(const examples::Options& options) {
                         const Rgb radiance =
                             estimate_radiance(map, floor, material, Vec3{0, 0, 1},
                                               {.radius = float(radii[k])},
-                                              only(PhotonKind::direct), gathered);
+                                              one_kind(PhotonKind::direct), gathered);
                         const double error =
                             double(radiance.x) * pi / irradiance_from(lamp, x, y) - 1;
                         squares[k] += error * error;

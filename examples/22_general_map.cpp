@@ -193,7 +193,7 @@ double irradiance(const PhotonMap& map, const Point& at, double radius) {
     std::uint64_t gathered = 0;
     const Rgb sent = estimate_radiance(map, floor, Lambertian{.albedo = Rgb{1}},
                                        Vec3{0, 0, 1}, {.radius = float(radius)},
-                                       only(PhotonKind::direct), gathered);
+                                       one_kind(PhotonKind::direct), gathered);
     return double(sent.x) * pi;
 }
 

@@ -28,12 +28,6 @@ ljus_break_it(NAME form-factor-horizon HEADER geometry/form_factor.hpp TEST form
     TO   "const Facet seen = facet;"
     CASES "form_factor: from a point*")
 
-# The angle by its sine: from 90 degrees on it shrinks.
-ljus_break_it(NAME form-factor-angle HEADER geometry/form_factor.hpp TEST form_factor
-    FROM "std::atan2(sine, glm::dot(a, b))"
-    TO   "std::asin(std::fmin(sine / glm::length(a) / glm::length(b), 1.0))"
-    CASES "form_factor: from a point*")
-
 # Emission on both sides.
 ljus_break_it(NAME patches-emission HEADER render/patches.hpp TEST radiosity
     FROM "back ? 0 : std::numbers::pi"
@@ -45,12 +39,6 @@ ljus_break_it(NAME patches-pi HEADER render/patches.hpp TEST radiosity
     FROM "back ? 0 : std::numbers::pi"
     TO   "back ? 0 : 1"
     CASES "radiosity: furnaces")
-
-# A limit above what can be: it is the first thing to be asked.
-ljus_break_it(NAME patches-limit HEADER render/patches.hpp TEST patches
-    FROM "settings.most <= 65536"
-    TO   "settings.most <= 200000"
-    CASES "patches: too many*")
 
 # The upper triangle of a cell taken for the lower one.
 ljus_break_it(NAME patches-upper HEADER render/patch_grid.hpp TEST patches
@@ -94,18 +82,6 @@ ljus_break_it(NAME solve-hollow HEADER render/radiosity_solve.hpp TEST radiosity
     TO   "unsent[i]"
     CASES "radiosity: furnaces")
 
-# The albedo of the patch that sends, not of the one that receives.
-ljus_break_it(NAME solve-albedo HEADER render/radiosity_solve.hpp TEST radiosity
-    FROM "* patches[j].albedo * sent"
-    TO   "* patches[i].albedo * sent"
-    CASES "radiosity: all solvers*")
-
-# Elimination without the part of a colour.
-ljus_break_it(NAME solve-grey HEADER render/radiosity_lu.hpp TEST radiosity
-    FROM "grey = grey && patch.albedo == RgbT<double>(patch.albedo.x);"
-    TO   "grey = grey || patch.albedo == RgbT<double>(patch.albedo.x);"
-    CASES "radiosity: all solvers*")
-
 # Rows that sum to more than 1 make light out of nothing.
 ljus_break_it(NAME solve-endless HEADER render/radiosity_solve.hpp TEST radiosity
     FROM "require(most < 1 - 1e-12,"
@@ -117,12 +93,6 @@ ljus_break_it(NAME radiosity-escaped HEADER render/radiosity.hpp TEST radiosity
     FROM "(1 - factors.row_sum(i))"
     TO   "(0 * factors.row_sum(i))"
     CASES "radiosity: the light of one lamp*")
-
-# A vertex forgets the last row of a ball.
-ljus_break_it(NAME light-map-around HEADER render/light_map.hpp TEST light_map
-    FROM "row % grid.rows"
-    TO   "(row == 0 ? 0 : row - 1)"
-    CASES "light_map: *")
 
 # Irradiance shown as if it were radiance.
 ljus_break_it(NAME light-map-pi HEADER render/light_map.hpp TEST light_map
@@ -141,9 +111,3 @@ ljus_break_it(NAME light-map-checksum HEADER render/light_map_file.hpp TEST ligh
     FROM "checksum != detail::map_checksum(bytes)"
     TO   "false"
     CASES "light_map: a file cut short*")
-
-# Half of each number is lost.
-ljus_break_it(NAME light-map-float HEADER render/light_map_file.hpp TEST light_map
-    FROM "detail::put_number(bytes, light[channel]);"
-    TO   "detail::put_number(bytes, double(float(light[channel])));"
-    CASES "light_map: it comes back*")

@@ -75,11 +75,11 @@ template <std::floating_point T, typename F>
 [[nodiscard]] RgbT<T> evaluate(const FullGlossyT<T, F>& gloss, const Vec3T<T>& wo,
                                const Vec3T<T>& wi) noexcept {
     const FacetLossT<T>& loss = gloss.loss;
-    if (!same_side(wo, wi) || !(loss.mean > T(0))) return evaluate(gloss.first, wo, wi);
-    const T both = lost_at(loss, std::abs(wo.z)) * lost_at(loss, std::abs(wi.z));
-    return evaluate(gloss.first, wo, wi) +
-           (both / loss.mean * std::numbers::inv_pi_v<T>)*light_again(gloss.mean,
-                                                                      loss.mean);
+    const RgbT<T> first = evaluate(gloss.first, wo, wi);
+    if (!same_side(wo, wi) || !(loss.mean > T(0))) return first;
+    const T out = lost_at(loss, std::abs(wo.z)), in = lost_at(loss, std::abs(wi.z));
+    const T again = out * in / loss.mean * std::numbers::inv_pi_v<T>;
+    return first + again * light_again(gloss.mean, loss.mean);
 }
 // [full evaluate]
 

@@ -38,7 +38,7 @@ inline constexpr PhotonKinds all_kinds{15};  ///< Every photon.
 inline constexpr PhotonKinds light_kinds{7}; ///< All but shadow photons.
 
 /// One kind alone.
-[[nodiscard]] constexpr PhotonKinds only(PhotonKind kind) noexcept {
+[[nodiscard]] constexpr PhotonKinds one_kind(PhotonKind kind) noexcept {
     return {static_cast<std::uint8_t>(1 << static_cast<int>(kind))};
 }
 

@@ -119,7 +119,7 @@ void light_at(const PhotonMapper<Scene>& mapper, const ShadingT<T>& at,
     if (settings.indirect == IndirectLight::photons)
         add("general map", "D..DL",
             ask(mapper.maps.general, settings.gather_general,
-                only(PhotonKind::indirect)));
+                one_kind(PhotonKind::indirect)));
     if (!mapper.maps.caustics.empty())
         add("caustics map", "DS+L",
             ask(mapper.maps.caustics, settings.gather_caustics, light_kinds));
