@@ -77,8 +77,8 @@ public:
 
     /// The way of closest().
     /// \param ray    The ray; a search may shorten it.
-    /// \param leaf   Called as leaf(first place, count, ready ray). For a ray that cannot
-    ///               be made ready, once, with a null pointer.
+    /// \param leaf   Called as leaf(first place, count, ready ray). For a ray that
+    ///               cannot be made ready, once, with a null pointer.
     /// \param watch  Called for each node on the way.
     template <typename Leaf, typename Watch>
     void walk(const Ray& ray, Leaf&& leaf, Watch&& watch) const;
