@@ -62,6 +62,7 @@ template <typename Scene>
 /// \param pdf    Of the strategy that did.
 /// \param other  Of the one that could have.
 /// \return In [0, 1].
+// [heuristics]
 template <std::floating_point T>
 [[nodiscard]] constexpr T balance(T pdf, T other) noexcept {
     // Not pdf / (pdf + other), which is NaN for two infinities.
@@ -80,6 +81,7 @@ template <std::floating_point T>
     const T q = pdf > other ? other / pdf : pdf / other;
     return (pdf > other ? T(1) : q * q) / (T(1) + q * q);
 }
+// [heuristics]
 
 /// The share of one of two strategies, as the settings have it.
 /// \param share  balance or power.
