@@ -123,7 +123,7 @@ auto shining_cube() {
 
 /// Two unit squares on a common edge: points on both, and rays by the cosine.
 void factors_by_chance(const examples::Options& options) {
-    const int count = options.pick(100000, 1000000, 10000000);
+    const int count = options.pick(1000000, 2000000, 10000000);
     examples::Table table{.name = "radiosity-chance",
                           .columns = {"seed", "points of both", "rays by the cosine"}};
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {

@@ -8,9 +8,10 @@
 #include <vector>
 
 using ljus::Facet;
-using V = glm::dvec3;
 
 namespace {
+
+using V = glm::dvec3;
 
 Facet rectangle(const V& corner, const V& u, const V& v) {
     return {{corner, corner + u, corner + u + v, corner + v}, 4};

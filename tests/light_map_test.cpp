@@ -14,9 +14,10 @@
 #include "scratch_folder.hpp"
 
 using namespace ljus;
-using Color = RgbT<double>;
 
 namespace {
+
+using Color = RgbT<double>;
 
 /// One of each kind of shape, and a mirror.
 auto stage() {

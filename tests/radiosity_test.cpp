@@ -10,10 +10,11 @@
 #include "support/mean.hpp"
 
 using namespace ljus;
-using Color = RgbT<double>;
-using Point = Vec3T<double>;
 
 namespace {
+
+using Color = RgbT<double>;
+using Point = Vec3T<double>;
 
 using Cube = Scene<Shapes<QuadT<double>>, Materials<LambertianT<double>>>;
 

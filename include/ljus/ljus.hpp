@@ -72,6 +72,7 @@
 #include "ljus/math/low_discrepancy.hpp"
 #include "ljus/math/naive_hemisphere.hpp"
 #include "ljus/math/polynomial.hpp"
+#include "ljus/math/prefetch.hpp"
 #include "ljus/math/quartic_formula.hpp"
 #include "ljus/math/random.hpp"
 #include "ljus/math/require.hpp"

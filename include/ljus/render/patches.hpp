@@ -18,6 +18,7 @@ namespace ljus {
 /// \{
 
 /// A patch: a part of one side of an object, taken as equally bright all over.
+// [patch]
 struct Patch {
     std::uint32_t grid = 0;  ///< Which of Patches::grids it belongs to.
     double area = 0;         ///< In squared scene units.
@@ -25,6 +26,7 @@ struct Patch {
     RgbT<double> emitted{0}; ///< Radiosity of its own, W/m^2: pi times the radiance.
     Facet facet{};           ///< Its corners, facing its own side; none on a ball.
 };
+// [patch]
 
 /// The number of "no grid".
 inline constexpr std::uint32_t no_grid = 0xffffffffu;
@@ -160,7 +162,6 @@ inline void say(Patches& all, long long count, const char* one, const char* many
 ///         than `most`, or none.
 /// \cost Each pair of objects is looked at once.
 /// \report{Section 2.2}
-// [make_patches]
 template <typename Scene>
 [[nodiscard]] Patches make_patches(const Scene& scene,
                                    const PatchSettings& settings = {}) {
@@ -217,7 +218,6 @@ template <typename Scene>
             "at least 1: a matt quad, triangle or ball that sees another");
     return all;
 }
-// [make_patches]
 
 /// \}
 
