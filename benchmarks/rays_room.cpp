@@ -196,9 +196,32 @@ void add_to(rays::Embree& embree, const Scene& scene) {
 }
 #endif
 
+/// From how many objects on the index is faster: the room, cut down to its first few.
+template <typename Scene>
+void print_crossover(const Scene& whole, const std::vector<Ray>& set) {
+    using Part = ljus::Scene<ljus::Shapes<ljus::Quad, ljus::Sphere, ljus::Triangle>,
+                             ljus::Materials<ljus::Lambertian>>;
+    std::printf("\ndiffuse rays, the first objects only, ns a ray\n%8s %8s %8s\n",
+                "objects", "loop", "index");
+    for (const std::size_t count : {1u, 2u, 3u, 4u, 6u, 8u, 12u, 16u, 22u}) {
+        Part part;
+        const auto matt = part.add(ljus::Lambertian{});
+        const auto add = [&](const auto& shapes) {
+            for (const auto& shape : shapes)
+                if (part.size() < count) part.add(shape, matt);
+        };
+        std::apply([&](const auto&... shapes) { (add(shapes), ...); }, whole.shapes);
+        const auto indexed = ljus::index_scene(part);
+        const House loop{part};
+        const House index{indexed};
+        const auto t = rays::compare(set, false, loop, index);
+        std::printf("%8zu %8.1f %8.1f\n", count, t.nanoseconds[0], t.nanoseconds[1]);
+    }
+}
+
 } // namespace
 
-/// Prints a row for each set of rays, and the path tracer's speed.
+/// Prints a row for each set of rays, the crossover, and the path tracer's speed.
 int main() {
     const auto room = ljus::final_room();
     const auto& scene = room.scene;
@@ -241,6 +264,8 @@ int main() {
     row("primary", sets.primary, false);
     row("diffuse", sets.diffuse, false);
     row("shadow", sets.shadow, true);
+
+    print_crossover(scene, sets.diffuse);
 
     const auto tracer = make_path_tracer(indexed);
     double best = 0;

@@ -218,9 +218,9 @@ void emulate(const examples::Options& options, long long photons, int truth_rays
     const Image truth =
         rendered("truth", tracer, camera, options, truth_rays, options.seed + 1000);
     save_png(truth, options.path("emulate-truth.png"));
-    examples::Table table{.name = "transport-emulate",
-                          .columns = {"renderer", "seconds", "relMSE",
-                                      "relMSE of 10 x 10 blocks", "FLIP", "HDR-FLIP"}};
+    examples::Table table{
+        .name = "transport-emulate",
+        .columns = {"renderer", "seconds", "relMSE", "blocks", "FLIP", "HDR-FLIP"}};
     const auto take = [&](const std::string& name, const std::string& file,
                           const auto& make) {
         const examples::StopWatch watch;
@@ -237,10 +237,9 @@ void emulate(const examples::Options& options, long long photons, int truth_rays
     };
     for (const int rays : {4, 16, 64, 256}) {
         if (rays > 2 * truth_rays) break;
-        take("paths, " + std::to_string(rays) + " a pixel",
-             rays == 16 ? "emulate-paths" : "", [&] {
-                 return rendered("paths", tracer, camera, options, rays, options.seed);
-             });
+        take(std::to_string(rays) + " paths", rays == 16 ? "emulate-paths" : "", [&] {
+            return rendered("paths", tracer, camera, options, rays, options.seed);
+        });
     }
     for (const long long count : {photons / 100, photons / 10, photons}) {
         const auto shoot = [&](ljus::IndirectLight indirect, int rays) {
@@ -254,11 +253,10 @@ void emulate(const examples::Options& options, long long photons, int truth_rays
                             camera, options, rays, options.seed);
         };
         const std::string many = std::to_string(count);
-        take(many + " photons seen directly, 4 rays",
-             count == photons ? "emulate-photons" : "",
+        take(many + " photons", count == photons ? "emulate-photons" : "",
              [&] { return shoot(ljus::IndirectLight::photons, 4); });
         if (count == photons)
-            take(many + " photons behind one bounce, 16 rays", "emulate-gather",
+            take(many + " behind a bounce", "emulate-gather",
                  [&] { return shoot(ljus::IndirectLight::map, 16); });
     }
     save_table(options.path(""), table);

@@ -29,6 +29,10 @@ struct WideChild {
     static constexpr std::uint32_t leaf = 1u << 31; ///< Set for a leaf.
     static constexpr int count_shift = 27;          ///< Then the count, less one,
     static constexpr std::uint32_t first = (1u << count_shift) - 1; ///< and the place.
+    /// How many things a leaf has.
+    static constexpr std::uint32_t count(std::uint32_t child) noexcept {
+        return ((child >> count_shift) & 15u) + 1;
+    }
     /// A node in units of 32 bytes: its address is one shift away.
     static constexpr std::uint32_t stride = sizeof(WideNode) / sizeof(Lanes);
 };

@@ -58,7 +58,7 @@ template <std::floating_point T>
     if (film.scale == T(0)) return film.thickness;
     const T height = glm::dot(position - film.level, film.up);
     const T thickness = film.thickness * std::exp(-height / film.scale);
-    // Written so that 0 times infinity, far below a film of no thickness, is thick.
+    // So that 0 times infinity, far below a film of no thickness, is thick.
     return thickness < thickest_film<T> ? thickness : thickest_film<T>;
 }
 // [thickness_at]

@@ -4,6 +4,7 @@
 /// \brief What a search among points finds, and how far away it is.
 
 #include <algorithm>
+#include <cmath>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -25,13 +26,20 @@ struct Neighbor {
     friend auto operator<=>(const Neighbor&, const Neighbor&) = default;
 };
 
-/// \f$ x^2 + y^2 + z^2 \f$, rounded after each of its five operations. A compiler may
-/// fuse a product with a sum, in one place and not in another, and a point on the
-/// border of a ball would lie in it or not according to who asks.
+/// \f$ x^2 + y^2 + z^2 \f$, the same wherever it is asked for. Where the machine can
+/// fuse a product with a sum, a compiler does so in one place and not in another, and a
+/// point on the border of a ball would lie in it or not according to who asks: there
+/// the sums are fused by name.
 // [sum of squares]
 [[nodiscard]] inline double sum_of_squares(double x, double y, double z) noexcept {
-    const volatile double x2 = x * x, y2 = y * y, z2 = z * z; // products of their own
+#ifdef FP_FAST_FMA
+    return std::fma(z, z, std::fma(y, y, x * x));
+#else
+    const double x2 = x * x;
+    const double y2 = y * y;
+    const double z2 = z * z;
     return x2 + y2 + z2;
+#endif
 }
 // [sum of squares]
 
