@@ -145,12 +145,14 @@ void count(benchmark::State& state, const Image& image, const Counts& counts) {
 }
 
 /// Both passes of the photon mapper. Arguments: rays a pixel; of the caustics and of the
-/// indirect light thousands of photons and the radius in thousandths.
+/// indirect light thousands of photons and the radius in thousandths; the seed.
 void photon_mapping(benchmark::State& state) {
     const CausticScene scene = glass_caustic();
-    const PhotonMapping settings =
+    const auto seed = static_cast<std::uint64_t>(state.range(5));
+    PhotonMapping settings =
         settings_for(1e3 * double(state.range(1)), 1e-3 * double(state.range(2)),
                      1e3 * double(state.range(3)), 1e-3 * double(state.range(4)));
+    settings.caustics.seed = settings.general.seed = seed;
     RenderedT<float> result;
     for (auto _ : state) {
         const double start = processor_seconds();
@@ -160,6 +162,7 @@ void photon_mapping(benchmark::State& state) {
                         {.width = 200,
                          .height = 200,
                          .rays = static_cast<int>(state.range(0)),
+                         .seed = seed,
                          .threads = 1});
         state.SetIterationTime(processor_seconds() - start);
     }
@@ -186,8 +189,8 @@ void path_tracing(benchmark::State& state) {
 } // namespace
 
 BENCHMARK(photon_mapping)
-    ->ArgsProduct({{2, 3, 4}, {50}, {14}, {700}, {50}})
-    ->ArgNames({"rays", "caustic_k", "r_milli", "indirect_k", "r_milli"})
+    ->ArgsProduct({{2, 3, 4}, {50}, {14}, {700}, {50}, {1, 2, 3, 4}})
+    ->ArgNames({"rays", "caustic_k", "r_milli", "indirect_k", "r_milli", "seed"})
     ->Unit(benchmark::kSecond)
     ->Iterations(1)
     ->UseManualTime();

@@ -90,9 +90,8 @@ double irradiance(const PhotonMap& map, Vec3 at, const Gather& gather) {
     surface.point.normal = {0, 1, 0};
     surface.frame = frame_around(surface.point.normal);
     std::uint64_t gathered = 0;
-    const Rgb radiance = estimate_radiance(
-        map, surface, white, Vec3{0, 0, 1}, gather, [](PhotonKind) { return true; },
-        gathered);
+    const Rgb radiance = estimate_radiance(map, surface, white, Vec3{0, 0, 1}, gather,
+                                           ljus::all_kinds, gathered);
     return double(radiance.x) * pi / 0.5;
 }
 
@@ -116,7 +115,7 @@ TEST_CASE("caustics: the light of a point light through a glass ball, ring by ri
         const Room room = room_of(ball, false, 50);
         for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
             std::array<double, rings + 1> flux{};
-            for (const Photon& photon : caustic_photons(room, 20000, seed))
+            for (const Photon& photon : caustic_photons(room, 10000, seed))
                 flux[ring_of(std::hypot(double(photon.position.x),
                                         double(photon.position.z)))] +=
                     double(photon.flux.x);
@@ -160,7 +159,7 @@ TEST_CASE("caustics: the estimate is the kernel's mean of the closed form") {
     });
     std::array<Mean, 4> found{};
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-        const PhotonMap map = make_photon_map(caustic_photons(room, 60000, seed));
+        const PhotonMap map = make_photon_map(caustic_photons(room, 30000, seed));
         for (std::size_t i = 0; i < places.size(); ++i)
             found[i].add(irradiance(map, {float(places[i]), -0.6f, 0},
                                     {.radius = float(radius)}));
@@ -179,18 +178,20 @@ TEST_CASE("caustics: the estimate is the kernel's mean of the closed form") {
 }
 
 TEST_CASE("caustics: the floor gets the power that the ball lets through") {
-    for (const double absorption : {0.0, 0.3, 2.0})
-        for (const double light : {0.51, 2.0, 50.0}) {
-            BallCaustic ball{.light = light, .absorption = absorption};
-            double right = 0;
-            ball.shower([&](double, double flux) { right += flux; });
-            CAPTURE(absorption);
-            CAPTURE(light);
-            const Mean found = power_of(room_of(ball), 20000);
-            CAPTURE(found.mean);
-            CAPTURE(right);
-            CHECK(std::abs(apart(found, right, 1e-4)) < 4.5); // 9 of 1 in 1000
-        }
+    // Clear to dark glass, and a light that touches the ball to one far away.
+    for (const auto& [absorption, light] :
+         {std::pair{0.0, 2.0}, std::pair{0.3, 0.51}, std::pair{0.3, 2.0},
+          std::pair{0.3, 50.0}, std::pair{2.0, 2.0}}) {
+        const BallCaustic ball{.light = light, .absorption = absorption};
+        double right = 0;
+        ball.shower([&](double, double flux) { right += flux; });
+        CAPTURE(absorption);
+        CAPTURE(light);
+        const Mean found = power_of(room_of(ball), 10000);
+        CAPTURE(found.mean);
+        CAPTURE(right);
+        CHECK(std::abs(apart(found, right, 1e-4)) < 4.3); // 5 of 1 in 1000
+    }
 }
 
 TEST_CASE("caustics: the three colours of an absorbing glass") {
@@ -201,7 +202,7 @@ TEST_CASE("caustics: the three colours of an absorbing glass") {
     std::array<Mean, 3> found;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         glm::dvec3 sum(0);
-        for (const Photon& photon : caustic_photons(room, 20000, seed))
+        for (const Photon& photon : caustic_photons(room, 10000, seed))
             sum += glm::dvec3(photon.flux);
         for (int c = 0; c < 3; ++c) found[std::size_t(c)].add(sum[c]);
     }
@@ -225,7 +226,7 @@ TEST_CASE("caustics: a mirror ball and a flat mirror") {
             right += 2 * pi * std::sin(alpha) * ball.last() / steps * 0.8;
     }
     // The floor ends; far out lands nothing but what leaves almost level.
-    const Mean found = power_of(room_of(ball, true), 50000);
+    const Mean found = power_of(room_of(ball, true), 20000);
     CAPTURE(found.mean);
     CAPTURE(right);
     CHECK(std::abs(apart(found, right, 1e-3)) < 3);
@@ -240,7 +241,7 @@ TEST_CASE("caustics: a mirror ball and a flat mirror") {
         room.add(PointLight{});
         const double h = 2 * double(height);
         const double solid_angle = 4 * std::asin(1 / (1 + h * h));
-        const Mean flat = power_of(room, 20000);
+        const Mean flat = power_of(room, 8000);
         CAPTURE(height);
         CAPTURE(flat.mean);
         CAPTURE(flat.error());
@@ -386,10 +387,10 @@ TEST_CASE("caustics: overlapping targets, an occluder, a lamp within its target"
     for (std::size_t i = 0; i < rooms.size(); ++i) {
         double flux = 0;
         const Room room = library_room(rooms[i], flux);
-        const Mean found = power_of(room, 20000);
+        const Mean found = power_of(room, 10000);
         Mean right;
         for (std::uint64_t seed = 1; seed <= 16; ++seed)
-            right.add(flux * own_power(rooms[i], 60000, seed));
+            right.add(flux * own_power(rooms[i], 45000, seed));
         CAPTURE(i);
         CAPTURE(found.mean);
         CAPTURE(found.error());
@@ -407,7 +408,7 @@ TEST_CASE("caustics: invisible glass throws the light that its shadow lacks") {
         const Room room = room_of(BallCaustic{.index = index});
         Mean found;
         for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-            const PhotonMap map = make_photon_map(caustic_photons(room, 30000, seed));
+            const PhotonMap map = make_photon_map(caustic_photons(room, 15000, seed));
             found.add(irradiance(map, {0.2f, -1, 0}, {.radius = 0.1f}));
         }
         const double d2 = height * height + 0.04;
@@ -425,7 +426,7 @@ TEST_CASE("caustics: diamond and beyond, near and far, small and large") {
                                    .intensity = scale * scale};
             double right = 0;
             ball.shower([&](double, double flux) { right += flux; });
-            const Mean found = power_of(room_of(ball), 10000);
+            const Mean found = power_of(room_of(ball), 4000);
             CAPTURE(index);
             CAPTURE(scale);
             CAPTURE(found.mean / right);
@@ -545,28 +546,34 @@ double slope(const std::vector<glm::dvec2>& points) {
 TEST_CASE("caustics: variance falls with 1/(N r^2), squared bias grows with r^4") {
     const Room room = window();
     const double exact = window_light(0, 0);
-    const auto spread = [&](long long count, float radius, std::uint64_t maps) {
-        Mean mean;
-        for (std::uint64_t seed = 1; seed <= maps; ++seed)
-            mean.add(irradiance(make_photon_map(caustic_photons(room, count, seed)),
-                                Vec3{0}, {.radius = radius}));
-        return mean;
+    // Of each map the light of several discs is read.
+    const auto spread = [&](long long count, const std::vector<float>& radii,
+                            std::uint64_t maps) {
+        std::vector<Mean> means(radii.size());
+        for (std::uint64_t seed = 1; seed <= maps; ++seed) {
+            const PhotonMap map = make_photon_map(caustic_photons(room, count, seed));
+            for (std::size_t i = 0; i < radii.size(); ++i)
+                means[i].add(irradiance(map, Vec3{0}, {.radius = radii[i]}));
+        }
+        return means;
     };
     const auto variance = [](const Mean& m) { return m.squares / (m.count - 1); };
     std::vector<glm::dvec2> by_count, by_radius, bias;
-    for (const long long count : {500LL, 1000LL, 2000LL, 4000LL})
+    for (const long long count : {250LL, 2000LL})
         by_count.emplace_back(std::log(double(count)),
-                              std::log(variance(spread(count, 0.2f, 300))));
+                              std::log(variance(spread(count, {0.2f}, 300)[0])));
     // Small discs: of a large one the photons that lie in it for certain are a part.
-    for (const float radius : {0.05f, 0.1f, 0.2f})
-        by_radius.emplace_back(std::log(double(radius)),
-                               std::log(variance(spread(1000, radius, 300))));
-    for (const float radius : {0.35f, 0.5f, 0.7f}) {
-        const Mean mean = spread(100000, radius, 16);
-        bias.emplace_back(std::log(double(radius)),
-                          std::log((mean.mean - exact) * (mean.mean - exact)));
+    const std::vector<float> small{0.05f, 0.1f, 0.2f}, large{0.35f, 0.5f, 0.7f};
+    const auto in_small = spread(1000, small, 300);
+    const auto in_large = spread(100000, large, 16);
+    for (std::size_t i = 0; i < 3; ++i) {
+        by_radius.emplace_back(std::log(double(small[i])),
+                               std::log(variance(in_small[i])));
+        const double difference = in_large[i].mean - exact;
+        bias.emplace_back(std::log(double(large[i])),
+                          std::log(difference * difference));
     }
-    // Each variance is known within 7 %: the slopes within 0.05, 0.07, and 0.3.
+    // Each variance is known within 8 %: the slopes within 0.06, 0.07, and 0.3.
     CAPTURE(slope(by_count));
     CAPTURE(slope(by_radius));
     CAPTURE(slope(bias));
@@ -580,7 +587,7 @@ TEST_CASE("caustics: with an edge in the picture the best error falls with N^(-1
     // a r + b / (N r^2), the best r goes with N^(-1/3), and so does the MSE.
     const Room room = window();
     std::vector<glm::dvec2> best;
-    for (const long long count : {1000LL, 4000LL, 16000LL, 64000LL}) {
+    for (const long long count : {500LL, 4000LL, 32000LL}) {
         std::vector<double> error;
         std::vector<float> radii;
         for (int i = 0; i < 9; ++i)
@@ -620,7 +627,7 @@ TEST_CASE("caustics: both ways at the first glass are one way in the mean") {
         const auto maps = make_photon_maps(room, settings);
         const auto mapper = make_photon_mapper(room, maps, settings);
         means[split ? 1 : 0] =
-            ljus_test::mean_radiance(mapper, 40000, 3, [](RandomStream& stream) {
+            ljus_test::mean_radiance(mapper, 10000, 3, [](RandomStream& stream) {
                 const Vec2 u = next_2d<float>(stream) - 0.5f;
                 return Ray{.origin{0.3f * u.x, 1.5f, 0.3f * u.y}, .direction{0, -1, 0}};
             });

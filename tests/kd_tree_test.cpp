@@ -5,27 +5,18 @@
 
 #include <doctest/doctest.h>
 
-#include <array>
-#include <cmath>
-#include <limits>
-#include <numeric>
-#include <stdexcept>
-#include <string>
-#include <utility>
+#include <algorithm>
+#include <vector>
 
-#include "ljus/parallel.hpp"
-#include "support/point_sets.hpp"
+#include "support/tree_cases.hpp"
 
 using ljus::KdTree;
 using ljus::KdTreeT;
 using ljus::Neighbor;
 using ljus::Vec3;
 using ljus::Vec3T;
-using photon_test::compare_with_brute_force;
 using photon_test::Numbers;
 using photon_test::point_sets;
-using photon_test::Points;
-using photon_test::PointSet;
 
 namespace {
 
@@ -64,151 +55,39 @@ std::size_t steps_nearest(const KdTreeT<T>& tree, const Vec3T<T>& center,
 } // namespace
 
 TEST_CASE("kd_tree: every search is what asking all points gives") {
-    Numbers numbers{5};
-    for (const std::size_t n : {0u, 1u, 2u, 3u, 7u, 8u, 64u, 500u})
-        for (const double size : {1e-18, 1e-3, 1.0, 1e6, 1e18})
-            for (const auto& set : point_sets<float>(n, size, 0)) {
-                CAPTURE(n);
-                CAPTURE(size);
-                compare_with_brute_force<KdTree>(set, numbers);
-            }
+    photon_test::every_search<KdTreeT>();
 }
 
 TEST_CASE("kd_tree: also in double, and far from the origin") {
-    Numbers numbers{6};
-    for (const std::size_t n : {0u, 1u, 2u, 10u, 500u}) {
-        for (const double size : {1e-18, 1.0, 1e18})
-            for (const auto& set : point_sets<double>(n, size, 0))
-                compare_with_brute_force<KdTreeT<double>>(set, numbers);
-        // A million away, a float has four bits left behind the point.
-        for (const auto& set : point_sets<float>(n, 1, 1e6))
-            compare_with_brute_force<KdTree>(set, numbers);
-        for (const auto& set : point_sets<double>(n, 1, 1e6))
-            compare_with_brute_force<KdTreeT<double>>(set, numbers);
-    }
+    photon_test::in_double<KdTreeT>();
 }
 
 TEST_CASE("kd_tree: ten thousand points at once") {
-    Numbers numbers{7};
-    for (const auto& set : point_sets<float>(10000, 1, 0))
-        compare_with_brute_force<KdTree>(set, numbers);
+    photon_test::ten_thousand<KdTreeT>();
 }
 
 TEST_CASE("kd_tree: the ball is closed, exactly, and it is no cube") {
-    // Whole numbers: squares and their sums are exact, and 3, 4, 5 make a right angle.
-    Points<float> points;
-    for (int x = -6; x <= 6; ++x)
-        for (int y = -6; y <= 6; ++y)
-            for (int z = -6; z <= 6; ++z)
-                points.push_back({float(x), float(y), float(z)});
-    const KdTree tree{std::span<const Vec3>(points)};
-    for (int square = 0; square <= 36; ++square) {
-        const auto radius = float(std::sqrt(double(square)));
-        int expected = 0;
-        for (int x = -6; x <= 6; ++x)
-            for (int y = -6; y <= 6; ++y)
-                for (int z = -6; z <= 6; ++z)
-                    // A root that was rounded down does not reach its points.
-                    if (double(x * x + y * y + z * z) <=
-                        double(radius) * double(radius))
-                        ++expected;
-        int found = 0;
-        tree.visit_within(Vec3{0}, radius, [&](std::uint32_t, double) { ++found; });
-        CHECK(found == expected);
-    }
-    const auto count = [&](float radius) {
-        int found = 0;
-        tree.visit_within(Vec3{0}, radius, [&](std::uint32_t, double) { ++found; });
-        return found;
-    };
-    CHECK(count(1) == 7); // the cube would hold 27
-    CHECK(count(std::nextafter(1.0f, 0.0f)) == 1);
-    CHECK(count(5) == 515); // lattice points of the ball of radius 5; the cube has 1331
-    CHECK(count(std::nextafter(5.0f, 0.0f)) == 515 - 30);
+    photon_test::closed_ball<KdTreeT>();
 }
 
 TEST_CASE("kd_tree: a ball without an inside finds nothing, NaN finds nothing") {
-    const Points<float> points{{0, 0, 0}, {1, 0, 0}, {0, 0, 0}};
-    const KdTree tree{std::span<const Vec3>(points)};
-    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-    std::array<Neighbor, 4> room;
-    const auto count = [&](Vec3 center, float radius) {
-        std::size_t found = 0;
-        tree.visit_within(center, radius, [&](std::uint32_t, double) { ++found; });
-        CHECK(tree.nearest(center, radius, room, [](auto) { return true; }) == found);
-        return found;
-    };
-    CHECK(count({0, 0, 0}, 0.0f) == 2);
-    CHECK(count({0, 0, 0}, -0.0f) == 2);
-    CHECK(count({0, 0, 0}, -1.0f) == 0);
-    CHECK(count({0, 0, 0}, nan) == 0);
-    CHECK(count({nan, 0, 0}, 1.0f) == 0);
-    CHECK(count({0, nan, 0}, std::numeric_limits<float>::infinity()) == 0);
-    CHECK(tree.nearest(Vec3{0}, 1.0f, {}, [](auto) { return true; }) == 0); // no room
-    CHECK(KdTree{}.nearest(Vec3{0}, 1.0f, room, [](auto) { return true; }) == 0);
-    CHECK(KdTree{}.size() == 0);
+    photon_test::no_inside<KdTreeT>();
 }
 
 TEST_CASE("kd_tree: a point that is not finite is refused with a sentence") {
-    constexpr float inf = std::numeric_limits<float>::infinity();
-    for (const float bad : {inf, -inf, std::numeric_limits<float>::quiet_NaN()})
-        for (int axis = 0; axis < 3; ++axis) {
-            Points<float> points(5, Vec3{1, 2, 3});
-            points[3][axis] = bad;
-            CHECK_THROWS_AS(KdTree{std::span<const Vec3>(points)},
-                            std::invalid_argument);
-        }
-    const Points<float> points{{0, 0, 0}, {0, inf, 0}};
-    CHECK_THROWS_WITH(KdTree{std::span<const Vec3>(points)},
-                      "a point of the k-d tree is (0, infinity, 0); it must be "
-                      "finite in every component.");
+    photon_test::not_finite<KdTreeT>();
 }
 
 TEST_CASE("kd_tree: the largest numbers of a float do not overflow") {
-    constexpr float max = std::numeric_limits<float>::max();
-    const Points<float> points{{max, max, max}, {-max, -max, -max}, {0, 0, 0}};
-    const KdTree tree{std::span<const Vec3>(points)};
-    std::array<Neighbor, 3> room;
-    const std::span<Neighbor> two(room.data(), 2);
-    CHECK(tree.nearest(Vec3{-max}, max, two, [](auto) { return true; }) == 1);
-    CHECK(tree.nearest(Vec3{-max}, std::numeric_limits<float>::infinity(), room,
-                       [](auto) { return true; }) == 3);
-    CHECK(room[0].distance2 == doctest::Approx(12 * double(max) * double(max)));
+    photon_test::largest_numbers<KdTreeT>();
 }
 
 TEST_CASE("kd_tree: order() tells where each point came from") {
-    for (const auto& set : point_sets<float>(1000, 1, 0)) {
-        const KdTree tree{std::span<const Vec3>(set.points)};
-        REQUIRE(tree.size() == 1000);
-        REQUIRE(tree.order().size() == 1000);
-        auto sorted = tree.order();
-        std::sort(sorted.begin(), sorted.end());
-        for (std::uint32_t i = 0; i < 1000; ++i) {
-            REQUIRE(sorted[i] == i);
-            REQUIRE(tree.points()[i] == set.points[tree.order()[i]]);
-        }
-    }
+    photon_test::order_of_points<KdTreeT>();
 }
 
 TEST_CASE("kd_tree: trees are values") {
-    const auto set = point_sets<float>(300, 1, 0)[0];
-    KdTree tree{std::span<const Vec3>(set.points)};
-    const auto count = [](const KdTree& t) {
-        int found = 0;
-        t.visit_within(Vec3{0}, 0.5f, [&](std::uint32_t, double) { ++found; });
-        return found;
-    };
-    const int found = count(tree);
-    CHECK(found > 0);
-    KdTree copy = tree;
-    const KdTree moved = std::move(tree);
-    CHECK(count(copy) == found);
-    CHECK(count(moved) == found);
-    copy = KdTree{};
-    CHECK(count(copy) == 0);
-    copy = moved;
-    CHECK(count(copy) == found);
-    CHECK(copy.points() == moved.points());
+    photon_test::values<KdTreeT>();
 }
 
 TEST_CASE("kd_tree: each range is split in the middle, by one of the axes") {
@@ -281,22 +160,5 @@ TEST_CASE("kd_tree: a search far from all points ends at once") {
 }
 
 TEST_CASE("kd_tree: searches on many threads find the same") {
-    const auto set = point_sets<float>(20000, 1, 0)[1];
-    const KdTree tree{std::span<const Vec3>(set.points)};
-    constexpr long long queries = 400;
-    const auto search = [&](int threads) {
-        std::vector<double> sums(queries);
-        const auto body = [&](long long i) {
-            std::array<Neighbor, 30> room;
-            const Vec3 center = set.points[static_cast<std::size_t>(i * 50)];
-            const auto count =
-                tree.nearest(center, 0.2f, room, [](auto) { return true; });
-            for (std::size_t j = 0; j < count; ++j)
-                sums[static_cast<std::size_t>(i)] +=
-                    room[j].distance2 * double(room[j].index + 1);
-        };
-        ljus::parallel_blocks(queries, body, {.threads = threads});
-        return sums;
-    };
-    CHECK(search(4) == search(1));
+    photon_test::many_threads<KdTreeT>();
 }

@@ -56,7 +56,7 @@ ljus_break_it(NAME general-map-number HEADER photons/tracing.hpp TEST general_ma
 # The cosine a second time, as the report's program has it at each bounce.
 ljus_break_it(NAME general-map-cosine HEADER photons/photon_path.hpp TEST general_map
     FROM [[flight.flux = *survivor;]]
-    TO   [[flight.flux = *survivor * std::abs(scattered->wi.z);]]
+    TO   [[flight.flux = *survivor * std::abs(scattered.wi.z);]]
     CASES "general map: direct and indirect*")
 
 # A disc of the wrong area.

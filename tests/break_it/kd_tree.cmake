@@ -1,7 +1,7 @@
 # The report's range query: a cube, not a ball.
-ljus_break_it(NAME kd-tree-cube HEADER photons/kd_tree.hpp TEST kd_tree
-    FROM "glm::dot(offset, offset)"
-    TO   "std::max({offset.x * offset.x, offset.y * offset.y, offset.z * offset.z})"
+ljus_break_it(NAME kd-tree-cube HEADER photons/neighbor.hpp TEST kd_tree
+    FROM "return x2 + y2 + z2;"
+    TO   "return std::max({x2, y2, z2});"
     CASES "kd_tree: the ball is closed*")
 
 # Where two halves touch, the centre is in both, and equal points lie on either side.
@@ -19,14 +19,14 @@ ljus_break_it(NAME kd-tree-box HEADER photons/kd_tree.hpp TEST kd_tree
 # An open ball in the walk, a closed one at the point: points on the border are found on
 # one side of a plane and not on the other.
 ljus_break_it(NAME kd-tree-border HEADER photons/kd_tree.hpp TEST kd_tree
-    FROM "return distance2 <= limit2; }"
-    TO   "return distance2 < limit2; }"
+    FROM "return distance2 <= limit2; });"
+    TO   "return distance2 < limit2; });"
     CASES "kd_tree: the ball is closed*")
 
 # The axes in turn would do for a cloud; the same axis for ever makes searches slow.
-ljus_break_it(NAME kd-tree-one-axis HEADER photons/kd_tree.hpp TEST kd_tree
-    FROM "size.x >= size.y && size.x >= size.z ? 0"
-    TO   "true ? 0"
+ljus_break_it(NAME kd-tree-one-axis HEADER photons/neighbor.hpp TEST kd_tree
+    FROM "if (size.x >= size.y && size.x >= size.z) return 0;"
+    TO   "if (true) return 0;"
     CASES "kd_tree: no set*")
 
 # Ties that count as nearer: each of a thousand equal points is tried.
@@ -36,9 +36,9 @@ ljus_break_it(NAME kd-tree-ties HEADER photons/neighbor.hpp TEST kd_tree
     CASES "kd_tree: no set*")
 
 # Differences in float: near the border of the ball they decide wrongly.
-ljus_break_it(NAME kd-tree-float HEADER photons/kd_tree.hpp TEST kd_tree
-    FROM "center - glm::dvec3(points_[i])"
-    TO   "glm::dvec3(Vec3T<T>(center) - points_[i])"
+ljus_break_it(NAME kd-tree-float HEADER photons/neighbor.hpp TEST kd_tree
+    FROM "double(a.x) - double(b.x)"
+    TO   "double(a.x - b.x)"
     CASES "kd_tree: every search*")
 
 # A square forgets the sign.

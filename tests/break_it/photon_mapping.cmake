@@ -10,10 +10,16 @@ ljus_break_it(NAME photon-mapping-flux HEADER photons/photon_path.hpp TEST photo
     TO   "scatter(surface, material, wo, u, Transport::radiance,"
     CASES "photon mapping: a matt ball embedded*")
 
-# A cosine in the estimate, which the arriving flux holds already.
+# A cosine in the estimate, which the arriving flux holds already: photons one by one, and
+# eight at a time.
 ljus_break_it(NAME photon-mapping-cosine HEADER photons/photon_map.hpp TEST photon_mapping
     FROM "weight * evaluate(material, wo, wi)"
     TO   "weight * std::abs(wi.z) * evaluate(material, wo, wi)"
+    CASES "photon mapping: a matt ball embedded*")
+ljus_break_it(NAME photon-mapping-lane-cosine HEADER photons/lane_estimate.hpp
+    TEST photon_mapping
+    FROM "lit ? weight.lane[i] : T(0)"
+    TO   "lit ? -towards * weight.lane[i] : T(0)"
     CASES "photon mapping: a matt ball embedded*")
 
 # The report's weight of a photon, a hill whose volume is not 1.
@@ -23,10 +29,10 @@ ljus_break_it(NAME photon-mapping-kernel HEADER photons/kernel.hpp TEST photon_m
     CASES "photon mapping: away from edges*")
 
 # The general map's shadow photons are not light.
-ljus_break_it(NAME photon-mapping-shadow HEADER render/photon_mapping.hpp
+ljus_break_it(NAME photon-mapping-shadow HEADER photons/photon.hpp
     TEST photon_mapping
-    FROM "return kind != PhotonKind::shadow;"
-    TO   "return kind != PhotonKind::caustic;"
+    FROM "light_kinds{7}"
+    TO   "light_kinds{13}"
     CASES "photon mapping: the general map*")
 
 # A lamp within coloured glass shines as if the glass were clear.

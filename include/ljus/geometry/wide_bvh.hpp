@@ -14,7 +14,8 @@
 namespace ljus {
 
 /// \defgroup wide_bvh Wide trees
-/// \brief The twin of the plain tree for speed: the same searches, the same answers.
+/// \brief The twin of the plain tree for speed \cite wald2008 : the same searches, the
+/// same answers.
 /// Chapter: \ref ch_bvh.
 /// \{
 

@@ -3,10 +3,7 @@
 /// \file ljus/photons/kd_tree.hpp
 /// \brief The plain k-d tree: points near a point.
 
-#include <algorithm>
-#include <cstdint>
 #include <limits>
-#include <span>
 #include <vector>
 
 #include "ljus/math/require.hpp"
@@ -37,21 +34,41 @@ public:
     /// \throws std::invalid_argument  if a point is not finite.
     /// \cost O(n log n), whatever the points; 16 bytes a point in float, and 3 to 12
     ///       for the boxes.
-    explicit KdTreeT(std::span<const Vec3T<T>> points);
+    explicit KdTreeT(std::span<const Vec3T<T>> points) {
+        require(points.size() <= std::numeric_limits<std::uint32_t>::max(),
+                "the number of points in a k-d tree",
+                static_cast<long long>(points.size()), "below 2^32");
+        for (const Vec3T<T>& point : points) {
+            require_finite("a point of the k-d tree", point);
+            order_.push_back(static_cast<std::uint32_t>(order_.size()));
+        }
+        if (!points.empty()) build(points, 0, 0, points.size());
+        for (const std::uint32_t index : order_) points_.push_back(points[index]);
+    }
 
     /// Where the points came from: order()[i] is the number of the i-th point of the
     /// tree in the span it was built from.
     [[nodiscard]] const std::vector<std::uint32_t>& order() const noexcept {
         return order_;
     }
-
     /// The points, in the tree's order.
     [[nodiscard]] const std::vector<Vec3T<T>>& points() const noexcept {
         return points_;
     }
-
     /// How many points there are.
     [[nodiscard]] std::size_t size() const noexcept { return points_.size(); }
+
+    /// The way that every search takes, and that a search of your own can take: of the
+    /// two halves of a range the nearer one first.
+    /// \param center   Where the search is.
+    /// \param offer    Called as offer(index, distance2) with each point on the way.
+    /// \param reaches  Called as reaches(distance2) with the squared distance to a
+    ///                 range's box: no point in it is nearer. False leaves it out.
+    template <typename Offer, typename Reaches>
+    void walk(const Vec3T<T>& center, Offer&& offer, Reaches&& reaches) const {
+        if (!points_.empty() && reaches(distance2_to(0, center)))
+            descend(0, 0, points_.size(), center, offer, reaches);
+    }
 
     /// Calls `visit(index, distance2)` for each point within a closed ball.
     /// \param center  Of the ball.
@@ -64,12 +81,10 @@ public:
     void visit_within(const Vec3T<T>& center, T radius, Visit&& visit) const {
         if (!(radius >= T(0))) return;
         const double limit2 = double(radius) * double(radius);
-        walk(
-            center,
-            [&](std::uint32_t index, double distance2) {
-                if (distance2 <= limit2) visit(index, distance2);
-            },
-            [&](double distance2) { return distance2 <= limit2; });
+        const auto offer = [&](std::uint32_t index, double distance2) {
+            if (distance2 <= limit2) visit(index, distance2);
+        };
+        walk(center, offer, [&](double distance2) { return distance2 <= limit2; });
     }
     // [within]
 
@@ -88,138 +103,81 @@ public:
                                       std::span<Neighbor> found, Wanted wanted) const {
         if (found.empty() || !(radius >= T(0))) return 0;
         Nearest best{.found = found, .limit2 = double(radius) * double(radius)};
-        walk(
-            center,
-            [&](std::uint32_t index, double distance2) {
-                if (best.reaches(distance2) && wanted(index))
-                    best.take({distance2, index});
-            },
-            [&](double distance2) { return best.reaches(distance2); });
+        const auto offer = [&](std::uint32_t index, double distance2) {
+            if (best.reaches(distance2) && wanted(index)) best.take({distance2, index});
+        };
+        walk(center, offer, [&](double distance2) { return best.reaches(distance2); });
         return best.count;
     }
     // [nearest]
 
-    /// The way that every search takes, and that a search of your own can take: of the
-    /// two halves of a range the nearer one first.
-    /// \param center   Where the search is.
-    /// \param offer    Called as offer(index, distance2) with each point on the way.
-    /// \param reaches  Called as reaches(distance2) with the squared distance to a
-    ///                 range's box: no point in it is nearer. False leaves it out.
-    template <typename Offer, typename Reaches>
-    void walk(const Vec3T<T>& center, Offer&& offer, Reaches&& reaches) const {
-        const glm::dvec3 c(center);
-        if (!points_.empty() && reaches(distance2(boxes_[0], c)))
-            descend(0, 0, points_.size(), c, offer, reaches);
-    }
-
 private:
-    /// Where the points of a range lie.
+    static constexpr std::size_t leaf_size = 16; // such a range is asked one by one
+
+    // Where the points of a range lie.
     struct Box {
-        Vec3T<T> low{T(0)};
-        Vec3T<T> high{T(0)};
+        Vec3T<T> low, high;
     };
 
-    // A range of so many points is searched one by one.
-    static constexpr std::size_t leaf_size = 16;
-
-    // Rounded as the distances of points are: a point is never nearer than its box.
-    static double distance2(const Box& box, const glm::dvec3& center) noexcept {
-        double sum = 0;
-        for (int axis = 0; axis < 3; ++axis) {
-            const double below = double(box.low[axis]) - center[axis];
-            const double above = center[axis] - double(box.high[axis]);
-            const double outside = std::max(std::max(below, above), 0.0);
-            sum += outside * outside;
+    // [build]
+    void build(std::span<const Vec3T<T>> points, std::size_t node, std::size_t first,
+               std::size_t last) {
+        Box box{points[order_[first]], points[order_[first]]};
+        for (std::size_t i = first; i < last; ++i) {
+            box.low = glm::min(box.low, points[order_[i]]);
+            box.high = glm::max(box.high, points[order_[i]]);
         }
-        return sum;
+        if (boxes_.size() <= node) boxes_.resize(node + 1);
+        boxes_[node] = box;
+        if (last - first <= leaf_size) return;
+
+        // The median goes to the middle; ties are split by the point's number.
+        const int axis = longest_axis(box.low, box.high);
+        const auto less = [&](std::uint32_t a, std::uint32_t b) {
+            const T x = points[a][axis], y = points[b][axis];
+            return x < y || (x == y && a < b);
+        };
+        const std::size_t middle = first + (last - first) / 2;
+        std::uint32_t* const order = order_.data();
+        std::nth_element(order + first, order + middle, order + last, less);
+        build(points, 2 * node + 1, first, middle);
+        build(points, 2 * node + 2, middle, last);
+    }
+    // [build]
+
+    double distance2_to(std::size_t node, const Vec3T<T>& center) const noexcept {
+        return box_distance2(boxes_[node].low, boxes_[node].high, center);
     }
 
+    // [walk]
     template <typename Offer, typename Reaches>
     void descend(std::size_t node, std::size_t first, std::size_t last,
-                 const glm::dvec3& center, Offer& offer, Reaches& reaches) const;
-    void build(std::span<const Vec3T<T>> points, std::size_t node, std::size_t first,
-               std::size_t last);
+                 const Vec3T<T>& center, Offer& offer, Reaches& reaches) const {
+        if (last - first <= leaf_size) {
+            for (std::size_t i = first; i < last; ++i)
+                offer(static_cast<std::uint32_t>(i), distance2(points_[i], center));
+            return;
+        }
+        const std::size_t middle = first + (last - first) / 2;
+        const std::size_t low = 2 * node + 1, high = 2 * node + 2;
+        const double to_low = distance2_to(low, center);
+        const double to_high = distance2_to(high, center);
+
+        // The nearer half first: what it finds may bring the other one out of reach.
+        const bool low_first = to_low <= to_high;
+        if (low_first && reaches(to_low))
+            descend(low, first, middle, center, offer, reaches);
+        if (reaches(to_high)) descend(high, middle, last, center, offer, reaches);
+        if (!low_first && reaches(to_low))
+            descend(low, first, middle, center, offer, reaches);
+    }
+    // [walk]
 
     std::vector<Vec3T<T>> points_;
     std::vector<std::uint32_t> order_;
     std::vector<Box> boxes_; // of range i; its halves are 2i + 1 and 2i + 2
 };
 using KdTree = KdTreeT<float>; ///< KdTreeT in float.
-
-// [build]
-template <std::floating_point T>
-KdTreeT<T>::KdTreeT(std::span<const Vec3T<T>> points) {
-    require(points.size() <= std::numeric_limits<std::uint32_t>::max(),
-            "the number of points in a k-d tree", static_cast<long long>(points.size()),
-            "below 2^32");
-    order_.reserve(points.size());
-    for (const Vec3T<T>& point : points) {
-        require_finite("a point of the k-d tree", point);
-        order_.push_back(static_cast<std::uint32_t>(order_.size()));
-    }
-    if (!points.empty()) build(points, 0, 0, points.size());
-    points_.reserve(points.size());
-    for (const std::uint32_t index : order_) points_.push_back(points[index]);
-}
-
-template <std::floating_point T>
-void KdTreeT<T>::build(std::span<const Vec3T<T>> points, std::size_t node,
-                       std::size_t first, std::size_t last) {
-    Box box{points[order_[first]], points[order_[first]]};
-    for (std::size_t i = first; i < last; ++i) {
-        box.low = glm::min(box.low, points[order_[i]]);
-        box.high = glm::max(box.high, points[order_[i]]);
-    }
-    if (boxes_.size() <= node) boxes_.resize(node + 1);
-    boxes_[node] = box;
-    if (last - first <= leaf_size) return;
-
-    const Vec3T<T> size = box.high / T(2) - box.low / T(2); // halves: no overflow
-    const int axis = size.x >= size.y && size.x >= size.z ? 0
-                     : size.y >= size.z                   ? 1
-                                                          : 2;
-    // The median goes to the middle; ties are split by the point's number.
-    const std::size_t middle = first + (last - first) / 2;
-    const auto begin = order_.begin();
-    std::nth_element(begin + static_cast<std::ptrdiff_t>(first),
-                     begin + static_cast<std::ptrdiff_t>(middle),
-                     begin + static_cast<std::ptrdiff_t>(last),
-                     [&](std::uint32_t a, std::uint32_t b) {
-                         const T x = points[a][axis];
-                         const T y = points[b][axis];
-                         return x < y || (x == y && a < b);
-                     });
-    build(points, 2 * node + 1, first, middle);
-    build(points, 2 * node + 2, middle, last);
-}
-// [build]
-
-// [walk]
-template <std::floating_point T>
-template <typename Offer, typename Reaches>
-void KdTreeT<T>::descend(std::size_t node, std::size_t first, std::size_t last,
-                         const glm::dvec3& center, Offer& offer,
-                         Reaches& reaches) const {
-    if (last - first <= leaf_size) {
-        for (std::size_t i = first; i < last; ++i) {
-            const glm::dvec3 offset = center - glm::dvec3(points_[i]);
-            offer(static_cast<std::uint32_t>(i), glm::dot(offset, offset));
-        }
-        return;
-    }
-    const std::size_t middle = first + (last - first) / 2;
-    const double to_low = distance2(boxes_[2 * node + 1], center);
-    const double to_high = distance2(boxes_[2 * node + 2], center);
-
-    // The nearer half first: what it finds may bring the other one out of reach.
-    const bool low_first = to_low <= to_high;
-    if (low_first && reaches(to_low))
-        descend(2 * node + 1, first, middle, center, offer, reaches);
-    if (reaches(to_high)) descend(2 * node + 2, middle, last, center, offer, reaches);
-    if (!low_first && reaches(to_low))
-        descend(2 * node + 1, first, middle, center, offer, reaches);
-}
-// [walk]
 
 /// \}
 

@@ -25,8 +25,38 @@ struct FluxDiscT {
     T radius = T(1);                      ///< Between 1e-15 and 1e15.
     T thickness = T(0.5);                 ///< Half its height over its radius.
     Kernel kernel = Kernel::epanechnikov; ///< The weight by distance.
-    std::uint32_t kinds = 15;             ///< Which kinds count, a bit each.
+    PhotonKinds kinds = all_kinds;        ///< Which kinds count.
 };
+
+/// kernel_weight() of eight photons.
+/// \param kernel  The shape.
+/// \param x       Squared distances over the squared radius, each in [0, 1].
+template <std::floating_point T>
+[[nodiscard]] LanesT<T> kernel_weights(Kernel kernel, const LanesT<T>& x) noexcept {
+    LanesT<T> weight;
+    // One loop a kernel: a constant in it, and no choice.
+    const auto fill = [&](auto chosen) {
+        for_lanes([&](int i) { weight.lane[i] = kernel_weight(chosen(), x.lane[i]); });
+    };
+    switch (kernel) {
+    case Kernel::box:
+        fill([] { return Kernel::box; });
+        break;
+    case Kernel::cone:
+        fill([] { return Kernel::cone; });
+        break;
+    case Kernel::gaussian:
+        fill([] { return Kernel::gaussian; });
+        break;
+    case Kernel::epanechnikov:
+        fill([] { return Kernel::epanechnikov; });
+        break;
+    case Kernel::biweight:
+        fill([] { return Kernel::biweight; });
+        break;
+    }
+    return weight;
+}
 
 /// The weighted flux in a disc, of photons that come from one side.
 ///
@@ -43,6 +73,7 @@ flux_in_disc(const WideKdTreeT<T>& tree, const PhotonRecordsT<T>& records,
              const FluxDiscT<T>& disc, std::uint64_t& gathered) {
     const T per_radius2 = T(1) / (disc.radius * disc.radius);
     const T height = disc.thickness * disc.radius;
+    const std::int32_t kinds = disc.kinds.bits;
     const Vec3T<T> c = disc.center, n = disc.normal, d = disc.from;
     RgbT<double> sum{0};
     BlockT<T> part{}; // of some blocks: more terms would cost a float its last digits
@@ -54,32 +85,38 @@ flux_in_disc(const WideKdTreeT<T>& tree, const PhotonRecordsT<T>& records,
     };
     const auto visit = [&](const FoundBlockT<T>& block) {
         const RecordBlockT<T>& record = records.blocks()[block.first / 8];
-        T x[lane_count], weight[lane_count];
+        T nx[lane_count], ny[lane_count], nz[lane_count];
+        std::int32_t wanted[lane_count];
+        for_lanes([&](int i) { nx[i] = T(record.nx[i]); });
+        for_lanes([&](int i) { ny[i] = T(record.ny[i]); });
+        for_lanes([&](int i) { nz[i] = T(record.nz[i]); });
+        for_lanes(
+            [&](int i) { wanted[i] = static_cast<std::int32_t>(record.kind[i]); });
+        LanesT<T> x;
         std::int32_t inside[lane_count];
         std::int32_t count = 0;
         for_lanes([&](int i) {
             const T h = (block.points.x[i] - c.x) * n.x +
                         (block.points.y[i] - c.y) * n.y +
                         (block.points.z[i] - c.z) * n.z;
-            const T nx = T(record.nx[i]), ny = T(record.ny[i]), nz = T(record.nz[i]);
-            const T along = nx * n.x + ny * n.y + nz * n.z;
-            const bool turned = T(2) * T(127) * along < nx * nx + ny * ny + nz * nz;
-            const auto kind = static_cast<std::uint32_t>(record.kind[i]);
-            x[i] = block.distance2.lane[i] * per_radius2;
-            inside[i] = (x[i] < std::numeric_limits<T>::infinity()) & (h <= height) &
-                        (-h <= height) & !turned &
-                        static_cast<int>(disc.kinds >> kind & 1u);
-            count += inside[i];
+            const T along = nx[i] * n.x + ny[i] * n.y + nz[i] * n.z;
+            const T length2 = nx[i] * nx[i] + ny[i] * ny[i] + nz[i] * nz[i];
+            const T share = block.distance2.lane[i] * per_radius2;
+            const std::int32_t in = (share < std::numeric_limits<T>::infinity()) &
+                                    (h <= height) & (-h <= height) &
+                                    !(T(2) * T(127) * along < length2) &
+                                    (kinds >> wanted[i] & 1);
+            x.lane[i] = in != 0 ? share : T(0);
+            inside[i] = in;
+            count += in;
         });
         gathered += static_cast<std::uint64_t>(count);
-        for_lanes([&](int i) {
-            weight[i] = kernel_weight(disc.kernel, inside[i] != 0 ? x[i] : T(0));
-        });
+        const LanesT<T> weight = kernel_weights(disc.kernel, x);
         for_lanes([&](int i) {
             const T towards = record.direction.x[i] * d.x +
                               record.direction.y[i] * d.y + record.direction.z[i] * d.z;
             const bool lit = (inside[i] != 0) & (towards < T(0));
-            const T w = lit ? weight[i] : T(0);
+            const T w = lit ? weight.lane[i] : T(0);
             part.x[i] += w * record.flux.x[i];
             part.y[i] += w * record.flux.y[i];
             part.z[i] += w * record.flux.z[i];
@@ -87,7 +124,7 @@ flux_in_disc(const WideKdTreeT<T>& tree, const PhotonRecordsT<T>& records,
         if (++parts == 16) add_part();
     };
     tree.visit_blocks(c, disc.radius, visit);
-    add_part();
+    if (parts > 0) add_part();
     return sum;
 }
 // [flux in disc]

@@ -131,6 +131,7 @@ struct ReachT {
                                                  const Vec3T<T>& center,
                                                  const LanesT<T>& d2) const noexcept {
         std::uint32_t found = lanes_up_to(d2, last);
+        if (found == 0) return 0;
         for (std::uint32_t rest = found & ~lanes_up_to(d2, sure); rest != 0;
              rest &= rest - 1) {
             const int i = std::countr_zero(rest);

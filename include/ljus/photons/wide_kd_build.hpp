@@ -104,14 +104,10 @@ private:
             }
             return;
         }
-        const Vec3T<T> size = high / T(2) - low / T(2); // halves: no overflow
-        const int axis = size.x >= size.y && size.x >= size.z ? 0
-                         : size.y >= size.z                   ? 1
-                                                              : 2;
         const std::uint64_t middle =
             point(shape_.first_block(depth + 1, 2 * number + 1));
         partition(from, items_[(depth + 1) % 2].get() + first, last - first,
-                  middle - first, axis);
+                  middle - first, longest_axis(low, high));
     }
     // [wide build]
 
