@@ -428,7 +428,7 @@ void depths(const examples::Options& options, const Sizes& sizes) {
 /// The variance of a path in a furnace of emission 1 that goes on with a constant chance.
 double furnace_variance(double rho, double p) {
     const double r = rho / p, s = rho * rho / p, mean = 1 / (1 - rho);
-    if (s >= 1) return nothing;
+    if (s > 1 - 1e-6) return nothing;
     if (std::abs(r - 1) < 1e-9) return p / ((1 - p) * (1 - p));
     return 1 / (1 - s) + 2 / (r - 1) * (1 / (1 - s) - mean) - mean * mean;
 }
@@ -436,7 +436,7 @@ double furnace_variance(double rho, double p) {
 PathTracing constant_chance(double p) {
     return {.roulette_depth = 1,
             .sample_lights = false,
-            .roulette_threshold = 1e-9,
+            .roulette_threshold = 1e-30,
             .roulette_most = p};
 }
 
@@ -505,12 +505,14 @@ void roulette(const examples::Options& options, const Sizes& sizes) {
     struct Case {
         std::string name;
         double threshold, most;
+        int from = 1; ///< From which surface on.
     };
     std::vector<Case> cases{{"none: as long as it goes", 0, 1}};
     for (const double threshold : {0.05, 0.1, 0.2, 0.4, 0.7, 1.0, 2.0, 4.0, 10.0, 40.0})
         cases.push_back({"throughput / " + text(threshold), threshold, 1});
     for (const double most : {0.9, 0.7, 0.5, 0.3, 0.1})
-        cases.push_back({"a constant chance of " + text(most), 1e-9, most});
+        cases.push_back({"a constant chance of " + text(most), 1e-30, most});
+    cases.push_back({"the default: throughput, from the 4th surface on", 1, 1, 4});
     examples::Plot plot{.name = "path_tracing-roulette",
                         .columns = {"threshold", "by rays", "by time", "no roulette"},
                         .y_label = "efficiency, 1 / (variance x cost); 1: threshold 1",
@@ -522,7 +524,7 @@ void roulette(const examples::Options& options, const Sizes& sizes) {
     std::vector<Noise> noises;
     for (const Case& c : cases) {
         const auto tracer =
-            make_path_tracer(room.scene, {.roulette_depth = 1,
+            make_path_tracer(room.scene, {.roulette_depth = c.from,
                                           .roulette_threshold = c.threshold,
                                           .roulette_most = c.most});
         noises.push_back(noise_of(tracer, low_camera(),
@@ -532,14 +534,15 @@ void roulette(const examples::Options& options, const Sizes& sizes) {
     const auto by_time = [&](const Noise& n) {
         return 1 / (n.rms * n.rms * std::max(n.seconds, 1e-6));
     };
-    const Noise& usual = noises[6]; // threshold 1
+    const Noise& usual = noises[6];                // threshold 1
+    const Noise& rash = noises[noises.size() - 2]; // a chance of 0.1
     for (std::size_t i = 0; i < cases.size(); ++i) {
         const double rays = by_rays(noises[i]) / by_rays(usual);
         const double time = by_time(noises[i]) / by_time(usual);
         table.rows.push_back({cases[i].name, text(noises[i].rays, "%.2f"),
                               text(noises[i].rms, "%.4f"), text(rays, "%.2f"),
                               text(time, "%.2f")});
-        if (cases[i].threshold >= 0.05)
+        if (cases[i].threshold >= 0.05 && cases[i].from == 1)
             plot.rows.push_back(
                 {cases[i].threshold, rays, time, by_rays(noises[0]) / by_rays(usual)});
     }
@@ -548,7 +551,7 @@ void roulette(const examples::Options& options, const Sizes& sizes) {
     print(table, options);
 
     // The same number of rays of all kinds for both pictures.
-    const double rays = noises[6].rays / noises.back().rays * options.rays;
+    const double rays = usual.rays / rash.rays * options.rays;
     const auto save = [&](const char* file, const PathTracing& settings, int count) {
         save_png(rendered("roulette", make_path_tracer(room.scene, settings),
                           room.camera,
@@ -558,7 +561,7 @@ void roulette(const examples::Options& options, const Sizes& sizes) {
     };
     save("path_tracing-roulette-usual.png", {.roulette_depth = 1}, options.rays);
     save("path_tracing-roulette-rash.png",
-         {.roulette_depth = 1, .roulette_threshold = 1e-9, .roulette_most = 0.1},
+         {.roulette_depth = 1, .roulette_threshold = 1e-30, .roulette_most = 0.1},
          std::max(1, int(std::lround(rays))));
 }
 
