@@ -173,8 +173,8 @@ struct Way {
 const std::array ways{
     Way{"paths alone", "paths", {.sample_lights = false}},
     Way{"shadow rays alone", "shadow", {.share = LampShare::shadow_rays}},
-    Way{"both, balance heuristic", "balance"},
-    Way{"both, power heuristic", "power", {.share = LampShare::power}}};
+    Way{"both by balance", "balance"},
+    Way{"both by power", "power", {.share = LampShare::power}}};
 // [ways]
 
 /// The matt room by each way, and its noise against rays.
@@ -220,7 +220,7 @@ void in_the_room(const examples::Options& options, const Sizes& sizes) {
                               text(by_rays / first_by_rays, "%.1f"),
                               text(by_time / first_by_time, "%.1f")});
     }
-    for (auto& row : plot.rows) row[4] = plot.rows[0][2] / std::sqrt(row[0]);
+    for (auto& row : plot.rows) row[4] = plot.rows[0][2] / (2 * std::sqrt(row[0]));
     save_plot(options.path(""), plot);
     save_table(options.path(""), table);
     print(table, options);
