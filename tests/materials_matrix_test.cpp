@@ -136,7 +136,7 @@ void compare(const std::string& name, const M& material, std::uint64_t cell,
 // 13 rooms of 16 blocks. A distance has Student's t with some 30 degrees of freedom:
 // chance puts 1 of 208 blocks beyond 3 standard errors, more than 5 in one run of 2000,
 // and one beyond 5 in one run of 250. A mean beyond 4 standard errors, which are
-// below 0.6 %, is one run of 200. The seeds are fixed; one block was seen beyond 3.
+// below 0.6 %, is one run of 200. The seeds are fixed; two blocks were seen beyond 3.
 TEST_CASE("materials matrix: photon mapping equals path tracing, for each material") {
     Found all;
     const Rgb ochre{0.8f, 0.6f, 0.3f};

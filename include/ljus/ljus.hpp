@@ -113,6 +113,7 @@
 #include "ljus/photons/wide_kd_shape.hpp"
 #include "ljus/photons/wide_kd_tree.hpp"
 #include "ljus/render/camera_path.hpp"
+#include "ljus/render/class_means.hpp"
 #include "ljus/render/counts.hpp"
 #include "ljus/render/direct_light.hpp"
 #include "ljus/render/distributed.hpp"
