@@ -107,12 +107,12 @@ std::size_t bytes_of(const PhotonMap& map) {
 PhotonMapping photon_settings(IndirectLight indirect, double effort,
                               std::uint64_t seed) {
     const bool direct = indirect == IndirectLight::photons;
-    const auto photons = std::llround((direct ? 4000 : 500) * effort);
+    const auto many = std::llround((direct ? 4000 : 500) * effort);
     const auto smaller = float(std::pow(effort, -1.0 / 6));
     return {.shadow_rays = direct ? 4 : 1,
             .indirect = indirect,
-            .caustics{.photons = photons, .seed = seed},
-            .general{.photons = photons, .seed = seed, .shadow_photons = false},
+            .caustics{.photons = many, .seed = seed},
+            .general{.photons = many, .seed = seed, .shadow_photons = false},
             .gather_caustics{.radius = 0.15f * smaller},
             .gather_general{.radius = (direct ? 0.35f : 0.5f) * smaller}};
 }
@@ -248,22 +248,24 @@ auto judge(const Study& study, bool matt, const examples::Options& options) {
                            .progress = bar})
                 .image;
         };
+        const auto& scene = study.room.scene;
+        const long long many = options.pick(200000, 1000000, 10000000);
         // [judge]
-        // Rays alone in the matt room. Where there are caustics, paths for all but
-        // caustics, and photons for these, in discs that are smaller than a pixel.
+        // Rays alone in the matt room. Where there are caustics, paths for all
+        // but these, and photons for them, in discs smaller than a pixel.
         const PhotonMapping settings{
             .indirect = IndirectLight::rays,
-            .caustics{.photons = options.pick(200000, 1000000, 10000000), .seed = seed},
+            .caustics{.photons = many, .seed = seed},
             .gather_caustics{.radius = 1.2f / float(options.width)}};
-        const auto maps = make_photon_maps(study.room.scene, settings);
-        const auto mapper = make_photon_mapper(study.room.scene, maps, settings);
+        const auto maps = make_photon_maps(scene, settings);
+        const auto mapper = make_photon_mapper(scene, maps, settings);
         if (matt) return picture(mapper, rays);
-        const auto tracer = make_path_tracer(study.room.scene);
+        const auto tracer = make_path_tracer(scene);
         Image sum = picture(only(tracer, "E(S*|.*D)L"), rays);
-        const Image caustics = picture(only(mapper, "E.*DS+L"), std::max(1, rays / 4));
+        const Image rest = picture(only(mapper, "E.*DS+L"), (rays + 3) / 4);
         // [judge]
         for (std::size_t i = 0; i < sum.pixels.size(); ++i)
-            sum.pixels[i] += caustics.pixels[i];
+            sum.pixels[i] += rest.pixels[i];
         return sum;
     };
 }
@@ -526,13 +528,11 @@ void class_table(const Study& study, const examples::Options& options,
         }
         return sums;
     };
-    // [measure]
     const auto of = [&](const auto& renderer) {
         return measured([&](const Picture& picture) {
             return class_means(renderer, study.room.camera, picture, classes);
         });
     };
-    // [measure]
     const auto mapped = [&](IndirectLight indirect) {
         return measured([&](const Picture& picture) {
             const auto settings = photon_settings(
