@@ -50,6 +50,7 @@ constexpr RadiositySolver solvers[] = {RadiositySolver::lu, RadiositySolver::jac
                                        RadiositySolver::shooting};
 
 template <typename Body>
+#include <algorithm>
 std::string refusal(Body body) {
     try {
         body();

@@ -113,7 +113,7 @@ struct BlockRange {
 namespace detail {
 
 // What several threads change, they change in turn. A lock of OpenMP's, which costs
-// no header, in place of std::atomic, which costs an eighth of one of ours.
+// no header, in place of atomics, whose header costs an eighth of one of ours.
 class Turns {
 public:
 #ifdef _OPENMP

@@ -4,6 +4,7 @@
 /// \brief Closed meshes, and rays from within them at what two triangles share: a ray
 /// that meets nothing has leaked.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -3,6 +3,7 @@
 /// \file support/tree_cases.hpp
 /// \brief What both k-d trees must do: cases that are written once, for either.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>

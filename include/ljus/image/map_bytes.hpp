@@ -4,6 +4,7 @@
 /// \brief Numbers in a file of a map, the same on every machine; for map_file.hpp and
 /// light_map_file.hpp.
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <type_traits>

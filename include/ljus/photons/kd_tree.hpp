@@ -3,6 +3,7 @@
 /// \file ljus/photons/kd_tree.hpp
 /// \brief The plain k-d tree: points near a point.
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 

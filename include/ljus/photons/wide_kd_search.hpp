@@ -100,6 +100,7 @@ void WideKdTreeT<T>::towards(const Vec3T<T>& center, const ReachT<T>& reach,
 }
 
 template <std::floating_point T>
+#include <algorithm>
 std::optional<Neighbor> WideKdTreeT<T>::nearest(const Vec3T<T>& center,
                                                 T radius) const {
     if (!(radius >= T(0)) || size() == 0) return std::nullopt;

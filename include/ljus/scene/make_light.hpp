@@ -3,6 +3,8 @@
 /// \file ljus/scene/make_light.hpp
 /// \brief The lights that are no objects, checked and with their flux.
 
+#include <algorithm>
+
 #include "ljus/math/require.hpp"
 #include "ljus/scene/light.hpp"
 

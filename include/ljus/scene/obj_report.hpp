@@ -3,6 +3,7 @@
 /// \file ljus/scene/obj_report.hpp
 /// \brief What is wrong with a mesh file, though not wrong enough to refuse it.
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <string>
