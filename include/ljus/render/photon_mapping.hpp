@@ -136,8 +136,8 @@ inline constexpr std::size_t most_splits = 8;
 /// first diffuse surface that an indirect ray meets answers from the general map; with
 /// IndirectLight::photons, the one that the camera path meets itself. With split_glass
 /// a path goes both ways at glass, as long as it has met nothing matt: by chance alone,
-/// one path in some hundreds would be mirrored inside of a ball and meet the lamp, and its
-/// pixel would be a hundred times too bright.
+/// one path in some hundreds would be mirrored inside of a ball and meet the lamp, and
+/// its pixel would be a hundred times too bright.
 /// \param mapper  The scene, the maps, the limits.
 /// \param ray     A primary ray.
 /// \param stream  The numbers of this path.
