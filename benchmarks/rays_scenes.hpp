@@ -137,8 +137,12 @@ RaySets ray_sets(FirstHit first_hit, Vec3 eye, Vec3 target, Vec3 up, Vec3 lamp,
                 *point, ljus::to_world(ljus::frame_around(point->normal), local)));
             const ljus::Vec2 v = ljus::next_2d<float>(stream);
             const ljus::SurfacePoint to{.position = lamp + v.x * lamp_u + v.y * lamp_v};
-            if (glm::dot(to.position - point->position, point->normal) > 0)
-                sets.shadow.push_back(ljus::ray_between(*point, to));
+            if (glm::dot(to.position - point->position, point->normal) > 0) {
+                Ray between = ljus::ray_between(*point, to);
+                between.t_max = glm::length(between.direction); // as the report has it
+                between.direction /= between.t_max;
+                sets.shadow.push_back(between);
+            }
         }
     return sets;
 }

@@ -56,6 +56,9 @@ function(ljus_break_it)
     set(folder "${CMAKE_BINARY_DIR}/break_it/${row_NAME}")
     set(header "${LJUS_INCLUDE_DIR}/ljus/${row_HEADER}")
     set(broken "${folder}/ljus/${row_HEADER}")
+    if(NOT EXISTS "${broken}") # another header was broken here before
+        file(REMOVE_RECURSE "${folder}/ljus")
+    endif()
     ljus_write_if_different("${folder}/from.txt" "${row_FROM}")
     ljus_write_if_different("${folder}/to.txt" "${row_TO}")
     add_custom_command(OUTPUT "${broken}"

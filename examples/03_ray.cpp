@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -15,12 +14,13 @@
 #include <exception>
 #include <filesystem>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "common/clock.hpp"
+#include "common/numbers.hpp"
 #include "common/plot.hpp"
 #include "ljus/geometry/shape.hpp"
 #include "ljus/image/image.hpp"
@@ -35,21 +35,8 @@ using ljus::Vec3;
 namespace {
 
 using Point = ljus::Vec3T<double>;
+using examples::Numbers;
 using Long3 = ljus::Vec3T<long double>;
-
-/// Numbers in [0, 1), the same everywhere.
-struct Numbers {
-    std::uint64_t state = 1;
-    double next() {
-        state = state * 6364136223846793005ull + 1442695040888963407ull;
-        return static_cast<double>(state >> 11) / 9007199254740992.0;
-    }
-    Point direction() {
-        const double z = 2 * next() - 1, r = std::sqrt(1 - z * z);
-        const double phi = 2 * std::numbers::pi * next();
-        return {r * std::cos(phi), r * std::sin(phi), z};
-    }
-};
 
 // --- Ways to leave a surface ----------------------------------------------------------
 
@@ -195,20 +182,16 @@ double nanoseconds(Way way) {
         points.push_back(ljus::point_at(quad, 0.3f, 0.4f));
         directions.push_back(Vec3(n.direction()));
     }
-    double best = 1e9;
-    Vec3 sum{0};
-    for (int run = 0; run < 15; ++run) {
-        const auto start = std::chrono::steady_clock::now();
-        for (int round = 0; round < 50; ++round)
-            for (std::size_t i = 0; i < points.size(); ++i)
-                sum += leave(way, points[i], directions[i]);
-        const std::chrono::duration<double, std::nano> time =
-            std::chrono::steady_clock::now() - start;
-        best = std::min(best, time.count() / (50.0 * 1024));
-    }
-    volatile float keep = sum.x; // so that nothing is optimised away
-    (void)keep;
-    return best;
+    return examples::nanoseconds_a_call(
+        50.0 * 1024,
+        [&] {
+            Vec3 sum{0};
+            for (int round = 0; round < 50; ++round)
+                for (std::size_t i = 0; i < points.size(); ++i)
+                    sum += leave(way, points[i], directions[i]);
+            return sum.x;
+        },
+        15);
 }
 
 /// Plot and table: what each way gets wrong, by the size of the scene and in all.

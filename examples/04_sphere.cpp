@@ -5,14 +5,12 @@
 /// costs.
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -21,6 +19,8 @@
 #define GLM_ENABLE_EXPERIMENTAL
 #include <glm/gtx/intersect.hpp>
 
+#include "common/clock.hpp"
+#include "common/numbers.hpp"
 #include "common/plot.hpp"
 #include "ljus/geometry/sphere.hpp"
 #include "ljus/image/image.hpp"
@@ -33,20 +33,7 @@ using ljus::Vec3;
 namespace {
 
 using Point = ljus::Vec3T<double>;
-
-/// Numbers in [0, 1), the same everywhere.
-struct Numbers {
-    std::uint64_t state = 1;
-    double next() {
-        state = state * 6364136223846793005ull + 1442695040888963407ull;
-        return static_cast<double>(state >> 11) / 9007199254740992.0;
-    }
-    Point direction() {
-        const double z = 2 * next() - 1, r = std::sqrt(1 - z * z);
-        const double phi = 2 * std::numbers::pi * next();
-        return {r * std::cos(phi), r * std::sin(phi), z};
-    }
-};
+using examples::Numbers;
 
 /// A ray of float numbers from `distance` radii away towards the disc of `reach` radii
 /// around the centre of the unit sphere.
@@ -197,11 +184,10 @@ double nanoseconds() {
     std::vector<Ray> rays;
     for (int i = 0; i < 4096; ++i) rays.push_back(random_ray(numbers, 8, 3));
 
-    std::vector<double> times;
-    float sum = 0;
     constexpr int rounds = 10;
-    for (int run = 0; run < 21; ++run) {
-        const auto start = std::chrono::steady_clock::now();
+    const auto tests = double(rounds) * double(rays.size() * spheres.size());
+    return examples::nanoseconds_a_call(tests, [&] {
+        float sum = 0;
         for (int round = 0; round < rounds; ++round)
             for (const Ray& ray : rays) {
                 float nearest = 100;
@@ -211,14 +197,8 @@ double nanoseconds() {
                 }
                 sum += nearest;
             }
-        const std::chrono::duration<double, std::nano> time =
-            std::chrono::steady_clock::now() - start;
-        times.push_back(time.count() /
-                        static_cast<double>(rounds * rays.size() * spheres.size()));
-    }
-    volatile float keep = sum; // so that nothing is optimised away
-    (void)keep;
-    return *std::min_element(times.begin(), times.end());
+        return sum;
+    });
 }
 
 /// Table: what each way costs, and what it gets wrong.

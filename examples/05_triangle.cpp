@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -24,6 +23,8 @@
 #define GLM_ENABLE_EXPERIMENTAL
 #include <glm/gtx/intersect.hpp>
 
+#include "common/clock.hpp"
+#include "common/numbers.hpp"
 #include "common/plot.hpp"
 #include "ljus/geometry/watertight.hpp"
 #include "ljus/image/image.hpp"
@@ -36,20 +37,7 @@ using ljus::Vec3;
 namespace {
 
 using Point = ljus::Vec3T<double>;
-
-/// Numbers in [0, 1), the same everywhere.
-struct Numbers {
-    std::uint64_t state = 1;
-    double next() {
-        state = state * 6364136223846793005ull + 1442695040888963407ull;
-        return static_cast<double>(state >> 11) / 9007199254740992.0;
-    }
-    Point direction() {
-        const double z = 2 * next() - 1, r = std::sqrt(1 - z * z);
-        const double phi = 2 * std::numbers::pi * next();
-        return {r * std::cos(phi), r * std::sin(phi), z};
-    }
-};
+using examples::Numbers;
 
 // --- Ways to meet a triangle ----------------------------------------------------------
 
@@ -190,26 +178,22 @@ double nanoseconds() {
         rays.push_back(
             {.origin = Vec3(origin), .direction = Vec3(glm::normalize(aim - origin))});
     }
-    double best = 1e9;
-    float sum = 0;
-    for (int run = 0; run < 15; ++run) {
-        const auto start = std::chrono::steady_clock::now();
-        for (Ray ray : rays) {
-            const auto prepared = prepare<way>(ray);
-            for (const Triangle& triangle : mesh.triangles) {
-                const float t = hit<way>(ray, triangle, prepared);
-                if (t < ray.t_max) ray.t_max = t;
+    const auto tests = static_cast<double>(rays.size() * mesh.triangles.size());
+    return examples::nanoseconds_a_call(
+        tests,
+        [&] {
+            float sum = 0;
+            for (Ray ray : rays) {
+                const auto prepared = prepare<way>(ray);
+                for (const Triangle& triangle : mesh.triangles) {
+                    const float t = hit<way>(ray, triangle, prepared);
+                    if (t < ray.t_max) ray.t_max = t;
+                }
+                if (ray.t_max < 10) sum += ray.t_max;
             }
-            if (ray.t_max < 10) sum += ray.t_max;
-        }
-        const std::chrono::duration<double, std::nano> time =
-            std::chrono::steady_clock::now() - start;
-        best = std::min(best, time.count() / static_cast<double>(
-                                                 rays.size() * mesh.triangles.size()));
-    }
-    volatile float keep = sum; // so that nothing is optimised away
-    (void)keep;
-    return best;
+            return sum;
+        },
+        15);
 }
 
 /// Table: time and leaks. Plot: leaks of random rays, by the size of the mesh.

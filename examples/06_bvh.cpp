@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <ctime>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "common/clock.hpp"
 #include "common/command_line.hpp"
 #include "common/plot.hpp"
 #include "ljus/geometry/shape.hpp"
@@ -141,21 +141,16 @@ struct Cost {
     double checksum = 0; ///< Of all hits: equal for all ways.
 };
 
-/// Seconds of this program's own time: what else runs does not count.
-double seconds() {
-    return double(std::clock()) / CLOCKS_PER_SEC;
-}
-
 template <typename Way>
 Cost cost(const Mesh& mesh, const std::vector<Ray>& rays) {
     Cost result;
-    double start = seconds();
+    double start = examples::processor_seconds();
     const Way way(mesh);
-    result.build = 1e3 * (seconds() - start);
+    result.build = 1e3 * (examples::processor_seconds() - start);
     result.ray = std::numeric_limits<double>::infinity();
     for (int run = 0; run < 5; ++run) {
         result.checksum = 0;
-        start = seconds();
+        start = examples::processor_seconds();
         int rounds = 0;
         do {
             for (const Ray& ray : rays) {
@@ -164,9 +159,10 @@ Cost cost(const Mesh& mesh, const std::vector<Ray>& rays) {
                     result.checksum += double(hit.at.t) + hit.number;
             }
             ++rounds;
-        } while (seconds() - start < 0.02);
-        result.ray = std::min(result.ray,
-                              1e9 * (seconds() - start) / double(rays.size()) / rounds);
+        } while (examples::processor_seconds() - start < 0.02);
+        result.ray =
+            std::min(result.ray, 1e9 * (examples::processor_seconds() - start) /
+                                     double(rays.size()) / rounds);
     }
     result.bytes = double(way.bytes()) / double(mesh.size());
     return result;

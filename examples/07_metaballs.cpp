@@ -6,10 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +16,7 @@
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
+#include "common/numbers.hpp"
 #include "common/plot.hpp"
 #include "common/terminal.hpp"
 
@@ -26,21 +25,7 @@ namespace {
 using Balls = ljus::MetaballsT<double>;
 using Ray = ljus::RayT<double>;
 using Point = ljus::Vec3T<double>;
-
-/// Numbers in [0, 1), the same everywhere.
-struct Numbers {
-    std::uint64_t state = 1;
-    double next() {
-        state = state * 6364136223846793005ull + 1442695040888963407ull;
-        return static_cast<double>(state >> 11) / 9007199254740992.0;
-    }
-    double between(double low, double high) { return low + (high - low) * next(); }
-    Point direction() {
-        const double z = 2 * next() - 1, r = std::sqrt(1 - z * z);
-        const double phi = 2 * std::numbers::pi * next();
-        return {r * std::cos(phi), r * std::sin(phi), z};
-    }
-};
+using examples::Numbers;
 
 // --- Pictures ---------------------------------------------------------------------
 
@@ -201,19 +186,17 @@ std::array<Errors, way_count> all_errors(const std::vector<Case>& cases) {
 /// Nanoseconds a ray, the best of some runs.
 template <Way way>
 double nanoseconds(const std::vector<Case>& cases) {
-    double best = 1e300, sum = 0;
-    for (int run = 0; run < 7; ++run) {
-        const examples::StopWatch watch;
-        for (const Case& c : cases) {
-            const double t = hit<way>(c.ray, c.balls);
-            if (t < 100) sum += t;
-        }
-        best =
-            std::min(best, 1e9 * watch.seconds() / static_cast<double>(cases.size()));
-    }
-    volatile double keep = sum; // so that nothing is optimised away
-    (void)keep;
-    return best;
+    return examples::nanoseconds_a_call(
+        static_cast<double>(cases.size()),
+        [&] {
+            double sum = 0;
+            for (const Case& c : cases) {
+                const double t = hit<way>(c.ray, c.balls);
+                if (t < 100) sum += t;
+            }
+            return sum;
+        },
+        7);
 }
 
 std::array<double, way_count> times(const std::vector<Case>& cases) {

@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -214,18 +212,13 @@ void plot_drift(const std::string& folder, int bounces) {
 /// Nanoseconds a call, the best of 21 runs over vectors that stay in the cache.
 template <typename Reflect>
 double nanoseconds(const std::vector<Vec3>& vectors, Reflect reflect) {
-    double best = std::numeric_limits<double>::infinity();
-    volatile float keep = 0;
-    for (int run = 0; run < 21; ++run) {
-        const examples::StopWatch watch;
+    return examples::nanoseconds_a_call(20.0 * double(vectors.size()), [&] {
         Vec3 sum{0};
         for (int round = 0; round < 20; ++round)
             for (std::size_t i = 1; i < vectors.size(); ++i)
                 sum += reflect(vectors[i - 1], vectors[i]);
-        best = std::min(best, watch.seconds() * 1e9 / (20.0 * double(vectors.size())));
-        keep = keep + sum.x + sum.y + sum.z;
-    }
-    return best;
+        return sum.x + sum.y + sum.z;
+    });
 }
 
 /// Table: what each form costs, and how far it is off after one reflection.

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -281,19 +280,14 @@ void plot_errors(const std::string& folder, int calls) {
 template <typename Refract>
 double nanoseconds(Refract refract) {
     const std::vector<Vec3> into = passing(1 / 1.5, 2048), out = passing(1.5, 2048);
-    double best = std::numeric_limits<double>::infinity();
-    volatile float keep = 0;
-    for (int run = 0; run < 21; ++run) {
-        const examples::StopWatch watch;
+    return examples::nanoseconds_a_call(20.0 * 2048, [&] {
         Vec3 sum{0};
         for (int round = 0; round < 10; ++round) {
             for (const Vec3& d : into) sum += refract(d, 1 / 1.5f).value_or(Vec3{0});
             for (const Vec3& d : out) sum += refract(d, 1.5f).value_or(Vec3{0});
         }
-        best = std::min(best, watch.seconds() * 1e9 / (20.0 * 2048));
-        keep = keep + sum.x + sum.y + sum.z;
-    }
-    return best;
+        return sum.x + sum.y + sum.z;
+    });
 }
 
 /// Table: time and error of each way.

@@ -184,19 +184,14 @@ double nanoseconds(Formula formula) {
     std::vector<float> cosines;
     ljus::RandomStream stream = ljus::random_stream(10, ljus::Pass::camera, 0, 0);
     for (int i = 0; i < 4096; ++i) cosines.push_back(next_1d<float>(stream));
-    double best = std::numeric_limits<double>::infinity();
-    volatile float keep = 0;
-    for (int run = 0; run < 21; ++run) {
-        const examples::StopWatch watch;
+    return examples::nanoseconds_a_call(20.0 * double(cosines.size()), [&] {
         float sum = 0;
         for (int round = 0; round < 20; ++round)
             for (std::size_t i = 0; i < cosines.size(); i += 2)
                 sum += formula(cosines[i], 1.0f, 1.5f) +
                        formula(cosines[i + 1], 1.5f, 1.0f);
-        best = std::min(best, watch.seconds() * 1e9 / (20.0 * double(cosines.size())));
-        keep = keep + sum;
-    }
-    return best;
+        return sum;
+    });
 }
 
 /// Pictures, and the table: what each model costs and what it changes.

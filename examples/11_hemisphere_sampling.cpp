@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -212,19 +211,14 @@ double nanoseconds() {
     std::vector<ljus::Vec2> points;
     ljus::RandomStream stream = ljus::random_stream(11, ljus::Pass::user, 0, 0);
     for (int i = 0; i < 4096; ++i) points.push_back(next_2d<float>(stream));
-    double best = std::numeric_limits<double>::infinity();
-    volatile float keep = 0;
-    for (int run = 0; run < 21; ++run) {
-        const examples::StopWatch watch;
+    return examples::nanoseconds_a_call(double(points.size()), [&] {
         float sum = 0;
         for (const ljus::Vec2& u : points) {
             const ljus::Vec3 d = Way::sample(u);
             sum += d.x + d.y + d.z / Way::pdf(d);
         }
-        best = std::min(best, watch.seconds() * 1e9 / double(points.size()));
-        keep = keep + sum;
-    }
-    return best;
+        return sum;
+    });
 }
 
 /// Pictures under a sky and under a lamp, and the table of their errors.

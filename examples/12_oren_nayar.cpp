@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -169,19 +168,13 @@ double nanoseconds(const Material& material) {
     ljus::RandomStream stream = ljus::random_stream(12, ljus::Pass::user, 0, 0);
     for (int i = 0; i < 4096; ++i)
         directions.push_back(ljus::sample_cosine_hemisphere(next_2d<float>(stream)));
-    double best = std::numeric_limits<double>::infinity();
-    volatile float keep = 0;
-    for (int run = 0; run < 21; ++run) {
-        const examples::StopWatch watch;
+    return examples::nanoseconds_a_call(8.0 * double(directions.size()), [&] {
         float sum = 0;
         for (int round = 0; round < 8; ++round)
             for (std::size_t i = 1; i < directions.size(); ++i)
                 sum += evaluate(material, directions[i - 1], directions[i]).x;
-        best =
-            std::min(best, watch.seconds() * 1e9 / (8.0 * double(directions.size())));
-        keep = keep + sum;
-    }
-    return best;
+        return sum;
+    });
 }
 
 /// The variance of a sample's weight, which a path's throughput is multiplied by.

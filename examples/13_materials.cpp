@@ -184,6 +184,7 @@ Image row_in_furnace(const examples::Options& options, const Row& row) {
         examples::ProgressBar bar(std::string("furnace: ") + name, options.quiet);
         ljus::Picture picture = picture_of(options, bar);
         picture.width = to - from;
+        picture.rays = std::max(1, options.rays / 2); // less noise here than in a room
         const auto result = render(make_path_tracer(alone),
                                    row_camera(ball_at(place).center.x), picture);
         examples::stop_if_asked();
@@ -233,7 +234,7 @@ void figure_4(const examples::Options& options) {
     examples::Table table{.name = "fig-4-furnace",
                           .columns = {"white sky"},
                           .rows = {{"as above"}, {"white"}}};
-    const int rays = options.pick(64, 256, 1024);
+    const int rays = options.pick(36, 256, 1024);
     for_each(colored_row(), [&](int place, const char* name, auto material) {
         table.columns.push_back(name);
         if constexpr (requires { material.texture.map.center; })
@@ -283,14 +284,18 @@ Image ball_picture(int size, int rays, std::uint64_t seed, const Material& mater
 /// Pictures: one gloss after the other.
 void sweep_roughness(const examples::Options& options) {
     const int size = options.pick(150, 300, 500), rays = options.pick(20, 400, 4000);
-    for (const int percent : {0, 15, 30, 50, 70, 100}) {
-        save_png(ball_picture(size, rays, options.seed,
-                              ljus::RoughMetal{.reflectance = ljus::gold<float>,
-                                               .roughness = 0.01f * float(percent)},
-                              options.threads),
-                 options.path("materials-gloss-" + std::to_string(percent) + ".png"));
+    const auto save = [&](const std::string& name, const auto& material) {
+        save_png(ball_picture(size, rays, options.seed, material, options.threads),
+                 options.path(name + ".png"));
         examples::stop_if_asked();
-    }
+    };
+    const auto gold = [](int percent) {
+        return ljus::RoughMetal{.reflectance = ljus::gold<float>,
+                                .roughness = 0.01f * float(percent)};
+    };
+    for (const int percent : {0, 15, 30, 50, 70, 100})
+        save("materials-gloss-" + std::to_string(percent), gold(percent));
+    save("materials-full-100", full_glossy(gold(100)));
 }
 
 /// The mean and the variance of a sample's weight.
@@ -330,7 +335,7 @@ void plot_gloss(const std::string& folder, int count) {
                         .columns = {"roughness", "straight on", "60 degrees",
                                     "80 degrees", "88 degrees"},
                         .y_label = "share of a white sky that white returns",
-                        .more = "set yrange [0:1.05]\nset key left bottom\n"};
+                        .more = "set yrange [0:1.05]\nset key inside left bottom\n"};
     examples::Plot noise{
         .name = "materials-sampling",
         .columns = {"roughness", "visible normals", "cosine-weighted directions"},
@@ -355,7 +360,7 @@ void plot_gloss(const std::string& folder, int count) {
     save_plot(folder, noise);
 }
 
-/// Nanoseconds a call of f(wo, u or wi), the best of 15 runs.
+/// Nanoseconds a call of f(wo, u or wi), the best of some runs.
 template <typename F>
 double nanoseconds(F f) {
     std::vector<Vec3> wo, u;
@@ -364,18 +369,13 @@ double nanoseconds(F f) {
         wo.push_back(ljus::sample_cosine_hemisphere(next_2d<float>(stream)));
         u.push_back(next_3d<float>(stream));
     }
-    double best = std::numeric_limits<double>::infinity();
-    volatile float keep = 0;
-    for (int run = 0; run < 15; ++run) {
-        const examples::StopWatch watch;
+    return examples::nanoseconds_a_call(4.0 * double(wo.size()), [&] {
         float sum = 0;
         for (int round = 0; round < 4; ++round)
             for (std::size_t i = 1; i < wo.size(); ++i)
                 sum += f(wo[i], wo[i - 1], u[i]);
-        best = std::min(best, watch.seconds() * 1e9 / (4.0 * double(wo.size())));
-        keep = keep + sum;
-    }
-    return best;
+        return sum;
+    });
 }
 
 /// Table: nanoseconds and noise of each material.
@@ -427,9 +427,53 @@ void tabulate_trade(const examples::Options& options) {
     add("gloss of a colour, 0.45",
         ljus::Glossy{.reflectance = row.matt.albedo, .roughness = 0.45f});
     add("gloss of copper, 0.45", row.glossy);
+    add("full gloss of copper, 0.45", full_glossy(row.glossy));
     add("the report's sliders", ljus::Mixture{.color = row.matt.albedo,
                                               .reflectivity = 0.2f,
                                               .specularity = 1});
+    examples::save_table(options.path(""), table);
+}
+
+/// Table and picture: gloss that loses light, and gloss that keeps it.
+void compare_full(const examples::Options& options) {
+    examples::Table table{.name = "materials-full",
+                          .columns = {"roughness", "white gloss returns", "full gloss",
+                                      "sample, ns", "full, ns", "error of 10x10 blocks",
+                                      "of it noise"},
+                          .rows = {}};
+    const int size = options.pick(48, 150, 300), rays = options.pick(25, 400, 4000);
+    const auto sampling = [](const auto& material) {
+        return nanoseconds([&](const Vec3& wo, Vec3, const Vec3& u) {
+            const auto s = sample(material, wo, u, ljus::Transport::radiance);
+            return s ? s->wi.x : 0.0f;
+        });
+    };
+    for (const float roughness : {0.3f, 0.45f, 0.7f, 1.0f}) {
+        const ljus::Glossy white{.reflectance = Rgb{1}, .roughness = roughness};
+        const int many = options.pick(16, 64, 1024);
+        const auto share = [&](const auto& material) {
+            return examples::text(double(furnace_albedo(material, many).y), "%.3f");
+        };
+        const ljus::RoughMetal gold{.reflectance = ljus::gold<float>,
+                                    .roughness = roughness};
+        const ljus::FullRoughMetal full = full_glossy(gold);
+        const auto picture = [&](const auto& material, std::uint64_t seed) {
+            Image image = ball_picture(size, rays, seed, material, options.threads);
+            examples::stop_if_asked();
+            return image;
+        };
+        const Image truth = picture(full, options.seed);
+        table.rows.push_back(
+            {examples::text(double(roughness), "%.2f"), share(white),
+             share(full_glossy(white)), examples::text(sampling(gold), "%.0f"),
+             examples::text(sampling(full), "%.0f"),
+             examples::text(ljus::block_error(picture(gold, options.seed + 1), truth),
+                            "%.1e"),
+             examples::text(ljus::block_error(picture(full, options.seed + 2), truth),
+                            "%.1e")});
+        for (const auto& cell : table.rows.back()) std::printf("%-10s", cell.c_str());
+        std::printf("\n");
+    }
     examples::save_table(options.path(""), table);
 }
 
@@ -509,13 +553,14 @@ int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         line.about("Chapter 13, materials: figure 4, and what each material costs.");
         const examples::Options options =
-            line.parse({.draft{.width = 800, .height = 200, .rays = 16},
+            line.parse({.draft{.width = 600, .height = 150, .rays = 49},
                         .report{.width = 1200, .height = 300, .rays = 256},
                         .reference{.width = 1600, .height = 400, .rays = 2048}});
         figure_4(options);
         sweep_roughness(options);
         plot_gloss(options.path(""), options.pick(20000, 200000, 1000000));
         tabulate_trade(options);
+        compare_full(options);
         picture_mistakes(options);
     });
 }

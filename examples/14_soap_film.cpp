@@ -83,17 +83,78 @@ glm::dvec3 lab(const glm::dvec3& rgb, double cosine) {
 /// Nanoseconds of one call, over thicknesses and angles; the best of five.
 template <typename Color>
 double nanoseconds(Color color, int calls) {
-    double best = 1e300;
-    volatile float sink = 0;
-    for (int repeat = 0; repeat < 5; ++repeat) {
-        const examples::StopWatch watch;
-        for (int i = 0; i < calls; ++i) {
-            const float c = 0.3f + 0.7f * float(i % 97) / 97;
-            sink = sink + color(c, 1500 * float(i % 1009) / 1009).y;
-        }
-        best = std::min(best, 1e9 * watch.seconds() / calls);
+    return examples::nanoseconds_a_call(
+        calls,
+        [&] {
+            float sum = 0;
+            for (int i = 0; i < calls; ++i) {
+                const float c = 0.3f + 0.7f * float(i % 97) / 97;
+                sum += color(c, 1500 * float(i % 1009) / 1009).y;
+            }
+            return sum;
+        },
+        5);
+}
+
+/// A bubble before black, among four windows. Both ways are followed at each film, so
+/// that the picture has no noise.
+struct Studio {
+    using Room = ljus::Scene<ljus::Shapes<ljus::Sphere, ljus::Quad>,
+                             ljus::Materials<ljus::Lambertian, ljus::SoapFilm>>;
+    Room scene;
+    ljus::SoapFilm film{
+        .thickness = 900, .scale = 0.75f, .level{0, -1, 0}, .up{0, 1, 0}};
+
+    Studio() {
+        const auto black = scene.add(ljus::Lambertian{.albedo = Rgb{0}});
+        scene.add(ljus::Sphere{}, scene.add(film));
+        const auto window = [&](const Vec3& corner, const Vec3& u, const Vec3& v) {
+            scene.add(ljus::Quad{corner, u, v}, black, Rgb{8});
+        };
+        window({-7, -3, -2}, {0, 8, 0}, {3, 0, 10}); // left
+        window({7, -1, -2}, {-3, 0, 10}, {0, 5, 0}); // right
+        window({-4, 7, -3}, {8, 0, 0}, {0, 0, 8});   // above
+        window({-6, -4, 12}, {0, 9, 0}, {12, 0, 0}); // behind the camera
     }
-    return best;
+
+    /// The light along a ray, with the film's colour by any method.
+    template <typename Color>
+    glm::dvec3 light(const ljus::Ray& ray, Color color, int depth) const {
+        const auto hit = closest_hit(scene, ray);
+        if (!hit) return glm::dvec3(0);
+        const auto at = surface_at(scene, ray, *hit);
+        const Vec3 wo = to_local(at.frame, -ray.direction);
+        if (hit->object.type == 1) return wo.z > 0 ? glm::dvec3(8) : glm::dvec3(0);
+        if (depth == 0) return glm::dvec3(0);
+        const glm::dvec3 r = color(std::min(1.0, std::abs(double(wo.z))),
+                                   double(thickness_at(film, at.point.position)));
+        const Vec3 back = to_world(at.frame, ljus::reflect(wo));
+        return r * light(ray_from(at.point, back), color, depth - 1) +
+               (1.0 - r) * light(ray_from(at.point, ray.direction), color, depth - 1);
+    }
+};
+
+/// The bubble as seen from the front, with side x side rays a pixel.
+template <typename Color>
+Image bubble(int size, int side, Color color) {
+    const Studio studio;
+    const auto camera =
+        ljus::look_at({.position{0, 0, 6}, .target{0, 0, 0}, .vfov_degrees = 22});
+    Image image = ljus::make_image(size, size);
+    ljus::parallel_blocks(size, [&](long long y) {
+        for (int x = 0; x < size; ++x) {
+            glm::dvec3 sum{0};
+            for (int i = 0; i < side * side; ++i)
+                sum += studio.light(
+                    primary_ray(camera,
+                                {(float(x) + (float(i % side) + 0.5f) / float(side)),
+                                 (float(y) + (float(i / side) + 0.5f) / float(side))},
+                                size, size),
+                    color, 5);
+            pixel(image, x, static_cast<int>(y)) = Rgb(sum / double(side * side));
+        }
+    });
+    return image;
 }
 
 /// Table and plot: how far each method is from the spectrum, and what it costs.
@@ -140,14 +201,22 @@ void trade(const examples::Options& options, const ljus::FilmTable& table) {
                     calls)};
     const double slow =
         nanoseconds([](float c, float d) { return ljus::film_spectral(c, n, d); }, 200);
+    // The same for a picture, which has no noise: the bubble.
+    const int size = options.pick(60, 150, 300);
+    const Image right = bubble(size, 1, spectrum);
+    const double pictures[] = {ljus::rel_mse(bubble(size, 1, three), right),
+                               ljus::rel_mse(bubble(size, 1, beforehand), right),
+                               ljus::rel_mse(bubble(size, 1, look), right)};
     examples::Table numbers{
         .name = "soap_film-trade",
-        .columns = {"colours by", "mean ΔE*ab", "largest ΔE*ab", "ns"},
-        .rows = {{"spectrum", "0", "0", examples::text(slow, "%.0f")}}};
+        .columns = {"colours by", "mean ΔE*ab", "largest ΔE*ab", "relMSE of the bubble",
+                    "ns"},
+        .rows = {{"spectrum", "0", "0", "0", examples::text(slow, "%.0f")}}};
     const char* const names[] = {"three wavelengths", "integrated beforehand", "table"};
     for (std::size_t i = 0; i < 3; ++i)
         numbers.rows.push_back({names[i], examples::text(sum[i] / count, "%.1f"),
                                 examples::text(most[i], "%.1f"),
+                                examples::text(pictures[i], "%.1e"),
                                 examples::text(times[i], "%.0f")});
     for (const auto& row : numbers.rows) {
         for (const auto& cell : row) std::printf("%-24s", cell.c_str());
@@ -170,69 +239,6 @@ void plot_reflectance(const std::string& folder) {
         plot.rows.push_back({double(d), at(611.4), at(464.3), at(549.1)});
     }
     save_plot(folder, plot);
-}
-
-/// A bubble before black, among four windows. Both ways are followed at each film, so
-/// that the picture has no noise.
-struct Studio {
-    using Room = ljus::Scene<ljus::Shapes<ljus::Sphere, ljus::Quad>,
-                             ljus::Materials<ljus::Lambertian, ljus::SoapFilm>>;
-    Room scene;
-    ljus::SoapFilm film{
-        .thickness = 900, .scale = 0.75f, .level{0, -1, 0}, .up{0, 1, 0}};
-
-    Studio() {
-        const auto black = scene.add(ljus::Lambertian{.albedo = Rgb{0}});
-        scene.add(ljus::Sphere{}, scene.add(film));
-        const auto window = [&](const Vec3& corner, const Vec3& u, const Vec3& v) {
-            scene.add(ljus::Quad{corner, u, v}, black, Rgb{8});
-        };
-        window({-7, -3, -2}, {0, 8, 0}, {3, 0, 10}); // left
-        window({7, -1, -2}, {-3, 0, 10}, {0, 5, 0}); // right
-        window({-4, 7, -3}, {8, 0, 0}, {0, 0, 8});   // above
-        window({-6, -4, 12}, {0, 9, 0}, {12, 0, 0}); // behind the camera
-    }
-
-    /// The light along a ray, with the film's colour by any method.
-    template <typename Color>
-    glm::dvec3 light(const ljus::Ray& ray, Color color, int depth) const {
-        const auto hit = closest_hit(scene, ray);
-        if (!hit) return glm::dvec3(0);
-        const auto at = surface_at(scene, ray, *hit);
-        const Vec3 wo = to_local(at.frame, -ray.direction);
-        if (hit->object.type == 1) return wo.z > 0 ? glm::dvec3(8) : glm::dvec3(0);
-        if (depth == 0) return glm::dvec3(0);
-        const glm::dvec3 r = color(std::min(1.0, std::abs(double(wo.z))),
-                                   double(thickness_at(film, at.point.position)));
-        const Vec3 back = to_world(at.frame, ljus::reflect(wo));
-        return r * light(ray_from(at.point, back), color, depth - 1) +
-               (1.0 - r) * light(ray_from(at.point, ray.direction), color, depth - 1);
-    }
-};
-
-template <typename Color>
-Image bubble(const examples::Options& options, const std::string& file, Color color,
-             int side) {
-    const Studio studio;
-    const auto camera =
-        ljus::look_at({.position{0, 0, 6}, .target{0, 0, 0}, .vfov_degrees = 22});
-    const int size = options.width;
-    Image image = ljus::make_image(size, size);
-    ljus::parallel_blocks(size, [&](long long y) {
-        for (int x = 0; x < size; ++x) {
-            glm::dvec3 sum{0};
-            for (int i = 0; i < side * side; ++i)
-                sum += studio.light(
-                    primary_ray(camera,
-                                {(float(x) + (float(i % side) + 0.5f) / float(side)),
-                                 (float(y) + (float(i / side) + 0.5f) / float(side))},
-                                size, size),
-                    color, 5);
-            pixel(image, x, static_cast<int>(y)) = Rgb(sum / double(side * side));
-        }
-    });
-    save_png(image, options.path(file + ".png"));
-    return image;
 }
 
 /// Figure 4: glass, rough, mirror, soap bubble, matt, in the report's room.
@@ -300,10 +306,13 @@ int main(int argc, char** argv) {
         strip(options, "soap_film-beforehand", beforehand);
         strip(options, "soap_film-table", look);
         strip(options, "soap_film-not-turned", not_turned);
-        const int side = options.pick(2, 3, 4);
-        bubble(options, "soap_film-bubble", look, side);
-        bubble(options, "soap_film-bubble-three", three, side);
-        bubble(options, "soap_film-bubble-beforehand", beforehand, side);
+        const auto save = [&](const std::string& name, auto color) {
+            save_png(bubble(options.width, options.pick(2, 3, 4), color),
+                     options.path(name + ".png"));
+        };
+        save("soap_film-bubble", look);
+        save("soap_film-bubble-three", three);
+        save("soap_film-bubble-beforehand", beforehand);
         figure_4(options, table);
     });
 }

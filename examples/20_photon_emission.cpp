@@ -622,11 +622,10 @@ void plot_error(const examples::Options& options) {
                     for (std::size_t k = 0; k < radii.size(); ++k) {
                         std::uint64_t gathered = 0;
                         // A white surface sends E/pi.
-                        const Rgb radiance = estimate_radiance(
-                            map, floor, material, Vec3{0, 0, 1},
-                            {.radius = float(radii[k])},
-                            [](PhotonKind kind) { return kind == PhotonKind::direct; },
-                            gathered);
+                        const Rgb radiance =
+                            estimate_radiance(map, floor, material, Vec3{0, 0, 1},
+                                              {.radius = float(radii[k])},
+                                              one_kind(PhotonKind::direct), gathered);
                         const double error =
                             double(radiance.x) * pi / irradiance_from(lamp, x, y) - 1;
                         squares[k] += error * error;

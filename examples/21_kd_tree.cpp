@@ -8,12 +8,12 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <numeric>
 #include <string>
 #include <vector>
 
 #include "../benchmarks/point_structures.hpp"
+#include "common/clock.hpp"
 #include "common/command_line.hpp"
 #include "common/plot.hpp"
 #include "ljus/image/png.hpp"
@@ -141,19 +141,14 @@ void draw_search(const examples::Options& options, const std::vector<Vec3>& poin
 
 // --- Times ----------------------------------------------------------------------------
 
-/// Seconds that this program has worked: other programs on the machine do not count.
-double cpu_seconds() {
-    return double(std::clock()) / double(CLOCKS_PER_SEC);
-}
-
 /// The median time of a call, in nanoseconds, over three rounds of some calls.
 template <typename Call>
 double time_of(int calls, Call&& call) {
     std::array<double, 3> rounds{};
     for (double& round : rounds) {
-        const double start = cpu_seconds();
+        const double start = examples::processor_seconds();
         for (int i = 0; i < calls; ++i) call(i);
-        round = (cpu_seconds() - start) * 1e9 / calls;
+        round = (examples::processor_seconds() - start) * 1e9 / calls;
     }
     std::sort(rounds.begin(), rounds.end());
     return rounds[1];
@@ -192,9 +187,9 @@ double sink = 0; // what searches find goes here, so that none is left out
 template <typename Make>
 examples::Row measure(const std::vector<Vec3>& centers, float radius, int calls,
                       Make make) {
-    const double start = cpu_seconds();
+    const double start = examples::processor_seconds();
     const auto structure = make();
-    const double build = cpu_seconds() - start;
+    const double build = examples::processor_seconds() - start;
     const auto center = [&](int i) { return centers[std::size_t(i) % centers.size()]; };
     const double ball = time_of(calls, [&](int i) {
         structure.visit_within(center(i), radius,

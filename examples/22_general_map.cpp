@@ -191,10 +191,9 @@ double irradiance(const PhotonMap& map, const Point& at, double radius) {
                                 .frame = frame_around(up),
                                 .object = {}};
     std::uint64_t gathered = 0;
-    const Rgb sent = estimate_radiance(
-        map, floor, Lambertian{.albedo = Rgb{1}}, Vec3{0, 0, 1},
-        {.radius = float(radius)},
-        [](PhotonKind kind) { return kind == PhotonKind::direct; }, gathered);
+    const Rgb sent = estimate_radiance(map, floor, Lambertian{.albedo = Rgb{1}},
+                                       Vec3{0, 0, 1}, {.radius = float(radius)},
+                                       one_kind(PhotonKind::direct), gathered);
     return double(sent.x) * pi;
 }
 

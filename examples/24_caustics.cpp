@@ -95,9 +95,8 @@ double read(const PhotonMap& map, const Vec3& at, const Gather& gather) {
     SurfaceT<float> floor{.point{.position = at, .normal{0, 1, 0}}};
     floor.frame = frame_around(floor.point.normal);
     std::uint64_t gathered = 0;
-    const auto all = [](PhotonKind) { return true; };
     return pi * double(estimate_radiance(map, floor, Lambertian{.albedo = Rgb{1}},
-                                         Vec3{0, 0, 1}, gather, all, gathered)
+                                         Vec3{0, 0, 1}, gather, all_kinds, gathered)
                            .x);
 }
 

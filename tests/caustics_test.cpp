@@ -90,9 +90,8 @@ double irradiance(const PhotonMap& map, Vec3 at, const Gather& gather) {
     surface.point.normal = {0, 1, 0};
     surface.frame = frame_around(surface.point.normal);
     std::uint64_t gathered = 0;
-    const Rgb radiance = estimate_radiance(
-        map, surface, white, Vec3{0, 0, 1}, gather, [](PhotonKind) { return true; },
-        gathered);
+    const Rgb radiance = estimate_radiance(map, surface, white, Vec3{0, 0, 1}, gather,
+                                           ljus::all_kinds, gathered);
     return double(radiance.x) * pi / 0.5;
 }
 

@@ -448,8 +448,7 @@ double irradiance(const PhotonMap& map, const Vec3& position, const Vec3& normal
     std::uint64_t gathered = 0;
     const Rgb radiance = estimate_radiance(
         map, surface, Lambertian{.albedo = Rgb{1}}, Vec3{0, 0, side},
-        {.radius = radius, .kernel = kernel}, [&](PhotonKind k) { return k == kind; },
-        gathered);
+        {.radius = radius, .kernel = kernel}, ljus::one_kind(kind), gathered);
     return double(radiance.x) * pi;
 }
 

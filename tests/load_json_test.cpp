@@ -3,6 +3,7 @@
 // Scene files need nlohmann-json, the library does not.
 #if __has_include(<nlohmann/json.hpp>)
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numbers>
@@ -265,6 +266,86 @@ TEST_CASE("load_json: metal, rough matt, gloss and checkers") {
           "0.");
 }
 
+TEST_CASE("load_json: panes, soap and gloss that keeps its light") {
+    const auto film = [&](const std::string& rest) {
+        return with(R"({"type": "soap-film", "ior": 1.33, "thickness_nm": 400)" + rest +
+                    "}");
+    };
+    const LoadedScene soap = read_json_scene(
+        film(R"(, "scale": 2, "level": [1, 2, 3], "up": [0, 5, 0])"), "a.json");
+    const SoapFilm& thin = std::get<std::vector<SoapFilm>>(soap.scene.materials).at(0);
+    CHECK(thin.color == FilmColor::table);
+    CHECK(thickness_at(thin, Vec3{9, 2, 9}) == 400);
+    CHECK(thickness_at(thin, Vec3{9, 4, 9}) == doctest::Approx(400 * std::exp(-1.0)));
+    const LoadedScene pane = read_json_scene(
+        with(R"({"type": "thin-glass", "ior": 1.5, "tint": [1, 0.5, 1]})"), "a.json");
+    CHECK(std::get<std::vector<ThinGlass>>(pane.scene.materials).at(0).tint ==
+          Rgb{1, 0.5f, 1});
+    const LoadedScene gloss = read_json_scene(
+        with(R"({"type": "full-glossy", "reflectance": [1, 1, 1], "roughness": 0.5})"),
+        "a.json");
+    CHECK(std::get<std::vector<FullGlossy>>(gloss.scene.materials).at(0).loss.mean > 0);
+
+    CHECK(refusal(film(R"(, "scale": 2)")) == "a.json: materials.glass.up is missing.");
+    CHECK(refusal(film(R"(, "scale": 2, "level": [0, 0, 0], "up": [0, 0, 0])")) ==
+          "a.json: materials.glass.up is [0,0,0]; it must be a vector that is not 0.");
+    CHECK(refusal(with(R"({"type": "soap-film", "ior": 1.33, "thickness_nm": -1})")) ==
+          "a.json: materials.glass.thickness_nm is -1; it must be within [0, 1e6] nm.");
+    CHECK(refusal(with(R"({"type": "thin-glass", "ior": 0, "tint": [1, 1, 1]})")) ==
+          "a.json: materials.glass.ior is 0; it must be within [0.001, 1000].");
+}
+
+// The good scene with a list of lights.
+static std::string lit(const std::string& lights) {
+    const std::string end = R"("indices": [[0, 1, 2]]}
+ ])";
+    return changed(end, end + ", \"lights\": [" + lights + "]");
+}
+
+TEST_CASE("load_json: points, spots and suns") {
+    const LoadedScene loaded = read_json_scene(
+        lit(R"({"type": "point", "position": [0, 2, 1], "intensity": [1, 2, 3]},
+               {"type": "spot", "position": [0, 2, 1], "direction": [0, -2, 0],
+                "intensity": [1, 1, 1], "inner_deg": 10, "outer_deg": 60},
+               {"type": "sun", "direction": [1, -1, 0], "irradiance": [4, 4, 3]})"),
+        "a.json");
+    const auto& lights = loaded.scene.lights;
+    REQUIRE(lights.size() == 4); // the lamp is the first
+    CHECK(lights[1].kind == LightKind::point);
+    CHECK(lights[1].position == Vec3{0, 2, 1});
+    CHECK(lights[1].emission == Rgb{1, 2, 3});
+    CHECK(lights[2].kind == LightKind::spot);
+    CHECK(lights[2].direction == Vec3{0, -1, 0});
+    CHECK(lights[2].outer == doctest::Approx(0.5));
+    CHECK(lights[3].kind == LightKind::sun);
+    CHECK(lights[3].emission == Rgb{4, 4, 3});
+    CHECK(lights[3].radius > 2);
+
+    CHECK(refusal(lit("1")) == "a.json: lights[0] is 1; it must be an object.");
+    CHECK(refusal(lit(R"({"type": "moon"})")) ==
+          "a.json: lights[0].type is \"moon\"; it must be point, spot or sun.");
+    CHECK(refusal(lit(
+              R"({"type": "sun", "direction": [0, 0, 0], "irradiance": [1, 1, 1]})")) ==
+          "a.json: lights[0].direction is [0,0,0]; it must be a vector that is not 0.");
+    CHECK(
+        refusal(lit(
+            R"({"type": "point", "position": [0, 0, 0], "intensity": [1, -1, 1]})")) ==
+        "a.json: lights[0].intensity[1] is -1; it must be within [0, 1e12].");
+    const std::string spot =
+        R"({"type": "spot", "position": [0, 2, 1], "direction": [0, -2, 0],
+            "intensity": [1, 1, 1], )";
+    CHECK(refusal(lit(spot + R"("inner_deg": 20, "outer_deg": 10})")) ==
+          "a.json: lights[0].inner_deg is 20; it must be within [0, outer_deg].");
+    CHECK(refusal(lit(spot + R"("inner_deg": 0, "outer_deg": 0})"))
+              .find("a.json: lights[0] cannot be used: spot light.outer_degrees") == 0);
+    // They are enough: no object needs to shine.
+    std::string dark = lit(R"({"type": "sun", "direction": [0, -1, 0],
+                              "irradiance": [1, 1, 1]})");
+    const std::string lamp = ", \"emission\": [5, 4, 2.5]";
+    dark.erase(dark.find(lamp), lamp.size());
+    CHECK(refusal(dark) == "accepted");
+}
+
 TEST_CASE("load_json: unknown and missing fields, types and materials are named") {
     CHECK(refusal("\"radius\": 0.75", "\"radios\": 0.75") ==
           "a.json: objects[2].radios is not known; the fields here are type, name, "
@@ -279,12 +360,13 @@ TEST_CASE("load_json: unknown and missing fields, types and materials are named"
           "and vfov_deg.");
     CHECK(refusal("\"format\"", "\"formt\"") ==
           "a.json: formt is not known; the fields here are format, name, description, "
-          "camera, image, materials and objects.");
+          "camera, image, materials, objects and lights.");
     CHECK(refusal("\"camera\"", "\"name\"").find("name is there twice") !=
           std::string::npos);
     CHECK(refusal("\"type\": \"dielectric\"", "\"type\": \"crystal\"") ==
           "a.json: materials.glass.type is \"crystal\"; it must be lambertian, "
-          "oren-nayar, mirror, dielectric, eon, metal, glossy or checker.");
+          "oren-nayar, mirror, dielectric, eon, metal, glossy, full-glossy, checker, "
+          "thin-glass or soap-film.");
     CHECK(refusal("\"type\": \"sphere\"", "\"type\": \"cube\"") ==
           "a.json: objects[2].type is \"cube\"; it must be sphere, triangles or mesh.");
     CHECK(refusal("\"type\": \"sphere\", ", "") ==
@@ -295,9 +377,13 @@ TEST_CASE("load_json: unknown and missing fields, types and materials are named"
     CHECK(refusal("{\"type\": \"dielectric\", \"ior\": 1.5}", "\"glass\"") ==
           "a.json: materials.glass is \"glass\"; it must be an object.");
     CHECK(refusal(", \"emission\": [5, 4, 2.5]", "") ==
-          "a.json: objects has no light; at least one needs an emission above 0.");
+          "a.json: objects has no light; at least one needs an emission above 0, or "
+          "there "
+          "must be lights.");
     CHECK(refusal("[5, 4, 2.5]", "[0, 0, 0]") ==
-          "a.json: objects has no light; at least one needs an emission above 0.");
+          "a.json: objects has no light; at least one needs an emission above 0, or "
+          "there "
+          "must be lights.");
     CHECK(refusal("[]") == "a.json: the file is []; it must be an object.");
     CHECK(refusal("{}") == "a.json: camera is missing.");
 }
@@ -305,11 +391,11 @@ TEST_CASE("load_json: unknown and missing fields, types and materials are named"
 TEST_CASE("load_json: names that are no plain words cannot disturb a message") {
     CHECK(refusal("\"format\"", "\"a\\nb\\u001b[31m\"") ==
           "a.json: [\"a?b?[31m\"] is not known; the fields here are format, name, "
-          "description, camera, image, materials and objects.");
+          "description, camera, image, materials, objects and lights.");
     CHECK(refusal("\"format\"", "\"" + std::string(100'000, 'x') + "\"") ==
           "a.json: [\"" + std::string(48, 'x') +
               "...\"] is not known; the fields here are format, name, description, "
-              "camera, image, materials and objects.");
+              "camera, image, materials, objects and lights.");
 }
 
 TEST_CASE("load_json: broken JSON is refused with line and column") {

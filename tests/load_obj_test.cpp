@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "ljus/geometry/mesh_formulas.hpp"
 #include "ljus/math/random.hpp"
 #include "ljus/scene/load_json.hpp"
 #include "ljus/scene/load_obj.hpp"

@@ -1,4 +1,4 @@
-// long: 36 pictures of each of 12 rooms, some 30 s
+// long: 36 pictures of each of 13 rooms, some 30 s
 /// \file materials_matrix_test.cpp
 /// \brief Photon mapping equals path tracing for every material that the rooms of
 /// photon_mapping_test.cpp do not have.
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "ljus/materials/eon.hpp"
-#include "ljus/materials/glossy.hpp"
+#include "ljus/materials/full_glossy.hpp"
 #include "ljus/materials/metal.hpp"
 #include "ljus/materials/mirror.hpp"
 #include "ljus/materials/rough_matt.hpp"
@@ -127,16 +127,16 @@ void compare(const std::string& name, const M& material, std::uint64_t cell,
     CAPTURE(name);
     CHECK(worst < 5);
     CHECK(std::abs(ljus_test::apart(a, b)) < 4);
-    CHECK(std::hypot(a.error(), b.error()) < 0.005 * b.mean);
+    CHECK(std::hypot(a.error(), b.error()) < 0.006 * b.mean);
     all.worst = std::max(all.worst, worst);
 }
 
 } // namespace
 
-// 12 rooms of 16 blocks. A distance has Student's t with some 30 degrees of freedom:
-// chance puts 1 of 192 blocks beyond 3 standard errors, more than 5 in one run of 2000,
+// 13 rooms of 16 blocks. A distance has Student's t with some 30 degrees of freedom:
+// chance puts 1 of 208 blocks beyond 3 standard errors, more than 5 in one run of 2000,
 // and one beyond 5 in one run of 250. A mean beyond 4 standard errors, which are
-// below 0.5 %, is one run of 200. The seeds are fixed; one block was seen beyond 3.
+// below 0.6 %, is one run of 200. The seeds are fixed; two blocks were seen beyond 3.
 TEST_CASE("materials matrix: photon mapping equals path tracing, for each material") {
     Found all;
     const Rgb ochre{0.8f, 0.6f, 0.3f};
@@ -167,6 +167,9 @@ TEST_CASE("materials matrix: photon mapping equals path tracing, for each materi
             Textured<Glossy, GlobeChecker>{{.reflectance = Rgb{1}, .roughness = 0.6f},
                                            {.map{.center{-0.15f, -0.45f, -0.2f}}}},
             12, all);
+    compare("full gloss of copper",
+            full_glossy(RoughMetal{.reflectance = copper<float>, .roughness = 0.8f}),
+            13, all);
     MESSAGE(all.beyond3, " of ", all.blocks, " blocks beyond 3, worst ", all.worst);
     CHECK(all.beyond3 <= 5);
 }

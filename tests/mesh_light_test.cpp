@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "ljus/geometry/mesh_formulas.hpp"
 #include "ljus/image/metrics.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"

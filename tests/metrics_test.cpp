@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "ljus/image/bias_variance.hpp"
 #include "ljus/image/metrics.hpp"
 
 namespace {

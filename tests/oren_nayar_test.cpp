@@ -155,6 +155,8 @@ TEST_CASE("oren_nayar: a ball lit from the eye is flatter than Lambert's") {
     };
     for (const double degrees : {30.0, 45.0, 60.0, 75.0}) {
         const double lambert = at_degrees<double>(degrees).z;
+        MESSAGE("at ", degrees, " degrees ", radiance(degrees) / radiance(0),
+                " of the middle, Lambert's ", lambert);
         CHECK(radiance(degrees) / radiance(0) > lambert + 0.05);
         CHECK(radiance(degrees) / radiance(0) < 1.01);
     }

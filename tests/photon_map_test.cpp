@@ -31,7 +31,6 @@ constexpr std::array kernels{Kernel::box, Kernel::cone, Kernel::gaussian,
                              Kernel::epanechnikov, Kernel::biweight};
 const Lambertian matt{.albedo{0.8f, 0.4f, 0.2f}};
 constexpr Rgb flux_density{3.0f, 2.0f, 1.0f}; // W per unit of area, on the square
-constexpr auto everything = [](PhotonKind) { return true; };
 
 /// The floor z = 0 at a point.
 template <typename T = float>
@@ -62,7 +61,7 @@ std::vector<Photon> rain(int count, Numbers& numbers, float height = 0,
 Rgb estimate(const PhotonMap& map, const Gather& gather, Vec3 at = Vec3{0}) {
     std::uint64_t gathered = 0;
     return ljus::estimate_radiance(map, floor_at(at), matt, Vec3{0.6f, 0, 0.8f}, gather,
-                                   everything, gathered);
+                                   ljus::all_kinds, gathered);
 }
 
 /// The exact radiance: albedo / pi times the irradiance.
@@ -129,15 +128,12 @@ TEST_CASE("photon_map: eight at a time give what one by one give") {
             const Gather gather{.radius = float(numbers.between(0.01, 1)),
                                 .kernel = kernel,
                                 .thickness = float(numbers.between(0.1, 1.2))};
-            const int kinds = numbers.below(16);
-            const auto wanted = [&](PhotonKind kind) {
-                return (kinds >> static_cast<int>(kind) & 1) != 0;
-            };
+            const ljus::PhotonKinds kinds{static_cast<std::uint8_t>(numbers.below(16))};
             std::uint64_t in_lanes = 0, one_by_one = 0;
-            const Rgb a = ljus::estimate_radiance(map, surface, matt, wo, gather,
-                                                  wanted, in_lanes);
+            const Rgb a = ljus::estimate_radiance(map, surface, matt, wo, gather, kinds,
+                                                  in_lanes);
             const Rgb b = ljus::estimate_radiance(map, surface, Unknown{}, wo, gather,
-                                                  wanted, one_by_one);
+                                                  kinds, one_by_one);
             REQUIRE(in_lanes == one_by_one);
             for (int c = 0; c < 3; ++c)
                 REQUIRE(a[c] == doctest::Approx(b[c]).epsilon(1e-5));
@@ -153,7 +149,7 @@ TEST_CASE("photon_map: one by one, too, find the flux density") {
         std::uint64_t gathered = 0;
         mean.add(double(ljus::estimate_radiance(map, floor_at(Vec3{0}), Unknown{},
                                                 Vec3{0.6f, 0, 0.8f}, {.radius = 0.25f},
-                                                everything, gathered)
+                                                ljus::all_kinds, gathered)
                             .x));
     }
     CHECK(std::abs(mean.sigmas(exact(0))) < 4.5);
@@ -379,7 +375,7 @@ TEST_CASE("photon_map: on a ball as small as the gather radius nothing is lost")
                         double(ljus::estimate_radiance(
                                    map, surface_with(ball * n, n), matt, Vec3{0, 0, 1},
                                    {.radius = 1, .nearest = k, .kernel = kernels[j]},
-                                   everything, gathered)
+                                   ljus::all_kinds, gathered)
                                    .x));
                 }
             }
@@ -452,7 +448,6 @@ TEST_CASE("photon_map: photons of other kinds do not disturb the k nearest") {
         mixed.push_back(shadows[i]);
         if (i < light.size()) mixed.push_back(light[i]);
     }
-    const auto only_light = [](PhotonKind kind) { return kind != PhotonKind::shadow; };
     const auto map = ljus::make_photon_map(mixed);
     const auto alone = ljus::make_photon_map(light);
     for (const Kernel kernel : kernels)
@@ -464,11 +459,11 @@ TEST_CASE("photon_map: photons of other kinds do not disturb the k nearest") {
                 std::uint64_t gathered = 0;
                 const Rgb found =
                     ljus::estimate_radiance(map, floor_at(at), matt, Vec3{0, 0, 1},
-                                            gather, only_light, gathered);
+                                            gather, ljus::light_kinds, gathered);
                 std::uint64_t gathered_alone = 0;
                 const Rgb expected =
                     ljus::estimate_radiance(alone, floor_at(at), matt, Vec3{0, 0, 1},
-                                            gather, everything, gathered_alone);
+                                            gather, ljus::all_kinds, gathered_alone);
                 REQUIRE(gathered == gathered_alone);
                 for (int c = 0; c < 3; ++c)
                     REQUIRE(found[c] == doctest::Approx(expected[c]).epsilon(1e-6));
@@ -488,7 +483,8 @@ TEST_CASE("photon_map: the k-th photon sets the radius and is left out of the su
         std::uint64_t gathered = 0;
         const Rgb found = ljus::estimate_radiance(
             map, floor_at<float>({0, 0, 0}), matt, Vec3{0, 0, 1},
-            {.radius = 1, .nearest = k, .kernel = Kernel::box}, everything, gathered);
+            {.radius = 1, .nearest = k, .kernel = Kernel::box}, ljus::all_kinds,
+            gathered);
         const double radius = double(photons[k - 1].position.x);
         double sum = 0;
         for (std::size_t i = 1; i < k; ++i) sum += double(i);
@@ -534,7 +530,7 @@ TEST_CASE("photon_map: in double") {
     const auto found = ljus::estimate_radiance(
         map, floor_at<double>({1e6, 0, 0}),
         ljus::LambertianT<double>{.albedo = ljus::RgbT<double>{1.0}},
-        ljus::Vec3T<double>{0, 0, 1}, {.radius = 0.5f}, everything, gathered);
+        ljus::Vec3T<double>{0, 0, 1}, {.radius = 0.5f}, ljus::all_kinds, gathered);
     CHECK(found.x * std::numbers::pi == doctest::Approx(1).epsilon(0.15));
     CHECK(gathered > 500);
 }

@@ -233,11 +233,10 @@ TEST_CASE("photon mapping: away from edges the bias falls with the square of the
         const PhotonMap map = make_photon_map(traced.photons);
         std::uint64_t gathered = 0;
         for (std::size_t i = 0; i < 4; ++i)
-            seen[i].add(
-                double(estimate_radiance(
-                           map, surface, white, Vec3{0, 0, 1}, {.radius = radii[i]},
-                           [](PhotonKind) { return true; }, gathered)
-                           .x));
+            seen[i].add(double(estimate_radiance(map, surface, white, Vec3{0, 0, 1},
+                                                 {.radius = radii[i]}, ljus::all_kinds,
+                                                 gathered)
+                                   .x));
     }
     const double exact = smoothed_radiance(0);
     double bias[4];

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "ljus/render/path_tracing.hpp"
@@ -42,6 +43,34 @@ TEST_CASE("render: as many rays are traced as were asked for, from 1 to 1000") {
     }
 }
 
+TEST_CASE("render: the rays of a pixel are spread as the picture says") {
+    // How far the mean of 61 rays is from the middle of its pixel, over 400 pixels.
+    const auto error = [](Sampling sampling) {
+        const auto seen = render(Probe{}, look_at({.vfov_degrees = 90}),
+                                 {.width = 20,
+                                  .height = 20,
+                                  .rays = 61,
+                                  .threads = 1,
+                                  .sampling = sampling});
+        double sum = 0;
+        for (int y = 0; y < 20; ++y)
+            for (int x = 0; x < 20; ++x) {
+                const Rgb mean = pixel(seen.image, x, y);
+                sum += std::hypot(double(mean.x) * 10 - (x - 9.5),
+                                  double(mean.y) * 10 - (9.5 - y));
+            }
+        return sum / 400;
+    };
+    const double chance = error(Sampling::random);
+    CHECK(chance ==
+          doctest::Approx(std::sqrt(std::atan(1) * 2 / 12 / 61)).epsilon(0.1));
+    // Rooks stand evenly along both sides, which is all that this mean asks for.
+    CHECK(error(Sampling::jittered) < 0.05 * chance);
+    CHECK(error(Sampling::multi_jittered) < 0.15 * chance);
+    CHECK(error(Sampling::sobol) < 0.25 * chance);
+    CHECK(error(Picture{}.sampling) == error(Sampling::multi_jittered));
+}
+
 TEST_CASE("render: each pixel is the mean over its own square, from the upper left") {
     const int width = 20, height = 10; // wider than one strip of 16 pixels
     const Camera camera = look_at({.vfov_degrees = 90}); // half a height is 1
@@ -56,8 +85,9 @@ TEST_CASE("render: each pixel is the mean over its own square, from the upper le
                 const double side = 2.0 / height;
                 const double dx = double(mean.x) - (x + 0.5 - width / 2.0) * side;
                 const double dy = double(mean.y) - (height / 2.0 - y - 0.5) * side;
-                // Within the pixel; and the more rays the nearer to its middle: stratified
-                // means of n rays lie within 1/(2 sqrt(n)) of it at the very worst.
+                // Within the pixel; and the more rays the nearer to its middle:
+                // stratified means of n rays lie within 1/(2 sqrt(n)) of it at the
+                // very worst.
                 const double bound =
                     rays == 1 ? 0.5 : 0.5 / std::floor(std::sqrt(rays / 4.0) + 0.5);
                 CHECK(std::abs(dx) <= bound * side + 1e-6);
@@ -65,6 +95,26 @@ TEST_CASE("render: each pixel is the mean over its own square, from the upper le
                 CHECK(mean.z == doctest::Approx(1));
             }
     }
+}
+
+TEST_CASE("render: pictures of one pixel, one row and one column, through any angle") {
+    for (const float angle : {1e-3f, 45.0f, 179.99f})
+        for (const auto& [width, height] : {std::pair{1, 1}, {1, 300}, {300, 1}}) {
+            const Camera camera = look_at({.vfov_degrees = angle});
+            const auto seen =
+                render(Probe{}, camera,
+                       {.width = width, .height = height, .rays = 5, .threads = 1});
+            CHECK(seen.counts.camera_rays ==
+                  5 * static_cast<std::uint64_t>(width) * std::uint64_t(height));
+            CHECK(seen.counts.rejected == 0);
+            // What the borders should be, in units of half the height.
+            const double side = 2.0 / height, h = double(camera.half_height);
+            const double x = double(pixel(seen.image, width - 1, 0).x) / h;
+            const double y = double(pixel(seen.image, 0, height - 1).y) / h;
+            CAPTURE(angle);
+            CHECK(std::abs(x / side - (width / 2.0 - 0.5)) < 0.51);
+            CHECK(std::abs(y / side + (height / 2.0 - 0.5)) < 0.51);
+        }
 }
 
 TEST_CASE("render: a sample that is not finite is left out and counted, never shown") {
@@ -114,14 +164,14 @@ TEST_CASE("render: one pixel's ray is the same alone as in the picture") {
     const Camera camera = room_camera<float>();
     const Picture picture{.width = 24, .height = 9, .rays = 5, .seed = 8, .threads = 1};
     const auto seen = render(tracer, camera, picture);
-    const Strata strata = strata_for(picture.rays);
+    const Pattern pattern = make_pattern(picture.sampling, picture.rays);
     for (const auto& [x, y] : {std::pair{0, 0}, std::pair{17, 4}, std::pair{23, 8}}) {
         RgbT<double> sum{0}; // as the pixel loop adds
         Counts counts;
         PathLog log;
         for (int i = 0; i < picture.rays; ++i)
             sum += RgbT<double>(
-                sample_pixel(tracer, camera, picture, strata, x, y, i, counts, log));
+                sample_pixel(tracer, camera, picture, pattern, x, y, i, counts, log));
         CHECK(Rgb(sum / double(picture.rays)) == pixel(seen.image, x, y));
         CHECK(counts.camera_rays == 5);
         CHECK_FALSE(log.lines.empty());

@@ -12,6 +12,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "ljus/geometry/shape.hpp"
+
 using ljus::Ray;
 using ljus::Sphere;
 using ljus::Vec3;

@@ -41,7 +41,7 @@ TEST_CASE("survey: each pass is on or off for a reason that is printed") {
     CHECK(plan.general_map.why == "no ray asks it");
     CHECK_FALSE(plan.shadow_photons.on);
     CHECK_FALSE(plan.flat_loop.on);
-    CHECK(plan.flat_loop.why == "8 objects, a tree is faster from 2 on");
+    CHECK(plan.flat_loop.why == "8 objects, a tree is faster from 3 on");
     Room one;
     one.add(Sphere{}, one.add(Lambertian{}));
     CHECK(survey(one, settings).flat_loop.on);

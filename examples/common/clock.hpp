@@ -3,8 +3,10 @@
 /// \file examples/common/clock.hpp
 /// \brief How long things take.
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <limits>
 
 namespace examples {
 
@@ -28,6 +30,26 @@ private:
 /// the work costs, also on a machine that has other things to do.
 [[nodiscard]] inline double processor_seconds() {
     return double(std::clock()) / double(CLOCKS_PER_SEC);
+}
+
+/// Nanoseconds of one call, the best of some runs: whatever else a machine does only
+/// adds to them.
+/// \param calls  How many calls one run of `work` makes.
+/// \param work   Called once a run; returns a number that depends on all that it has
+///               computed, so that nothing is optimised away.
+/// \param runs   How many.
+/// \return Nanoseconds on the wall, the loop around the call included.
+template <typename Work>
+[[nodiscard]] double nanoseconds_a_call(double calls, Work&& work, int runs = 21) {
+    double best = std::numeric_limits<double>::infinity();
+    volatile double keep = 0;
+    for (int run = 0; run < runs; ++run) {
+        const StopWatch watch;
+        const auto sum = work();
+        best = std::min(best, watch.seconds() * 1e9 / calls);
+        keep = keep + double(sum);
+    }
+    return best;
 }
 
 } // namespace examples

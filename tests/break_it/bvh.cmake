@@ -35,13 +35,13 @@ ljus_break_it(NAME bvh-later HEADER geometry/bvh.hpp TEST bvh
     CASES "bvh: the same answers*")
 
 # The costs of the lower halves are left out.
-ljus_break_it(NAME bvh-cost HEADER geometry/bvh_build.hpp TEST bvh
-    FROM "lower.sides.half_area() * tests(lower.count) + above[i]"
+ljus_break_it(NAME bvh-cost HEADER geometry/bvh_bins.hpp TEST bvh
+    FROM "lower.sides.half_area() * tests_of(lower.count, at_a_time) + above[i]"
     TO   "above[i]"
     CASES "bvh: the nearer child first*")
 
 # Wide boxes without slack.
-ljus_break_it(NAME wide-bvh-slack HEADER geometry/wide_bvh.hpp TEST wide_bvh
+ljus_break_it(NAME wide-bvh-slack HEADER geometry/wide_ray.hpp TEST wide_bvh
     FROM "8 * std::numeric_limits<float>::epsilon() * reach"
     TO   "0 * reach"
     CASES "wide bvh: no ray slips*,wide bvh: huge and tiny*")
@@ -63,3 +63,15 @@ ljus_break_it(NAME indexed-scene-type HEADER scene/indexed_scene.hpp TEST indexe
     FROM "++type;"
     TO   "type += 0;"
     CASES "indexed scene: in double*")
+
+# The first child of a wide node's two gets all places but one, whatever they cost.
+ljus_break_it(NAME bvh-collapse HEADER geometry/bvh_collapse.hpp TEST wide_bvh
+    FROM "if (low == 1 || sum < best.cost) best = {low, sum};"
+    TO   "best = {low, sum};"
+    CASES "wide bvh: few nodes*")
+
+# A search for any forgets the lanes of a node that it has entered a child of.
+ljus_break_it(NAME wide-bvh-any HEADER geometry/wide_bvh.hpp TEST wide_bvh
+    FROM "waiting += entered != 0 ? 1 : 0;"
+    TO   "waiting += 0;"
+    CASES "wide bvh: the same answers*")

@@ -23,6 +23,6 @@ ljus_break_it(NAME mixture-squared-index HEADER materials/mixture.hpp TEST mixtu
 
 # The probability of the choice forgotten in the density.
 ljus_break_it(NAME mixture-choice HEADER materials/mixture.hpp TEST mixture
-    FROM "return share.diffuse / share.sum() * std::abs(wi.z)"
-    TO   "return std::abs(wi.z)"
+    FROM "return share.diffuse / share.sum() * pdf_cosine_lobe"
+    TO   "return pdf_cosine_lobe"
     CASES "mixture: samples*")

@@ -36,8 +36,8 @@ ljus_break_it(NAME rough_matt-fujii HEADER materials/rough_matt.hpp TEST rough_m
 
 # EON without what it gives back: Fujii's second model, and darker than white.
 ljus_break_it(NAME eon-nothing-back HEADER materials/eon.hpp TEST eon
-    FROM "both * eon_again(surface.albedo, ar * eon_mean_loss<T>);"
-    TO   "T(0) * both * eon_again(surface.albedo, ar * eon_mean_loss<T>);"
+    FROM "both * light_again(surface.albedo, ar * eon_mean_loss<T>);"
+    TO   "T(0) * both * light_again(surface.albedo, ar * eon_mean_loss<T>);"
     CASES "eon: white returns*")
 
 # The cut at the horizon forgotten in the density.

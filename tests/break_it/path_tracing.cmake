@@ -8,8 +8,8 @@ ljus_break_it(NAME path-tracing-light-choice HEADER render/path_tracing.hpp
 # A lamp that is met counts in full, though shadow rays have counted it.
 ljus_break_it(NAME path-tracing-emission-weight HEADER render/path_tracing.hpp
     TEST path_tracing
-    FROM "balance(path.bsdf_pdf, pdf_of_light(tracer, path.from, hit, at))"
-    TO   "T(1)"
+    FROM "return share_of(settings.share, path.bsdf_pdf, other) * all;"
+    TO   "return T(other > T(0) ? 1 : 0) * all;"
     CASES "path tracing: in a furnace every*")
 
 # The last surface's lamp, seen by nobody but its shadow ray, which is weighed down.
@@ -30,3 +30,31 @@ ljus_break_it(NAME path-tracing-medium HEADER render/path_tracing.hpp TEST path_
     FROM "path.throughput *= transmittance(path.medium, met->distance) * met->arrives();"
     TO   ""
     CASES "path tracing: a slab*")
+
+# A lamp that the path meets is taken for the only one.
+ljus_break_it(NAME path-tracing-light-density HEADER render/path_tracing.hpp
+    TEST path_strategies
+    FROM "return pdf * probability_of<T>(tracer.lights, at.surface.object.light);"
+    TO   "return pdf;"
+    CASES "multiple importance: all ways*")
+
+# Shadow rays are believed, and the lamp that a path meets is counted as well.
+ljus_break_it(NAME path-tracing-shadow-rays-alone HEADER render/path_tracing.hpp
+    TEST path_strategies
+    FROM "if (settings.share == LampShare::shadow_rays) return RgbT<T>{T(0)};"
+    TO   "if (settings.share == LampShare::shadow_rays) return all;"
+    CASES "multiple importance: all ways*")
+
+# Squares on one side only.
+ljus_break_it(NAME path-tracing-power HEADER render/path_tracing.hpp
+    TEST path_strategies
+    FROM "(pdf > other ? T(1) : q * q) / (T(1) + q * q)"
+    TO   "(pdf > other ? T(1) : q) / (T(1) + q * q)"
+    CASES "multiple importance: the shares*")
+
+# A survivor is paid for as if the most likely outcome had been certain.
+ljus_break_it(NAME path-tracing-roulette-most HEADER render/shading.hpp
+    TEST path_strategies
+    FROM "throughput /= probability;"
+    TO   "throughput /= std::min(T(1), share / threshold);"
+    CASES "roulette: a hundred seeds*")

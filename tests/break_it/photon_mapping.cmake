@@ -29,10 +29,10 @@ ljus_break_it(NAME photon-mapping-kernel HEADER photons/kernel.hpp TEST photon_m
     CASES "photon mapping: away from edges*")
 
 # The general map's shadow photons are not light.
-ljus_break_it(NAME photon-mapping-shadow HEADER render/photon_mapping.hpp
+ljus_break_it(NAME photon-mapping-shadow HEADER photons/photon.hpp
     TEST photon_mapping
-    FROM "return kind != PhotonKind::shadow;"
-    TO   "return kind != PhotonKind::caustic;"
+    FROM "light_kinds{7}"
+    TO   "light_kinds{13}"
     CASES "photon mapping: the general map*")
 
 # A lamp within coloured glass shines as if the glass were clear.

@@ -6,7 +6,7 @@ ljus_break_it(NAME sampling-radius HEADER math/sampling.hpp TEST sampling
 
 # The border of the disc lies on the horizon.
 ljus_break_it(NAME sampling-horizon HEADER math/sampling.hpp TEST sampling
-    FROM "std::max((T(1) - r) * (T(1) + r), least)"
+    FROM "glm::max((T(1) - r) * (T(1) + r), least)"
     TO   "(T(1) - r) * (T(1) + r)"
     CASES "sampling: at the corners*")
 

@@ -53,7 +53,7 @@ template <std::floating_point T>
 }
 template <std::floating_point T>
 [[nodiscard]] BoxT<T> bounds(const SphereT<T>& sphere) noexcept {
-    const Vec3T<T> size = rounding_bound<T>(3) * (glm::abs(sphere.center)) +
+    const Vec3T<T> size = rounding_bound<T>(3) * (sizes(sphere.center)) +
                           (T(1) + rounding_bound<T>(3)) * Vec3T<T>{sphere.radius} +
                           std::numeric_limits<T>::min();
     return {sphere.center - size, sphere.center + size};
@@ -65,7 +65,7 @@ template <std::floating_point T>
         box = join(box, quad.corner + way);
     const Vec3T<T> size =
         rounding_bound<T>(4) *
-            (glm::abs(quad.corner) + glm::abs(quad.edge_u) + glm::abs(quad.edge_v)) +
+            (sizes(quad.corner) + sizes(quad.edge_u) + sizes(quad.edge_v)) +
         std::numeric_limits<T>::min();
     return {box.low - size, box.high + size};
 }
@@ -97,8 +97,8 @@ template <std::floating_point T>
                                                 const BoxT<T>& all) noexcept {
     using Limits = std::numeric_limits<T>;
     const T reach = max_component(
-        glm::max(glm::abs(all.low - ray.origin), glm::abs(all.high - ray.origin)));
-    const T length = max_component(glm::abs(ray.direction));
+        glm::max(sizes(all.low - ray.origin), sizes(all.high - ray.origin)));
+    const T length = max_component(sizes(ray.direction));
     const bool usable = length * length >= Limits::min() &&
                         length * length <= Limits::max() &&
                         reach * reach <= Limits::max(); // no for NaN

@@ -85,6 +85,11 @@ public:
     [[nodiscard]] BoxT<T> box() const noexcept {
         return tree_.nodes.empty() ? BoxT<T>{} : tree_.nodes[0].box;
     }
+    /// The memory that the tree takes.
+    [[nodiscard]] std::size_t bytes() const noexcept {
+        return tree_.nodes.capacity() * sizeof(BvhNodeT<T>) +
+               tree_.order.capacity() * 4;
+    }
 
     /// Asks the things that a ray may meet, the nearer ones first.
     /// \param ray    The ray.

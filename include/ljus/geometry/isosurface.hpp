@@ -12,6 +12,7 @@
 #include "ljus/geometry/sphere.hpp"
 #include "ljus/geometry/surface.hpp"
 #include "ljus/geometry/triangle.hpp"
+#include "ljus/math/require.hpp"
 
 namespace ljus {
 

@@ -73,7 +73,7 @@ template <std::floating_point T>
     const Vec3T<T> c = v * quad.edge_v;
     return {.position = quad.corner + b + c,
             .error = rounding_bound<T>(5) *
-                     (glm::abs(quad.corner) + glm::abs(b) + glm::abs(c)),
+                     (sizes(quad.corner) + sizes(b) + sizes(c)),
             .normal = normal(quad)};
 }
 

@@ -48,7 +48,7 @@ template <std::floating_point T>
     const Vec3T<T> offset = sphere.radius * n;
     return {.position = sphere.center + offset,
             .error =
-                rounding_bound<T>(5) * (glm::abs(sphere.center) + glm::abs(offset)),
+                rounding_bound<T>(5) * (sizes(sphere.center) + sizes(offset)),
             .normal = n};
 }
 // [surface_point]
@@ -72,7 +72,7 @@ template <std::floating_point T>
                                            const Vec2T<T>& u) noexcept {
     const Vec3T<T> n = sample_uniform_sphere(u);
     return {.position = sphere.center + sphere.radius * n,
-            .error = rounding_bound<T>(5) * (glm::abs(sphere.center) + sphere.radius),
+            .error = rounding_bound<T>(5) * (sizes(sphere.center) + sphere.radius),
             .normal = n};
 }
 
@@ -106,6 +106,11 @@ template <std::floating_point T>
 
 /// Refuses data that no picture can be made of, with a sentence.
 /// \throws std::invalid_argument  with the name and the value.
+template <std::floating_point T>
+void check(const SphereT<T>& sphere) {
+    require_finite("sphere.center", sphere.center);
+    require_positive("sphere.radius", sphere.radius);
+}
 template <std::floating_point T>
 void check(const TriangleT<T>& triangle) {
     require_finite("triangle.v1", triangle.v1);

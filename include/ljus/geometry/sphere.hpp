@@ -10,7 +10,6 @@
 #include <optional>
 
 #include "ljus/geometry/ray.hpp"
-#include "ljus/math/require.hpp"
 #include "ljus/math/vector.hpp"
 
 namespace ljus {
@@ -162,15 +161,6 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] constexpr T area(const SphereT<T>& sphere) noexcept {
     return T(4) * std::numbers::pi_v<T> * sphere.radius * sphere.radius;
-}
-
-/// Refuses a sphere that has no surface; a scene asks this once, when it is made.
-/// \param sphere  The sphere.
-/// \throws std::invalid_argument  naming what is wrong and its value.
-template <std::floating_point T>
-void check(const SphereT<T>& sphere) {
-    require_finite("sphere.center", sphere.center);
-    require_positive("sphere.radius", sphere.radius);
 }
 
 /// \}

@@ -51,10 +51,10 @@ template <std::floating_point T>
 [[nodiscard]] Vec3T<T> leave(const SurfacePointT<T>& point,
                              const Vec3T<T>& direction) noexcept {
     const Vec3T<T>& n = point.normal;
-    const T scale = max_component(glm::abs(point.position) + point.error);
+    const T scale = max_component(sizes(point.position) + point.error);
     const T last_place = glm::max(scale * std::numeric_limits<T>::epsilon(),
                                   std::numeric_limits<T>::min());
-    const T distance = T(2) * glm::dot(glm::abs(n), point.error) + T(4) * last_place;
+    const T distance = T(2) * glm::dot(sizes(n), point.error) + T(4) * last_place;
     return point.position + std::copysign(distance, glm::dot(direction, n)) * n;
 }
 // [leave]
@@ -83,7 +83,7 @@ template <std::floating_point T>
                                   const SurfacePointT<T>& to) noexcept {
     const Vec3T<T> way = to.position - from.position;
     SurfacePointT<T> seen = to;
-    seen.error += rounding_bound<T>(8) * max_component(glm::abs(way));
+    seen.error += rounding_bound<T>(8) * max_component(sizes(way));
     const Vec3T<T> origin = leave(from, way);
     return {.origin = origin, .direction = leave(seen, -way) - origin, .t_max = T(1)};
 }

@@ -3,6 +3,7 @@
 /// \file ljus/geometry/triangle.hpp
 /// \brief The triangle, and where a ray meets it (Moeller and Trumbore).
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -54,10 +55,10 @@ template <std::floating_point C>
                                    const Vec3T<C>& e1, const Vec3T<C>& e2,
                                    C inverse) noexcept {
     const auto size = [](const Vec3T<C>& x) {
-        return glm::abs(x.x) + glm::abs(x.y) + glm::abs(x.z);
+        return std::abs(x.x) + std::abs(x.y) + std::abs(x.z);
     };
     const C largest = size(d) * size(to) * (size(e1) + size(e2));
-    const C border = rounding_bound<C>(16) * largest * glm::abs(inverse);
+    const C border = rounding_bound<C>(16) * largest * std::abs(inverse);
     return border <= C(1) / C(128) ? border : C(0);
 }
 // [border]
@@ -179,7 +180,7 @@ template <std::floating_point T>
     const Vec3T<T> b = u * triangle.v2;
     const Vec3T<T> c = v * triangle.v3;
     return {.position = a + b + c,
-            .error = rounding_bound<T>(7) * (glm::abs(a) + glm::abs(b) + glm::abs(c)),
+            .error = rounding_bound<T>(7) * (sizes(a) + sizes(b) + sizes(c)),
             .normal = normal(triangle)};
 }
 

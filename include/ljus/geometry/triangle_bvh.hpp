@@ -128,6 +128,8 @@ public:
     }
     /// The tree of boxes.
     [[nodiscard]] const WideBvh& tree() const noexcept { return tree_; }
+    /// A box around everything.
+    [[nodiscard]] const Box& box() const noexcept { return tree_.box(); }
     /// The memory that it takes, with what it keeps of the triangles.
     [[nodiscard]] std::size_t bytes() const noexcept {
         return tree_.bytes() + blocks_.capacity() * sizeof(TriangleLanes);
@@ -146,23 +148,33 @@ public:
     /// As BvhT::any(), but a triangle that is certainly hit is not asked.
     template <typename Test, typename Watch = NoWatch>
     [[nodiscard]] bool any(const Ray& ray, Test&& test, Watch&& watch = {}) const {
-        return tree_.walk(ray, look_first<true>(ray, test), watch);
+        return tree_.walk_any(ray, look_first<true>(ray, test), watch);
     }
 
 private:
+    // A leaf of the tree's walks.
     template <bool certain_ends, typename Ask>
-    auto look_first(const Ray& ray, Ask& ask) const {
-        return [this, &ray, &ask](std::uint32_t first, std::uint32_t count,
-                                  const WideRay* ready) {
+    struct LookFirst {
+        const TriangleBvh& of;
+        const Ray& ray;
+        Ask& ask;
+
+        bool operator()(std::uint32_t first, std::uint32_t count,
+                        const WideRay* ready) const {
             if (ready == nullptr || !ready->moderate)
-                return tree_.each_place(ask)(first, count, ready);
-            FirstLook found = first_look<Ask>(blocks_[first / lane_count], *ready, ray);
+                return of.tree_.each_place(ask)(first, count, ready);
+            FirstLook found =
+                first_look<Ask>(of.blocks_[first / lane_count], *ready, ray);
             if (certain_ends && found.certain != 0) return true;
             while (found.maybe != 0)
                 if (ask(first + static_cast<std::uint32_t>(take_lane(found.maybe))))
                     return true;
             return false;
-        };
+        }
+    };
+    template <bool certain_ends, typename Ask>
+    LookFirst<certain_ends, Ask> look_first(const Ray& ray, Ask& ask) const {
+        return {*this, ray, ask};
     }
 
     static void put(TriangleLanes& block, std::size_t lane, const Triangle& triangle) {

@@ -41,7 +41,7 @@ struct ShearT {
 // [prepare]
 template <std::same_as<Watertight> Test, std::floating_point T>
 [[nodiscard]] ShearT<T> prepare(const RayT<T>& ray) noexcept {
-    const Vec3T<T> size = glm::abs(ray.direction);
+    const Vec3T<T> size = sizes(ray.direction);
     const int z = size.x > size.y ? (size.x > size.z ? 0 : 2) : size.y > size.z ? 1 : 2;
     const int x = z == 2 ? 0 : z + 1, y = x == 2 ? 0 : x + 1;
     const T* const d = &ray.direction.x;

@@ -76,6 +76,20 @@ void check(const ImageT<T>& image) {
                                 std::to_string(count) + ".");
 }
 
+/// Refuses to compare two images.
+/// \throws std::invalid_argument  if their sizes differ, or as check() for either.
+template <std::floating_point T, std::floating_point U>
+void require_same_size(const ImageT<T>& image, const ImageT<U>& reference) {
+    check(image);
+    check(reference);
+    if (image.width == reference.width && image.height == reference.height) return;
+    throw std::invalid_argument("The image's size is " + std::to_string(image.width) +
+                                " x " + std::to_string(image.height) +
+                                "; the reference has " +
+                                std::to_string(reference.width) + " x " +
+                                std::to_string(reference.height) + ".");
+}
+
 /// Where pixel (x, y) stands in `pixels`.
 /// \param image  The image.
 /// \param x      Column from the left, in [0, width).

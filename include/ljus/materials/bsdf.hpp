@@ -115,6 +115,35 @@ concept Bsdf = std::floating_point<typename M::Scalar> &&
     check(m);
 };
 
+/// A material without an f in 1/sr: it sends light into single directions, and says so
+/// by `static constexpr bool only_specular = true`. What it need not say then:
+template <typename M>
+concept OnlySpecular = std::floating_point<typename M::Scalar> && M::only_specular;
+
+/// What there is: specular parts.
+template <OnlySpecular M>
+[[nodiscard]] constexpr Lobes lobes(const M&) noexcept {
+    return Lobes::specular;
+}
+
+/// Almost every pair of directions sees nothing.
+/// \return 0.
+template <OnlySpecular M>
+[[nodiscard]] constexpr RgbT<typename M::Scalar>
+evaluate(const M&, const Vec3T<typename M::Scalar>& /*wo*/,
+         const Vec3T<typename M::Scalar>& /*wi*/) noexcept {
+    return RgbT<typename M::Scalar>{0};
+}
+
+/// The density of the parts that have one.
+/// \return 0.
+template <OnlySpecular M>
+[[nodiscard]] constexpr typename M::Scalar
+pdf(const M&, const Vec3T<typename M::Scalar>& /*wo*/,
+    const Vec3T<typename M::Scalar>& /*wi*/, Lobes = Lobes::all) noexcept {
+    return 0;
+}
+
 /// The absorption inside, for every material that says nothing else: none.
 /// \return 0 per scene unit.
 template <typename M>

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ljus/materials/eon_lobe.hpp"
+#include "ljus/materials/light_again.hpp"
 #include "ljus/materials/rough_matt.hpp"
 
 namespace ljus {
@@ -52,15 +53,6 @@ inline constexpr T eon_mean_loss = fon_constant<T> -
                                    (T(2) / T(3) -
                                     T(28) / T(15) * std::numbers::inv_pi_v<T>);
 
-/// What light that is lost once will bring back, over all its further ways.
-/// \param albedo  Of a facet, in [0, 1].
-/// \param loss    1 minus the mean of E, in [0, 1).
-/// \return rho_m in [0, 1]; 1 for white.
-template <std::floating_point T>
-[[nodiscard]] RgbT<T> eon_again(const RgbT<T>& albedo, T loss) noexcept {
-    return albedo * albedo * (T(1) - loss) / (RgbT<T>{T(1)} - albedo * loss);
-}
-
 /// Pi times the BRDF.
 ///
 /// \f[ \pi f = \rho f_F + \rho_m
@@ -87,7 +79,7 @@ template <std::floating_point T>
     };
     const T both = ar * loss(wo) * loss(wi) / eon_mean_loss<T>;
     return surface.albedo * rough_fon(r, wo, wi) +
-           both * eon_again(surface.albedo, ar * eon_mean_loss<T>);
+           both * light_again(surface.albedo, ar * eon_mean_loss<T>);
 }
 // [eon]
 
@@ -102,7 +94,7 @@ template <std::floating_point T>
     const T ar = r / (T(1) + fon_constant<T> * r);
     const T loss = ar * eon_loss(std::hypot(wo.x, wo.y), std::abs(wo.z));
     return surface.albedo * (T(1) - loss) +
-           eon_again(surface.albedo, ar * eon_mean_loss<T>) * loss;
+           light_again(surface.albedo, ar * eon_mean_loss<T>) * loss;
 }
 
 /// What there is: a diffuse part, even if it is black.

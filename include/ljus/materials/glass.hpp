@@ -25,33 +25,12 @@ namespace ljus {
 template <std::floating_point T>
 struct GlassT {
     using Scalar = T;                           ///< The precision of its numbers.
+    static constexpr bool only_specular = true; ///< See OnlySpecular.
     T index = T(1.5);                           ///< Index of refraction inside.
     RgbT<T> absorption{T(0)};                   ///< Inside, per scene unit, >= 0.
     FresnelModel fresnel = FresnelModel::exact; ///< Exact, or Schlick's twin.
 };
 using Glass = GlassT<float>; ///< GlassT in float.
-
-/// What there is: two specular parts.
-template <std::floating_point T>
-[[nodiscard]] constexpr Lobes lobes(const GlassT<T>&) noexcept {
-    return Lobes::specular;
-}
-
-/// Glass has no f in 1/sr.
-/// \return 0.
-template <std::floating_point T>
-[[nodiscard]] constexpr RgbT<T> evaluate(const GlassT<T>&, const Vec3T<T>&,
-                                         const Vec3T<T>&) noexcept {
-    return RgbT<T>{T(0)};
-}
-
-/// The density of the parts that have one.
-/// \return 0.
-template <std::floating_point T>
-[[nodiscard]] constexpr T pdf(const GlassT<T>&, const Vec3T<T>&, const Vec3T<T>&,
-                              Lobes = Lobes::all) noexcept {
-    return T(0);
-}
 
 /// What light meets that comes to the boundary: how much is reflected, and where the
 /// rest goes.

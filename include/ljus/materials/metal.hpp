@@ -19,32 +19,11 @@ namespace ljus {
 /// \report{Section 3.2.4}
 template <std::floating_point T>
 struct MetalT {
-    using Scalar = T;                   ///< The precision of its numbers.
-    ConductorIndexT<T> index = gold<T>; ///< n and k for each channel.
+    using Scalar = T;                           ///< The precision of its numbers.
+    static constexpr bool only_specular = true; ///< See OnlySpecular.
+    ConductorIndexT<T> index = gold<T>;         ///< n and k for each channel.
 };
 using Metal = MetalT<float>; ///< MetalT in float.
-
-/// What there is: one specular part.
-template <std::floating_point T>
-[[nodiscard]] constexpr Lobes lobes(const MetalT<T>&) noexcept {
-    return Lobes::specular;
-}
-
-/// A mirror has no f in 1/sr.
-/// \return 0.
-template <std::floating_point T>
-[[nodiscard]] constexpr RgbT<T> evaluate(const MetalT<T>&, const Vec3T<T>&,
-                                         const Vec3T<T>&) noexcept {
-    return RgbT<T>{T(0)};
-}
-
-/// The density of the parts that have one.
-/// \return 0.
-template <std::floating_point T>
-[[nodiscard]] constexpr T pdf(const MetalT<T>&, const Vec3T<T>&, const Vec3T<T>&,
-                              Lobes = Lobes::all) noexcept {
-    return T(0);
-}
 
 /// The mirror direction, with the reflectance of its angle as weight.
 /// \param metal  The metal.

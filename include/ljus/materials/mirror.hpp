@@ -17,32 +17,11 @@ namespace ljus {
 /// \report{Section 3.2.4}
 template <std::floating_point T>
 struct MirrorT {
-    using Scalar = T;          ///< The precision of its numbers.
+    using Scalar = T;                           ///< The precision of its numbers.
+    static constexpr bool only_specular = true; ///< See OnlySpecular.
     RgbT<T> reflectance{T(1)}; ///< Share of the light that comes back, in [0, 1].
 };
 using Mirror = MirrorT<float>; ///< MirrorT in float.
-
-/// What there is: one specular part.
-template <std::floating_point T>
-[[nodiscard]] constexpr Lobes lobes(const MirrorT<T>&) noexcept {
-    return Lobes::specular;
-}
-
-/// A mirror has no f in 1/sr: almost every pair of directions sees nothing.
-/// \return 0.
-template <std::floating_point T>
-[[nodiscard]] constexpr RgbT<T> evaluate(const MirrorT<T>&, const Vec3T<T>&,
-                                         const Vec3T<T>&) noexcept {
-    return RgbT<T>{T(0)};
-}
-
-/// The density of the parts that have one.
-/// \return 0.
-template <std::floating_point T>
-[[nodiscard]] constexpr T pdf(const MirrorT<T>&, const Vec3T<T>&, const Vec3T<T>&,
-                              Lobes = Lobes::all) noexcept {
-    return T(0);
-}
 
 /// The mirror direction. The weight is the reflectance: delta and cosine cancel.
 /// \param mirror  The mirror.

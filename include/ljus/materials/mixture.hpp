@@ -133,10 +133,9 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] T pdf(const MixtureT<T>& mixture, const Vec3T<T>& wo, const Vec3T<T>& wi,
                     Lobes which = Lobes::all) noexcept {
-    if (!same_side(wo, wi)) return T(0);
     const auto share = mixture_shares(mixture, wo, which);
     if (!(share.diffuse > T(0))) return T(0);
-    return share.diffuse / share.sum() * std::abs(wi.z) * std::numbers::inv_pi_v<T>;
+    return share.diffuse / share.sum() * pdf_cosine_lobe(wo, wi, Lobes::diffuse);
 }
 
 /// One direction: u.z chooses a part with a probability proportional to the light that
@@ -162,13 +161,13 @@ sample(const MixtureT<T>& mixture, const Vec3T<T>& wo, const Vec3T<T>& u,
     const T choice = u.z * sum;
 
     if (choice < share.diffuse) {
-        Vec3T<T> wi = sample_cosine_hemisphere(Vec2T<T>{u.x, u.y});
-        const T density = share.diffuse / sum * pdf_cosine_hemisphere(wi);
-        wi.z = std::copysign(wi.z, wo.z);
-        const T ratio = oren_nayar_ratio(mixture.sigma, wo, wi);
-        const T weight = sum * ratio * (T(1) - boundary_share(mixture, wi));
-        const RgbT<T> tint = mixture.color / max_component(mixture.color);
-        return diffuse_sample(wi, tint * weight, density);
+        auto matt = sample_cosine_lobe(wo, u, Lobes::diffuse, [&](const Vec3T<T>& wi) {
+            const RgbT<T> tint = mixture.color / max_component(mixture.color);
+            const T ratio = oren_nayar_ratio(mixture.sigma, wo, wi);
+            return tint * (sum * ratio * (T(1) - boundary_share(mixture, wi)));
+        });
+        if (matt) matt->pdf *= share.diffuse / sum;
+        return matt;
     }
     if (choice < share.diffuse + share.refract) {
         const T eta = wo.z > T(0) ? T(1) / mixture.index : mixture.index;

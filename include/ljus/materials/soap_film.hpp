@@ -31,7 +31,8 @@ enum class FilmColor : std::uint8_t {
 /// \cite pasquet2022.
 template <std::floating_point T>
 struct SoapFilmT {
-    using Scalar = T;              ///< The precision of its numbers.
+    using Scalar = T;                           ///< The precision of its numbers.
+    static constexpr bool only_specular = true; ///< See OnlySpecular.
     T thickness = T(400);          ///< d_0 in nm, at the height of `level`; <= 1 mm.
     T index = T(1.33);             ///< Of the liquid, at least 1.
     T scale = T(0);                ///< h in scene units; 0: as thick everywhere.
@@ -57,7 +58,7 @@ template <std::floating_point T>
     if (film.scale == T(0)) return film.thickness;
     const T height = glm::dot(position - film.level, film.up);
     const T thickness = film.thickness * std::exp(-height / film.scale);
-    // Written so that 0 times infinity, far below a film of no thickness, is thick.
+    // So that 0 times infinity, far below a film of no thickness, is thick.
     return thickness < thickest_film<T> ? thickness : thickest_film<T>;
 }
 // [thickness_at]
@@ -113,28 +114,6 @@ template <std::floating_point T>
     return RgbT<T>{T(1)} - reflectance(film, wo.z, thickness_at(film, position));
 }
 // [straight]
-
-/// What there is: one specular part.
-template <std::floating_point T>
-[[nodiscard]] constexpr Lobes lobes(const SoapFilmT<T>&) noexcept {
-    return Lobes::specular;
-}
-
-/// A film has no f in 1/sr.
-/// \return 0.
-template <std::floating_point T>
-[[nodiscard]] constexpr RgbT<T> evaluate(const SoapFilmT<T>&, const Vec3T<T>&,
-                                         const Vec3T<T>&) noexcept {
-    return RgbT<T>{T(0)};
-}
-
-/// The density of the parts that have one.
-/// \return 0.
-template <std::floating_point T>
-[[nodiscard]] constexpr T pdf(const SoapFilmT<T>&, const Vec3T<T>&, const Vec3T<T>&,
-                              Lobes = Lobes::all) noexcept {
-    return T(0);
-}
 
 /// The mirror direction, with the film's colour there as weight. What goes straight on
 /// is not sampled; see straight().

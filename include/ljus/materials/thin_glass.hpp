@@ -26,18 +26,13 @@ namespace ljus {
 /// \report{Section 3.2.5}
 template <std::floating_point T>
 struct ThinGlassT {
-    using Scalar = T;   ///< The precision of its numbers.
-    T index = T(1.5);   ///< Index of refraction of the glass.
+    using Scalar = T;                           ///< The precision of its numbers.
+    static constexpr bool only_specular = true; ///< See OnlySpecular.
+    T index = T(1.5);                           ///< Index of refraction of the glass.
     RgbT<T> tint{T(1)}; ///< What is left of light that crosses the glass straight,
                         ///< without its boundaries; in [0, 1].
 };
 using ThinGlass = ThinGlassT<float>; ///< ThinGlassT in float.
-
-/// What there is: one specular part.
-template <std::floating_point T>
-[[nodiscard]] constexpr Lobes lobes(const ThinGlassT<T>&) noexcept {
-    return Lobes::specular;
-}
 
 /// What a pane reflects and lets through.
 template <std::floating_point T>
@@ -79,22 +74,6 @@ template <std::floating_point T>
     return shares;
 }
 // [pane]
-
-/// A pane has no f in 1/sr.
-/// \return 0.
-template <std::floating_point T>
-[[nodiscard]] constexpr RgbT<T> evaluate(const ThinGlassT<T>&, const Vec3T<T>&,
-                                         const Vec3T<T>&) noexcept {
-    return RgbT<T>{T(0)};
-}
-
-/// The density of the parts that have one.
-/// \return 0.
-template <std::floating_point T>
-[[nodiscard]] constexpr T pdf(const ThinGlassT<T>&, const Vec3T<T>&, const Vec3T<T>&,
-                              Lobes = Lobes::all) noexcept {
-    return T(0);
-}
 
 /// What goes straight on through a pane. A material with this function is a thin sheet.
 /// \param pane  The pane.

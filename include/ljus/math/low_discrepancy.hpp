@@ -147,6 +147,14 @@ struct SobolStream {
             .rest = random_stream(seed, pass, iteration, path)};
 }
 
+/// The stream of one path whose numbers are all random: those of random_stream(), for
+/// code that shall be compiled once for both.
+/// \param rest  Where the numbers come from.
+/// \return A stream past its last dimension.
+[[nodiscard]] constexpr SobolStream without_points(const RandomStream& rest) noexcept {
+    return {.dimension = sobol_dimensions, .rest = rest};
+}
+
 /// Moves a stream to the start of a bounce. The dimensions of the point go on: paths
 /// that draw equally much in each bounce meet the same ones.
 /// \param stream  The stream.

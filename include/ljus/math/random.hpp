@@ -19,6 +19,7 @@ enum class Pass : std::uint32_t {
     camera,           ///< Camera paths.
     general_photons,  ///< Photons of the general map.
     caustics_photons, ///< Photons of the caustics map.
+    form_factors,     ///< Rays between the patches of radiosity.
     user = 1000       ///< The first number that is free for the reader's own passes.
 };
 

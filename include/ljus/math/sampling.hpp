@@ -3,7 +3,6 @@
 /// \file ljus/math/sampling.hpp
 /// \brief Points and directions from two uniform numbers, each with its density.
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -65,9 +64,9 @@ template <std::floating_point T>
     // The map keeps the larger of |a| and |b| as the radius of p.
     const T a = std::abs(T(2) * u.x - T(1));
     const T b = std::abs(T(2) * u.y - T(1));
-    const T r = std::max(a, b);
+    const T r = glm::max(a, b);
     constexpr T least = std::numeric_limits<T>::epsilon();
-    return {p.x, p.y, std::sqrt(std::max((T(1) - r) * (T(1) + r), least))};
+    return {p.x, p.y, std::sqrt(glm::max((T(1) - r) * (T(1) + r), least))};
 }
 // [cosine hemisphere]
 

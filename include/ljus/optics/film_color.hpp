@@ -147,8 +147,8 @@ template <std::floating_point T>
                               visible_swing(T(3) * delay)};
     RgbT<T> sum{T(0)};
     for (const T r : one_surface) {
-        const RgbT<T> waves =
-            r * (swings[0] + r * (swings[1] + r * swings[2])); // of what goes through
+        // Of what goes through.
+        const RgbT<T> waves = r * (swings[0] + r * (swings[1] + r * swings[2]));
         sum += (r - (T(1) - r) * waves) / (T(1) + r);
     }
     return sum; // twice the mean of two

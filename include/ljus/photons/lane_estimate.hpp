@@ -25,7 +25,7 @@ struct FluxDiscT {
     T radius = T(1);                      ///< Between 1e-15 and 1e15.
     T thickness = T(0.5);                 ///< Half its height over its radius.
     Kernel kernel = Kernel::epanechnikov; ///< The weight by distance.
-    std::uint32_t kinds = 15;             ///< Which kinds count, a bit each.
+    PhotonKinds kinds = all_kinds;        ///< Which kinds count.
 };
 
 /// kernel_weight() of eight photons.
@@ -73,6 +73,7 @@ flux_in_disc(const WideKdTreeT<T>& tree, const PhotonRecordsT<T>& records,
              const FluxDiscT<T>& disc, std::uint64_t& gathered) {
     const T per_radius2 = T(1) / (disc.radius * disc.radius);
     const T height = disc.thickness * disc.radius;
+    const std::int32_t kinds = disc.kinds.bits;
     const Vec3T<T> c = disc.center, n = disc.normal, d = disc.from;
     RgbT<double> sum{0};
     BlockT<T> part{}; // of some blocks: more terms would cost a float its last digits
@@ -104,7 +105,7 @@ flux_in_disc(const WideKdTreeT<T>& tree, const PhotonRecordsT<T>& records,
             const std::int32_t in = (share < std::numeric_limits<T>::infinity()) &
                                     (h <= height) & (-h <= height) &
                                     !(T(2) * T(127) * along < length2) &
-                                    (disc.kinds >> wanted[i] & 1u);
+                                    (kinds >> wanted[i] & 1);
             x.lane[i] = in != 0 ? share : T(0);
             inside[i] = in;
             count += in;

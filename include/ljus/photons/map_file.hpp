@@ -3,11 +3,9 @@
 /// \file ljus/photons/map_file.hpp
 /// \brief A photon map in a file, and back.
 
-#include <bit>
-#include <limits>
 #include <string>
 
-#include "ljus/image/file.hpp"
+#include "ljus/image/map_bytes.hpp"
 #include "ljus/photons/photon_map.hpp"
 
 namespace ljus {
@@ -42,41 +40,6 @@ namespace detail {
 
 inline constexpr std::string_view map_magic = "ljus photon map\n";
 inline constexpr std::uint32_t map_version = 1;
-inline constexpr std::size_t map_header = 40;
-
-// Appends a number, its lowest byte first.
-template <typename Number>
-void put_number(Bytes& bytes, Number value) {
-    using Bits = std::conditional_t<sizeof(Number) == 8, std::uint64_t, std::uint32_t>;
-    std::uint64_t bits;
-    if constexpr (std::is_floating_point_v<Number>)
-        bits = std::bit_cast<Bits>(value);
-    else
-        bits = static_cast<std::uint64_t>(value);
-    for (std::size_t i = 0; i < sizeof(Number); ++i)
-        bytes.push_back(static_cast<unsigned char>(bits >> (8 * i) & 255u));
-}
-
-// Takes a number from the front of what is left.
-template <typename Number>
-[[nodiscard]] Number take_number(const unsigned char*& at) {
-    using Bits = std::conditional_t<sizeof(Number) == 8, std::uint64_t, std::uint32_t>;
-    std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < sizeof(Number); ++i)
-        bits |= std::uint64_t(*at++) << (8 * i);
-    if constexpr (std::is_floating_point_v<Number>)
-        return std::bit_cast<Number>(static_cast<Bits>(bits));
-    else
-        return static_cast<Number>(bits);
-}
-
-// Of all bytes but the checksum's own, from the version on: FNV-1a, with 64 bits.
-inline std::uint64_t map_checksum(const Bytes& bytes) noexcept {
-    std::uint64_t hash = 0xcbf29ce484222325u;
-    for (std::size_t i = map_magic.size(); i < bytes.size(); ++i)
-        if (i < 32 || i >= map_header) hash = (hash ^ bytes[i]) * 0x100000001b3u;
-    return hash;
-}
 
 } // namespace detail
 
@@ -101,9 +64,7 @@ void save_photon_map(const std::string& path, const PhotonMapT<T>& map) {
         for (int axis = 0; axis < 3; ++axis)
             detail::put_number(bytes, photon.normal[axis]);
     }
-    Bytes sum;
-    detail::put_number(sum, detail::map_checksum(bytes));
-    std::copy(sum.begin(), sum.end(), bytes.begin() + 32);
+    detail::put_checksum(bytes);
     save_file(path, bytes);
 }
 // [save]

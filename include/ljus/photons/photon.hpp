@@ -24,6 +24,24 @@ enum class PhotonKind : std::uint8_t {
     shadow ///< Not light: the first surface in its way hides this one from the light.
 };
 
+/// Some of the kinds, as a bit each.
+struct PhotonKinds {
+    std::uint8_t bits =
+        0; ///< 1 for direct, 2 for caustic, 4 for indirect, 8 for shadow.
+
+    /// Whether a kind is one of them.
+    [[nodiscard]] constexpr bool has(PhotonKind kind) const noexcept {
+        return (bits >> static_cast<int>(kind) & 1) != 0;
+    }
+};
+inline constexpr PhotonKinds all_kinds{15};  ///< Every photon.
+inline constexpr PhotonKinds light_kinds{7}; ///< All but shadow photons.
+
+/// One kind alone.
+[[nodiscard]] constexpr PhotonKinds one_kind(PhotonKind kind) noexcept {
+    return {static_cast<std::uint8_t>(1 << static_cast<int>(kind))};
+}
+
 /// A surface's normal in three bytes, in steps of 1/127: less than half a degree wrong.
 /// Zero, for a photon whose surface nobody told, is every surface's.
 using SmallNormal = glm::vec<3, std::int8_t>;

@@ -103,7 +103,7 @@ template <typename Material>
 /// \param material  What the surface is made of.
 /// \param wo        Unit direction to the observer, in the surface's frame.
 /// \param gather    Radius, k, kernel.
-/// \param wanted    Which kinds count: called with a PhotonKind.
+/// \param kinds     Which kinds count.
 /// \param gathered  Counts the photons that were summed.
 /// \return Radiance, W/(m^2 sr); 0 if the k nearest photons all lie at x itself, a disc
 ///         without an area.
@@ -111,11 +111,11 @@ template <typename Material>
 /// \erratum{The report's R_i is called a radiance; it is the BRDF times the photon's
 ///          flux. There is no cosine: the flux that arrives on the surface holds it.}
 // [estimate]
-template <std::floating_point T, typename Material, typename Wanted>
+template <std::floating_point T, typename Material>
 [[nodiscard]] RgbT<T>
 estimate_radiance(const PhotonMapT<T>& map, const SurfaceT<T>& surface,
                   const Material& material, const Vec3T<T>& wo, const Gather& gather,
-                  Wanted wanted, std::uint64_t& gathered) {
+                  PhotonKinds kinds, std::uint64_t& gathered) {
     if (map.empty()) return RgbT<T>{T(0)};
     const Vec3T<T>& x = surface.point.position;
     double radius2 = double(gather.radius) * double(gather.radius);
@@ -135,19 +135,19 @@ estimate_radiance(const PhotonMapT<T>& map, const SurfaceT<T>& surface,
     };
     const auto counts = [&](std::uint32_t i) {
         const PhotonRecordT<T> photon = map.records[i];
-        return wanted(photon.kind) && !turned_away(photon.normal, surface.point.normal);
+        return kinds.has(photon.kind) &&
+               !turned_away(photon.normal, surface.point.normal);
     };
     if (gather.nearest == 0 && in_lanes<Material>(gather)) {
         // A matt surface sends back the same share of all: their flux is summed.
-        FluxDiscT<T> disc{.center = x,
-                          .normal = surface.point.normal,
-                          .from = std::copysign(T(1), wo.z) * surface.frame.normal,
-                          .radius = T(gather.radius),
-                          .thickness = T(gather.thickness),
-                          .kernel = gather.kernel,
-                          .kinds = 0};
-        for (std::uint32_t kind = 0; kind < 4; ++kind)
-            disc.kinds |= wanted(static_cast<PhotonKind>(kind)) ? 1u << kind : 0u;
+        const FluxDiscT<T> disc{.center = x,
+                                .normal = surface.point.normal,
+                                .from =
+                                    std::copysign(T(1), wo.z) * surface.frame.normal,
+                                .radius = T(gather.radius),
+                                .thickness = T(gather.thickness),
+                                .kernel = gather.kernel,
+                                .kinds = kinds};
         sum = RgbT<double>(evaluate(material, wo, wo)) *
               flux_in_disc(map.tree, map.records, disc, gathered);
     } else if (gather.nearest == 0) {

@@ -31,14 +31,21 @@ template <typename Scene, std::floating_point T>
 void trace_block(const Scene& scene, PhotonLaw law, const LightChoice& choice,
                  const std::vector<ObjectId>& targets, const PhotonPass& pass,
                  const BlockRange& paths, PhotonBlockT<T>& block) {
-    const auto send = [&](auto stream) {
+    const Pass part =
+        law == PhotonLaw::caustics ? Pass::caustics_photons : Pass::general_photons;
+    for (long long i = paths.first; i < paths.last; ++i) {
+        const auto path = static_cast<std::uint64_t>(i);
+        SobolStream stream =
+            pass.numbers == PhotonNumbers::sobol
+                ? sobol_stream(pass.seed, part, pass.iteration, path)
+                : without_points(random_stream(pass.seed, part, pass.iteration, path));
         FlightT<T> flight;
         std::optional<ObjectId> target;
         if (law == PhotonLaw::caustics) {
             const auto aimed = aim(scene, choice, targets, stream);
             if (!aimed) {
                 ++block.unsent;
-                return;
+                continue;
             }
             flight = aimed->flight;
             target = aimed->target;
@@ -47,15 +54,6 @@ void trace_block(const Scene& scene, PhotonLaw law, const LightChoice& choice,
         }
         flight.flux /= static_cast<T>(pass.photons);
         trace(scene, law, flight, target, pass, stream, block.photons, block.audit);
-    };
-    const Pass part =
-        law == PhotonLaw::caustics ? Pass::caustics_photons : Pass::general_photons;
-    for (long long i = paths.first; i < paths.last; ++i) {
-        const auto path = static_cast<std::uint64_t>(i);
-        if (pass.numbers == PhotonNumbers::sobol)
-            send(sobol_stream(pass.seed, part, pass.iteration, path));
-        else
-            send(random_stream(pass.seed, part, pass.iteration, path));
     }
 }
 // [trace_block]

@@ -58,10 +58,10 @@ void go_on(PathT<T>& path, const ShadingT<T>& at, const Material& material,
 /// \return False if the path ends here.
 /// \report{Section 3.2.4}
 // [send on]
-template <std::floating_point T, typename Material, typename Log>
+template <std::floating_point T, typename Material, typename Stream, typename Log>
 [[nodiscard]] bool send_on(PathT<T>& path, const ShadingT<T>& at,
                            const Material& material, Lobes which, bool last,
-                           RandomStream& stream, Log& log) {
+                           Stream& stream, Log& log) {
     const auto scattered = scatter(at.surface, material, at.wo, next_3d<T>(stream),
                                    Transport::radiance, which);
     if (!scattered || (last && scattered->sample.specular)) return false;

@@ -62,14 +62,14 @@ take_apart(const Renderer& renderer, const CameraT<T>& camera, const Picture& pi
             "at least 0 and below the picture's height");
 
     ExplainedPixelT<T> pixel{.rays = picture.rays};
-    const Strata strata = strata_for(picture.rays);
+    const Pattern pattern = make_pattern(picture.sampling, picture.rays);
     std::map<std::pair<std::string, std::string>, PathSum> sums;
     Counts counts;
     RgbT<double> radiance{0};
     for (int i = 0; i < picture.rays; ++i) {
         PathLog log;
         const RgbT<T> sample =
-            sample_pixel(renderer, camera, picture, strata, x, y, i, counts, log);
+            sample_pixel(renderer, camera, picture, pattern, x, y, i, counts, log);
         if (i < keep) pixel.first_rays.push_back(log);
         if (!is_finite(sample)) {
             ++pixel.rejected;

@@ -15,11 +15,21 @@ namespace ljus {
 /// \brief Section 2: the rendering equation (Eq. 1), after Kajiya \cite kajiya1986.
 /// \{
 
+/// Whose a lamp's light is, where a shadow ray and the path itself can both find it.
+enum class LampShare : std::uint8_t {
+    balance,    ///< Each has a share, by its density: balance().
+    power,      ///< Each has a share, by its density's square: power_heuristic().
+    shadow_rays ///< The shadow ray's alone: next-event estimation as it was before.
+};
+
 /// How paths are traced.
 struct PathTracing {
     int max_depth = 1000;      ///< Surfaces on a camera path; 1 is direct light only.
     int roulette_depth = 4;    ///< From this surface on, roulette may end a path.
     bool sample_lights = true; ///< False: paths must find the lights by themselves.
+    LampShare share = LampShare::balance; ///< If they need not: who is believed.
+    double roulette_threshold = 1; ///< A path that carries less is in danger; 0: none.
+    double roulette_most = 1;      ///< Above 0: the largest probability to survive.
 };
 
 /// A scene, ready for path tracing. It refers to the scene, which must outlive it.
@@ -40,6 +50,10 @@ template <typename Scene>
                                                  const PathTracing& settings = {}) {
     require(settings.max_depth >= 1, "max_depth",
             static_cast<long long>(settings.max_depth), "at least 1");
+    require(settings.roulette_threshold >= 0, "roulette_threshold",
+            settings.roulette_threshold, "at least 0");
+    require(settings.roulette_most > 0 && settings.roulette_most <= 1, "roulette_most",
+            settings.roulette_most, "in (0, 1]");
     return {IndexedT<Scene>(scene), settings, light_choice(scene.lights)};
 }
 
@@ -48,11 +62,36 @@ template <typename Scene>
 /// \param pdf    Of the strategy that did.
 /// \param other  Of the one that could have.
 /// \return In [0, 1].
+// [heuristics]
 template <std::floating_point T>
 [[nodiscard]] constexpr T balance(T pdf, T other) noexcept {
     // Not pdf / (pdf + other), which is NaN for two infinities.
     return pdf > other ? T(1) / (T(1) + other / pdf)
                        : pdf / other / (T(1) + pdf / other);
+}
+
+/// The power heuristic: the same by the squares of the densities, so that the surer of
+/// the two is believed even more \cite veach1995.
+/// \param pdf    Of the strategy that did.
+/// \param other  Of the one that could have.
+/// \return In [0, 1].
+template <std::floating_point T>
+[[nodiscard]] constexpr T power_heuristic(T pdf, T other) noexcept {
+    // Squares of quotients, for the squares of densities overflow.
+    const T q = pdf > other ? other / pdf : pdf / other;
+    return (pdf > other ? T(1) : q * q) / (T(1) + q * q);
+}
+// [heuristics]
+
+/// The share of one of two strategies, as the settings have it.
+/// \param share  balance or power.
+/// \param pdf    Of the strategy that made the sample.
+/// \param other  Of the one that could have.
+/// \return In [0, 1].
+template <std::floating_point T>
+[[nodiscard]] constexpr T share_of(LampShare share, T pdf, T other) noexcept {
+    return share == LampShare::power ? power_heuristic(pdf, other)
+                                     : balance(pdf, other);
 }
 
 /// The density with which the tracer's shadow rays from a surface choose a point of a
@@ -83,11 +122,12 @@ template <typename Scene, std::floating_point T>
 template <typename Scene, std::floating_point T>
 [[nodiscard]] RgbT<T> emitted(const PathTracer<Scene>& tracer, const PathT<T>& path,
                               const SceneHitT<T>& hit, const ShadingT<T>& at) {
-    const bool shared = path.bsdf_pdf > T(0) && tracer.settings.sample_lights;
-    const T weight =
-        shared ? balance(path.bsdf_pdf, pdf_of_light(tracer, path.from, hit, at))
-               : T(1);
-    return weight * path.throughput * at.surface.object.emission;
+    const RgbT<T> all = path.throughput * at.surface.object.emission;
+    const PathTracing& settings = tracer.settings;
+    if (!(path.bsdf_pdf > T(0)) || !settings.sample_lights) return all;
+    if (settings.share == LampShare::shadow_rays) return RgbT<T>{T(0)};
+    const T other = pdf_of_light(tracer, path.from, hit, at);
+    return share_of(settings.share, path.bsdf_pdf, other) * all;
 }
 // [emitted]
 
@@ -109,8 +149,11 @@ template <typename Scene, std::floating_point T, typename Material>
                                    Counts& counts) {
     const auto chosen = choose_light(tracer.lights, next_1d<T>(stream));
     const auto weigh = [&](const LightSampleT<T>& light, const Vec3T<T>& wi) {
+        const LampShare share = tracer.settings.share;
+        if (share == LampShare::shadow_rays) return T(1);
         if (light.pdf == T(0)) return T(1); // no path meets a point light
-        return balance(light.pdf * chosen.probability, pdf(material, at.wo, wi));
+        return share_of(share, light.pdf * chosen.probability,
+                        pdf(material, at.wo, wi));
     };
     return path.throughput *
            direct_light(tracer.scene, tracer.scene.lights[chosen.light], at, material,
@@ -166,7 +209,9 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
         if (!visit_material_of(scene, at.surface, at_material)) break;
         if (is_black(path.throughput)) break;
         if (depth >= limits.roulette_depth &&
-            !survives(path.throughput, path.squeeze, next_1d<T>(stream)))
+            !survives(path.throughput, path.squeeze, next_1d<T>(stream),
+                      static_cast<T>(limits.roulette_threshold),
+                      static_cast<T>(limits.roulette_most)))
             break;
         ++counts.bounce_rays;
     }

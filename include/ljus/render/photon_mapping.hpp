@@ -103,26 +103,26 @@ void light_at(const PhotonMapper<Scene>& mapper, const ShadingT<T>& at,
               const Material& material, bool gather, RandomStream& stream,
               Counts& counts, Add& add) {
     const PhotonMapping& settings = mapper.settings;
-    const auto ask = [&](const PhotonMapT<T>& map, const Gather& how, auto wanted) {
+    const auto ask = [&](const PhotonMapT<T>& map, const Gather& how,
+                         PhotonKinds kinds) {
         ++counts.map_queries;
-        return estimate_radiance(map, at.surface, material, at.wo, how, wanted,
+        return estimate_radiance(map, at.surface, material, at.wo, how, kinds,
                                  counts.map_photons);
     };
-    const auto light = [](PhotonKind kind) { return kind != PhotonKind::shadow; };
-    const auto indirect = [](PhotonKind kind) { return kind == PhotonKind::indirect; };
     if (gather)
         add("general map", "DL|D..DL",
-            ask(mapper.maps.general, settings.gather_general, light));
+            ask(mapper.maps.general, settings.gather_general, light_kinds));
     else
         add("shadow ray", "DL",
             light_of_all(mapper.scene, at, material, settings.shadow_rays, stream,
                          counts));
     if (settings.indirect == IndirectLight::photons)
         add("general map", "D..DL",
-            ask(mapper.maps.general, settings.gather_general, indirect));
+            ask(mapper.maps.general, settings.gather_general,
+                one_kind(PhotonKind::indirect)));
     if (!mapper.maps.caustics.empty())
         add("caustics map", "DS+L",
-            ask(mapper.maps.caustics, settings.gather_caustics, light));
+            ask(mapper.maps.caustics, settings.gather_caustics, light_kinds));
 }
 // [light_at]
 

@@ -11,7 +11,7 @@
 #include "ljus/render/counts.hpp"
 #include "ljus/render/path_log.hpp"
 #include "ljus/scene/camera.hpp"
-#include "ljus/scene/stratified.hpp"
+#include "ljus/scene/sampling_pattern.hpp"
 
 namespace ljus {
 
@@ -28,6 +28,7 @@ struct Picture {
     std::uint64_t seed = 1; ///< Of the random streams.
     int threads = 0;        ///< 0: all that there are.
     Progress progress = {}; ///< Called with (done, total); false stops.
+    Sampling sampling = Sampling::multi_jittered; ///< Where in a pixel they go.
 };
 
 /// What a rendering brings.
@@ -38,50 +39,80 @@ struct RenderedT {
     bool complete = true; ///< False if the progress callback stopped it.
 };
 
+/// What a renderer draws its numbers from: a RandomStream, unless it names another as
+/// its `Stream`.
+template <typename Renderer>
+struct StreamOf {
+    using Type = RandomStream; ///< Independent numbers.
+};
+/// Of a renderer that names its stream.
+template <typename Renderer>
+requires requires {
+    typename Renderer::Stream;
+}
+struct StreamOf<Renderer> {
+    using Type = typename Renderer::Stream; ///< What it names.
+};
+
+/// Sets a stream to the numbers of one ray of a pixel.
+/// \param stream   Any stream has such an overload.
+/// \param seed     The user's seed.
+/// \param pixel    The pixel's number within the picture.
+/// \param ray      The ray's number within the pixel.
+/// \param pattern  make_pattern() for the rays of a pixel.
+constexpr void start_ray(RandomStream& stream, std::uint64_t seed, std::uint64_t pixel,
+                         int ray, const Pattern& pattern) noexcept {
+    stream = random_stream(seed, Pass::camera, 0,
+                           pixel * static_cast<std::uint64_t>(pattern.points) +
+                               static_cast<std::uint64_t>(ray));
+}
+
 /// The radiance of one primary ray, as the pixel loop asks for it.
 /// \param renderer  A PathTracer, a PhotonMapper, or anything with a radiance().
-/// \param camera    The camera.
+/// \param camera    A CameraT, or anything with a camera_ray().
 /// \param picture   Size and rays.
-/// \param strata    strata_for() the rays of a pixel.
+/// \param pattern   make_pattern() for the rays of a pixel.
 /// \param x         Column of the pixel.
 /// \param y         Row of the pixel.
 /// \param number    Which of the pixel's rays.
 /// \param counts    Counts the rays.
 /// \param log       Told of each vertex and each term.
 /// \return Radiance, W/(m^2 sr).
-template <typename Renderer, std::floating_point T, typename Log = NoLog>
-[[nodiscard]] RgbT<T> sample_pixel(const Renderer& renderer, const CameraT<T>& camera,
-                                   const Picture& picture, const Strata& strata, int x,
-                                   int y, int number, Counts& counts, Log&& log = {}) {
+template <typename Renderer, template <std::floating_point> typename AnyCamera,
+          std::floating_point T, typename Log = NoLog>
+[[nodiscard]] RgbT<T> sample_pixel(const Renderer& renderer, const AnyCamera<T>& camera,
+                                   const Picture& picture, const Pattern& pattern,
+                                   int x, int y, int number, Counts& counts,
+                                   Log&& log = {}) {
     const auto pixel =
         static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(picture.width) +
         static_cast<std::uint64_t>(x);
-    const auto path = pixel * static_cast<std::uint64_t>(picture.rays) +
-                      static_cast<std::uint64_t>(number);
-    RandomStream stream = random_stream(picture.seed, Pass::camera, 0, path);
+    typename StreamOf<Renderer>::Type stream;
+    start_ray(stream, picture.seed, pixel, number, pattern);
     const Vec2T<T> place =
-        stratified(strata, number, mix(picture.seed) ^ pixel, next_2d<T>(stream));
-    const RayT<T> ray = primary_ray(camera, Vec2T<T>{T(x), T(y)} + place, picture.width,
-                                    picture.height);
+        spread(pattern, number, mix(picture.seed) ^ pixel, next_2d<T>(stream));
+    const RayT<T> ray = camera_ray(camera, Vec2T<T>{T(x), T(y)} + place, picture.width,
+                                   picture.height, stream);
     ++counts.camera_rays;
     return radiance(renderer, ray, stream, counts, log);
 }
 
 /// Renders a picture, row by row, by several threads.
 /// \param renderer  A PathTracer, a PhotonMapper, or anything with a radiance().
-/// \param camera    The camera.
+/// \param camera    A CameraT, or anything with a camera_ray().
 /// \param picture   Size, rays, seed, threads.
 /// \return The picture, the same for any number of threads. A sample that is not finite
 ///         is left out and counted.
 /// \throws std::invalid_argument  if the size or the number of rays is below 1.
 // [render]
-template <typename Renderer, std::floating_point T>
-[[nodiscard]] RenderedT<T> render(const Renderer& renderer, const CameraT<T>& camera,
+template <typename Renderer, template <std::floating_point> typename AnyCamera,
+          std::floating_point T>
+[[nodiscard]] RenderedT<T> render(const Renderer& renderer, const AnyCamera<T>& camera,
                                   const Picture& picture) {
     require(picture.rays >= 1, "rays", static_cast<long long>(picture.rays),
             "at least 1");
     RenderedT<T> result{.image = make_image<T>(picture.width, picture.height)};
-    const Strata strata = strata_for(picture.rays);
+    const Pattern pattern = make_pattern(picture.sampling, picture.rays);
     const int tiles = (picture.width + 15) / 16;
     std::vector<Counts> counts(static_cast<std::size_t>(tiles) *
                                static_cast<std::size_t>(picture.height));
@@ -93,7 +124,7 @@ template <typename Renderer, std::floating_point T>
             RgbT<double> sum{0}; // a float would lose the last of 100 000 samples
             for (int i = 0; i < picture.rays; ++i) {
                 const RgbT<T> sample =
-                    sample_pixel(renderer, camera, picture, strata, x, y, i, cost);
+                    sample_pixel(renderer, camera, picture, pattern, x, y, i, cost);
                 if (is_finite(sample))
                     sum += RgbT<double>(sample);
                 else

@@ -57,18 +57,25 @@ template <typename Material, std::floating_point T>
 
 /// Russian roulette on a camera path: it survives with a probability in proportion to
 /// its throughput, and a survivor is divided by it \cite arvo1990. That radiance is
-/// 2.25 times less outside of glass is no loss, and no reason to die.
+/// 2.25 times less outside of glass is no loss, and no reason to die. For any positive
+/// probability the mean is what it was; the noise is not.
 /// \param throughput  Divided by the probability, if it survives.
 /// \param squeeze  The product of all BsdfSampleT::squeeze in the throughput.
 /// \param u  In [0, 1).
+/// \param threshold  Throughput from which on a path is safe; 0: any.
+/// \param most  The largest probability, in (0, 1].
 /// \return Whether the path goes on.
+// [survives]
 template <std::floating_point T>
-[[nodiscard]] bool survives(RgbT<T>& throughput, T squeeze, T u) noexcept {
-    const T probability = std::min(T(1), max_component(throughput) / squeeze);
+[[nodiscard]] bool survives(RgbT<T>& throughput, T squeeze, T u, T threshold = T(1),
+                            T most = T(1)) noexcept {
+    const T share = max_component(throughput) / squeeze;
+    const T probability = std::min(most, share / threshold);
     if (!(u < probability)) return false;
     throughput /= probability;
     return true;
 }
+// [survives]
 
 /// \}
 

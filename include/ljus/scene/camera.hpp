@@ -92,6 +92,19 @@ template <std::floating_point T>
 }
 // [primary_ray]
 
+/// The primary ray as the pixel loop asks every camera for it: a pinhole leaves nothing
+/// to chance, and draws no number. A lens does.
+/// \param camera  The camera.
+/// \param pixel   From the upper left corner: x in [0, width], y in [0, height].
+/// \param width   Of the picture, in pixels.
+/// \param height  Of the picture, in pixels.
+/// \return primary_ray().
+template <std::floating_point T, typename Stream>
+[[nodiscard]] RayT<T> camera_ray(const CameraT<T>& camera, const Vec2T<T>& pixel,
+                                 int width, int height, Stream&) noexcept {
+    return primary_ray(camera, pixel, width, height);
+}
+
 /// Where a point appears in the picture: primary_ray() the other way round.
 /// \param camera  The camera.
 /// \param point   Any point.

@@ -14,9 +14,9 @@ namespace ljus {
 /// \{
 
 /// So many shapes, at most, are asked in turn; of more, a tree says which ones to ask.
-/// Measured: in the Cornell box and the report's room, cut down to 1, 2, 3, ...
-/// objects, the loop takes 39, 52, 71, ... ns a ray and the wide tree 81, 39, 44, ...
-inline constexpr std::size_t flat_loop_limit = 1;
+/// Measured (benchmarks/rays_room.cpp): in the report's room, cut down to its first 2,
+/// 3, 4, ... objects, the loop takes 34, 47, 56, ... ns a ray and the tree 37, 43, 48.
+inline constexpr std::size_t flat_loop_limit = 2;
 
 /// A box around a shape of any type: its own bounds(), or those of its bounding sphere.
 /// \param shape  The shape.
@@ -143,7 +143,7 @@ template <typename S, typename Compute, std::floating_point T>
     if (scene.ids.empty()) return occluded<Compute>(scene.scene, ray);
     return scene.tree.any(ray, [&](std::uint32_t place) {
         return scene.scene.visit_shape(scene.ids[place], [&](const auto& shape) {
-            return hit_of<Compute>(ray, shape).has_value();
+            return is_met<Compute>(ray, shape);
         });
     });
 }

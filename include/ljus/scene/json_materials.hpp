@@ -11,13 +11,15 @@
 #include <nlohmann/json.hpp>
 
 #include "ljus/materials/eon.hpp"
+#include "ljus/materials/full_glossy.hpp"
 #include "ljus/materials/glass.hpp"
-#include "ljus/materials/glossy.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/metal.hpp"
 #include "ljus/materials/mirror.hpp"
 #include "ljus/materials/oren_nayar.hpp"
+#include "ljus/materials/soap_film.hpp"
 #include "ljus/materials/textured.hpp"
+#include "ljus/materials/thin_glass.hpp"
 #include "ljus/scene/json_field.hpp"
 #include "ljus/scene/scene.hpp"
 
@@ -25,9 +27,6 @@ namespace ljus {
 
 /// \defgroup json_materials Materials in scene files
 /// \brief Optional (nlohmann-json): what a file may say of a material.
-///
-/// Thin sheets are not among them: a scene type that lists one asks at every surface
-/// whether it is one.
 ///
 /// | `type`     | its fields                                                        |
 /// |------------|-------------------------------------------------------------------|
@@ -38,14 +37,18 @@ namespace ljus {
 /// | eon        | albedo, roughness                                                 |
 /// | metal      | metal: gold, copper or silver; smooth                             |
 /// | glossy     | reflectance, roughness                                            |
-/// | checker    | even, odd; origin, edge_u, edge_v: two by two fields                |
+/// | full-glossy | the same; see FullGlossy                                         |
+/// | checker    | even, odd; origin, edge_u, edge_v: two by two fields              |
+/// | thin-glass | ior, tint: a pane                                                 |
+/// | soap-film  | ior, thickness_nm; if it drains scale, level and up: see SoapFilm |
 /// \{
 
 /// Whatever a scene file may name.
 template <std::floating_point T>
 using FileMaterialsT =
     Materials<LambertianT<T>, OrenNayarT<T>, MirrorT<T>, GlassT<T>, EonT<T>, MetalT<T>,
-              GlossyT<T>, Textured<LambertianT<T>, CheckerT<T>>>;
+              GlossyT<T>, FullGlossyT<T>, Textured<LambertianT<T>, CheckerT<T>>,
+              ThinGlassT<T>, SoapFilmT<T>>;
 
 namespace detail {
 
@@ -102,12 +105,34 @@ CheckerT<T> read_checker(const JsonField& field) {
             .odd{share_field(member(field, "odd"))}};
 }
 
+template <std::floating_point T>
+SoapFilmT<T> read_film(const JsonField& field) {
+    require_object(field, {"type", "ior", "thickness_nm", "scale", "level", "up"});
+    SoapFilmT<T> film{.thickness = static_cast<T>(number(member(field, "thickness_nm"),
+                                                         0, double(thickest_film<T>),
+                                                         "within [0, 1e6] nm")),
+                      .index = static_cast<T>(
+                          number(member(field, "ior"), 1, 1e3, "within [1, 1000]"))};
+    if (find(field, "scale") || find(field, "level") || find(field, "up")) {
+        const JsonField scale = member(field, "scale"), up = member(field, "up");
+        film.scale = static_cast<T>(number(scale, 0, max_length, "within [0, 1e9]"));
+        film.level = Vec3T<T>{point_field(member(field, "level"))};
+        const glm::dvec3 way = point_field(up);
+        if (!(glm::dot(way, way) > 0)) refuse_value(up, "a vector that is not 0");
+        film.up = Vec3T<T>{glm::normalize(way)};
+    }
+    film.color = FilmColor::table;
+    film.table = bake_film_table(film.index);
+    return film;
+}
+
 template <typename Scene, std::floating_point T = typename Scene::Scalar>
 MaterialId read_material(const JsonField& field, Scene& scene) {
     if (!field.value.is_object()) refuse_value(field, "an object");
     const JsonField type = member(field, "type");
-    require_one_of(type, {"lambertian", "oren-nayar", "mirror", "dielectric", "eon",
-                          "metal", "glossy", "checker"});
+    require_one_of(type,
+                   {"lambertian", "oren-nayar", "mirror", "dielectric", "eon", "metal",
+                    "glossy", "full-glossy", "checker", "thin-glass", "soap-film"});
     const std::string& name = text(type);
     const auto share = [&](const char* what) {
         return RgbT<T>{share_field(member(field, what))};
@@ -141,14 +166,20 @@ MaterialId read_material(const JsonField& field, Scene& scene) {
         return scene.add(EonT<T>{.albedo = share("albedo"), .roughness = roughness()});
     }
     if (name == "metal") return scene.add(read_metal<T>(field));
-    if (name == "glossy") {
+    if (name == "glossy" || name == "full-glossy") {
         require_object(field, {"type", "reflectance", "roughness"});
         const T rough = roughness();
         if (rough > T(0) && rough < least_roughness<T>)
             refuse_value(member(field, "roughness"), "0 or within [0.01, 1]");
-        return scene.add(
-            GlossyT<T>{.reflectance = share("reflectance"), .roughness = rough});
+        const GlossyT<T> gloss{.reflectance = share("reflectance"), .roughness = rough};
+        if (name == "full-glossy") return scene.add(full_glossy(gloss));
+        return scene.add(gloss);
     }
+    if (name == "thin-glass") {
+        require_object(field, {"type", "ior", "tint"});
+        return scene.add(ThinGlassT<T>{.index = ior(), .tint = share("tint")});
+    }
+    if (name == "soap-film") return scene.add(read_film<T>(field));
     if (name == "checker")
         return scene.add(Textured<LambertianT<T>, CheckerT<T>>{
             {.albedo = RgbT<T>{T(1)}}, read_checker<T>(field)});

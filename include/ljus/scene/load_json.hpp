@@ -12,6 +12,7 @@
 #include "ljus/image/file.hpp"
 #include "ljus/image/image.hpp"
 #include "ljus/scene/camera.hpp"
+#include "ljus/scene/json_lights.hpp"
 #include "ljus/scene/json_materials.hpp"
 #include "ljus/scene/parse_json.hpp"
 #include "ljus/scene/scene.hpp"
@@ -28,7 +29,8 @@ namespace ljus {
 ///      "objects": [{"type": "sphere", "material": "grey", "center": [0, 1, 0],
 ///                   "radius": 1, "emission": [2, 2, 2]}]}
 ///
-/// The materials are those of \ref json_materials.
+/// The materials are those of \ref json_materials. A list `lights` may follow, of
+/// points, spots and suns: \ref json_lights.
 ///
 /// | `type` of an object | its fields, besides material, name and emission         |
 /// |---------------------|---------------------------------------------------------|
@@ -213,7 +215,7 @@ template <std::floating_point T = float, typename LoadMeshes = NoMeshes>
     const nlohmann::json root = parse_json(source, file);
     const JsonField top{root, file, ""};
     require_object(top, {"format", "name", "description", "camera", "image",
-                         "materials", "objects"});
+                         "materials", "objects", "lights"});
     for (const char* field : {"format", "name", "description"})
         if (const auto comment = find(top, field)) (void)text(*comment);
 
@@ -244,8 +246,12 @@ template <std::floating_point T = float, typename LoadMeshes = NoMeshes>
     const JsonField objects = member(top, "objects");
     for (std::size_t i = 0; i < list_size(objects); ++i)
         detail::read_object(entry(objects, i), materials, loaded.scene, load_meshes);
+    if (const auto lights = find(top, "lights"))
+        for (std::size_t i = 0; i < list_size(*lights); ++i)
+            detail::read_light(entry(*lights, i), loaded.scene);
     if (loaded.scene.lights.empty())
-        refuse(objects, "has no light; at least one needs an emission above 0");
+        refuse(objects, "has no light; at least one needs an emission above 0, or "
+                        "there must be lights");
     if (loaded.scene.lights.size() > 65535)
         refuse(objects, std::string("has ")
                             .append(std::to_string(loaded.scene.lights.size()))

@@ -39,6 +39,22 @@ template <typename Compute, std::floating_point T, typename S>
     return as_hit(*hit);
 }
 
+/// Whether a ray meets a shape of any type: by the shape's own meets(), if it has one
+/// that is done sooner than its intersect(), as a mesh has.
+/// \tparam Compute  As for intersect().
+/// \param ray    Hits count in [t_min, t_max].
+/// \param shape  The shape.
+/// \return Whether hit_of() would return a hit.
+// [is_met]
+template <typename Compute, std::floating_point T, typename S>
+[[nodiscard]] bool is_met(const RayT<T>& ray, const S& shape) {
+    if constexpr (requires { meets<Compute>(ray, shape); })
+        return meets<Compute>(ray, shape);
+    else
+        return hit_of<Compute>(ray, shape).has_value();
+}
+// [is_met]
+
 /// The first object that a ray meets, by asking every shape in turn: the exact twin of
 /// the tree in an IndexedScene.
 /// \tparam Compute  The arithmetic, as for intersect().
@@ -74,7 +90,7 @@ template <typename Compute = void, typename Scene, std::floating_point T>
 [[nodiscard]] bool occluded(const Scene& scene, const RayT<T>& ray) {
     const auto any = [&](const auto& shapes) {
         for (const auto& shape : shapes)
-            if (hit_of<Compute>(ray, shape)) return true;
+            if (is_met<Compute>(ray, shape)) return true;
         return false;
     };
     return std::apply([&](const auto&... shapes) { return (any(shapes) || ...); },

@@ -23,7 +23,7 @@ namespace ljus {
 /// | what a path or a photon meets     | meet(): chance decides between T and R      |
 ///
 /// In a scene that lists no such material both are what they were without sheets, and
-/// so is the code.
+/// so is the code; in one that lists some and has none it is a comparison a ray.
 /// \{
 
 /// A material that light goes straight through, as far as it does not reflect it:
@@ -144,7 +144,7 @@ template <typename Scene, std::floating_point T, typename Stream>
         if (!hit) return std::nullopt;
         met.hit = *hit;
         met.distance += hit->at.t;
-        if (!lists_thin_sheets<Scene>) return met;
+        if (!lists_thin_sheets<Scene> || !has_thin_sheets(scene)) return met;
 
         const SurfaceT<T> surface = surface_at(scene, ray, *hit);
         const auto t = straight_on(scene, surface, ray.direction);

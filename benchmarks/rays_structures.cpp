@@ -1,0 +1,150 @@
+/// \file rays_structures.cpp
+/// \brief Grid, octree, k-d tree and the house's two trees over the same triangles: time to
+/// build, time of a ray, memory; and whether all find the same hits.
+
+#include <cstdio>
+
+#include <ljus/geometry/shape.hpp>
+#include <ljus/geometry/triangle_bvh.hpp>
+
+#include "rays_scenes.hpp"
+#include "rays_structures.hpp"
+#include "rays_timing.hpp"
+
+using ljus::NearestHit;
+using ljus::Ray;
+using ljus::Triangle;
+using ljus::Vec3;
+
+namespace {
+
+/// Asks every triangle.
+struct Loop {
+    static constexpr const char* name = "loop";
+    const rays::Mesh& mesh;
+    explicit Loop(const rays::Mesh& of) : mesh(of) {}
+    [[nodiscard]] std::size_t bytes() const { return 0; }
+    NearestHit closest(Ray ray) const {
+        NearestHit nearest;
+        for (std::uint32_t i = 0; i < mesh.size(); ++i)
+            if (const auto hit = ljus::intersect<double>(ray, mesh[i]))
+                nearest.offer(*hit, i, ray);
+        return nearest;
+    }
+};
+
+ljus::Bvh plain_tree(const rays::Mesh& mesh) {
+    std::vector<ljus::Box> boxes;
+    for (const Triangle& triangle : mesh) boxes.push_back(ljus::bounds(triangle));
+    return ljus::Bvh(boxes, {.threads = 1});
+}
+ljus::TriangleBvh wide_tree(const rays::Mesh& mesh) {
+    return {static_cast<std::uint32_t>(mesh.size()),
+            [&](std::uint32_t i) -> const Triangle& { return mesh[i]; }, 1};
+}
+
+/// The trees of the house.
+template <typename Made>
+struct House {
+    const rays::Mesh& mesh;
+    Made tree;
+    [[nodiscard]] std::size_t bytes() const { return tree.bytes(); }
+    NearestHit closest(const Ray& ray) const {
+        NearestHit nearest;
+        tree.closest(ray, [&](std::uint32_t place, Ray& rest) {
+            const std::uint32_t i = tree.order()[place];
+            if (const auto hit = ljus::intersect<double>(rest, mesh[i]))
+                nearest.offer(*hit, i, rest);
+        });
+        return nearest;
+    }
+};
+struct Plain : House<ljus::Bvh> {
+    static constexpr const char* name = "plain tree";
+    explicit Plain(const rays::Mesh& of) : House{of, plain_tree(of)} {}
+};
+struct Wide : House<ljus::TriangleBvh> {
+    static constexpr const char* name = "wide tree";
+    explicit Wide(const rays::Mesh& of) : House{of, wide_tree(of)} {}
+};
+
+bool same(const NearestHit& a, const NearestHit& b) {
+    return a.found == b.found &&
+           (!a.found || (a.number == b.number && a.at.t == b.at.t && a.at.u == b.at.u &&
+                         a.at.v == b.at.v));
+}
+
+/// Builds one, three times; asks it all rays, three times; prints the row.
+template <typename Structure>
+std::vector<NearestHit> row(const rays::Mesh& mesh, std::span<const Ray> set,
+                            const std::vector<NearestHit>* expected) {
+    double build = HUGE_VAL, ray_time = HUGE_VAL;
+    for (int run = 0; run < 3; ++run) {
+        const double start = rays::seconds();
+        const Structure made(mesh);
+        build = std::min(build, rays::seconds() - start);
+    }
+    const Structure structure(mesh);
+    std::vector<NearestHit> hits(set.size());
+    for (int run = 0; run < 3; ++run) {
+        const double start = rays::seconds();
+        for (std::size_t i = 0; i < set.size(); ++i)
+            hits[i] = structure.closest(set[i]);
+        ray_time = std::min(ray_time, (rays::seconds() - start) / double(set.size()));
+    }
+    std::size_t other = 0;
+    if (expected != nullptr)
+        for (std::size_t i = 0; i < set.size(); ++i)
+            other += !same(hits[i], (*expected)[i]);
+    std::printf("  %-11s %9.2f %10.0f %8.0f   %zu of %zu differ\n", Structure::name,
+                1e3 * build, 1e9 * ray_time,
+                double(structure.bytes()) / double(mesh.size()), other, set.size());
+    return hits;
+}
+
+void compare_on(const char* name, const rays::Mesh& mesh, Vec3 eye, bool all_rays) {
+    const Plain tree(mesh);
+    const auto first_hit = [&](const Ray& ray) -> std::optional<ljus::SurfacePoint> {
+        const NearestHit found = tree.closest(ray);
+        if (!found.found) return std::nullopt;
+        return ljus::surface_point(mesh[found.number], ray, found.at);
+    };
+    auto sets = rays::ray_sets(first_hit, eye, Vec3{0}, {0, 1, 0}, {-0.5f, 2.5f, -0.5f},
+                               {1, 0, 0}, {0, 0, 1}, all_rays ? 1000 : 300);
+    // Rays of all kinds, in turn.
+    std::vector<Ray> set;
+    for (std::size_t i = 0; i < sets.diffuse.size(); ++i) {
+        set.push_back(sets.diffuse[i]);
+        if (i < sets.primary.size()) set.push_back(sets.primary[i]);
+    }
+    std::printf("%s, %zu triangles, %zu rays\n  %-11s %9s %10s %8s\n", name,
+                mesh.size(), set.size(), "", "build, ms", "ns a ray", "bytes");
+    // The loop is asked as many rays as it answers in a few seconds.
+    const std::size_t some =
+        std::min(set.size(), all_rays ? set.size() : 100000000 / mesh.size());
+    const std::span<const Ray> few(set.data(), some);
+    const auto expected = row<Loop>(mesh, few, nullptr);
+    std::vector<NearestHit> of_all = row<rays::Grid>(mesh, set, nullptr);
+    std::size_t other = 0;
+    for (std::size_t i = 0; i < some; ++i) other += !same(of_all[i], expected[i]);
+    std::printf("  (the grid, against the loop: %zu of %zu differ)\n", other, some);
+    row<rays::Octree>(mesh, set, &of_all);
+    row<rays::KdTree>(mesh, set, &of_all);
+    row<Plain>(mesh, set, &of_all);
+    row<Wide>(mesh, set, &of_all);
+}
+
+} // namespace
+
+/// Prints a table for each mesh. With an argument: a million rays on a small mesh, all of
+/// them compared with the loop.
+int main(int argc, char**) {
+    if (argc > 1) {
+        compare_on("hills", rays::hills(400), {1.6f, 1.2f, 1.9f}, true);
+        return 0;
+    }
+    for (const int count : {100, 1000, 10000, 100000}) {
+        compare_on("balls", rays::balls(std::max(count, 192)), {0, 0.6f, 2.6f}, false);
+        compare_on("hills", rays::hills(count), {1.6f, 1.2f, 1.9f}, false);
+    }
+}

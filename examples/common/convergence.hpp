@@ -1,0 +1,107 @@
+#pragma once
+
+/// \file examples/common/convergence.hpp
+/// \brief Error against time: slopes, when an error is reached, and of which kind it is.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "ljus/image/bias_variance.hpp"
+
+namespace examples {
+
+/// A power law y = c x^slope, fitted to points.
+struct PowerLaw {
+    double slope = 0; ///< The exponent.
+    double error = 0; ///< Its standard error, from how far the points lie off the line.
+};
+
+/// Fits a straight line to the logarithms of x and y, by least squares.
+/// \param x  Above 0, not all alike.
+/// \param y  As many, above 0; others are left out.
+/// \return The slope; NaN for less than 2 points, and its error for less than 3.
+[[nodiscard]] inline PowerLaw fit_power(const std::vector<double>& x,
+                                        const std::vector<double>& y) {
+    std::vector<double> u, v;
+    for (std::size_t i = 0; i < x.size(); ++i)
+        if (x[i] > 0 && y[i] > 0) {
+            u.push_back(std::log(x[i]));
+            v.push_back(std::log(y[i]));
+        }
+    const auto n = double(u.size());
+    double mu = 0, mv = 0, uu = 0, uv = 0, vv = 0;
+    for (std::size_t i = 0; i < u.size(); ++i) {
+        mu += u[i] / n;
+        mv += v[i] / n;
+    }
+    for (std::size_t i = 0; i < u.size(); ++i) {
+        uu += (u[i] - mu) * (u[i] - mu);
+        uv += (u[i] - mu) * (v[i] - mv);
+        vv += (v[i] - mv) * (v[i] - mv);
+    }
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    const double slope = n >= 2 ? uv / uu : nan;
+    const double off = std::max(vv - slope * uv, 0.0); // squared, along v
+    return {slope, n >= 3 ? std::sqrt(off / (n - 2) / uu) : nan};
+}
+
+/// Where a curve first falls to a value, by straight lines between the points of a plot
+/// with two logarithmic axes.
+/// \param x       Rising, above 0.
+/// \param y       As many, above 0.
+/// \param target  The value.
+/// \return x; the first one if y is not above the target from the start, and NaN if it
+///         never comes down to it. Nothing is extrapolated.
+[[nodiscard]] inline double reach(const std::vector<double>& x,
+                                  const std::vector<double>& y, double target) {
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        if (!(y[i] <= target)) continue;
+        if (i == 0) return x[0];
+        const double t = std::log(y[i - 1] / target) / std::log(y[i - 1] / y[i]);
+        return x[i - 1] * std::pow(x[i] / x[i - 1], t);
+    }
+    return std::numeric_limits<double>::quiet_NaN();
+}
+
+/// A picture over sqrt(r^2 + epsilon), so that squares of differences are relative, as
+/// in rel_mse().
+/// \param image      The picture.
+/// \param reference  The truth r, of the same size.
+/// \return In double.
+template <typename T, typename U>
+[[nodiscard]] ljus::ImageT<double> weighed(const ljus::ImageT<T>& image,
+                                           const ljus::ImageT<U>& reference) {
+    ljus::ImageT<double> result{image.width, image.height, {}};
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const ljus::RgbT<double> r(reference.pixels[i]);
+        result.pixels.push_back(ljus::RgbT<double>(image.pixels[i]) /
+                                glm::sqrt(r * r + ljus::default_epsilon));
+    }
+    return result;
+}
+
+/// The two parts of the relMSE of a run, from several seeds: what stays, and noise.
+///
+/// Their sum is the mean of rel_mse() over the runs, but for the noise of the reference,
+/// which is taken off.
+/// \param runs       At least 2, of independent seeds.
+/// \param reference  The truth.
+/// \param its_noise  The reference's own variance, as the part of relMSE it makes.
+/// \param block      Side of the blocks whose means are compared; 1: pixels.
+[[nodiscard]] inline ljus::BiasVariance
+relative_split(const std::vector<ljus::Image>& runs,
+               const ljus::ImageT<double>& reference, double its_noise = 0,
+               int block = 1) {
+    const auto truth = block_means(reference, block);
+    std::vector<ljus::ImageT<double>> all;
+    for (const ljus::Image& run : runs)
+        all.push_back(weighed(block_means(run, block), truth));
+    auto split = bias_variance(all, weighed(truth, truth));
+    split.bias_squared -= its_noise;
+    return split;
+}
+
+} // namespace examples

@@ -1,0 +1,119 @@
+#pragma once
+
+/// \file ljus/image/hdr_flip.hpp
+/// \brief FLIP for radiance: the largest difference at any sensible exposure.
+
+#include <algorithm>
+#include <limits>
+
+#include "ljus/image/color.hpp"
+#include "ljus/image/flip.hpp"
+
+namespace ljus {
+
+/// \addtogroup flip
+/// \{
+
+/// The first and the last exposure of HDR-FLIP, and how many there are.
+struct Exposures {
+    double first = 0; ///< In stops: the brightest pixel is nearly white.
+    double last = 0;  ///< In stops: half of the picture is.
+    int count = 2;    ///< About one a stop, at least 2.
+};
+
+/// A film's curve: from any light to [0, 1], after ACES (its fit by Narkowicz, without
+/// the exposure that it brings along).
+/// \param x  Light; NaN and negatives are black.
+/// \return In [0, 1]; 0.85 at 2.119.
+/// \cite andersson2021
+[[nodiscard]] inline double film_curve(double x) noexcept {
+    if (!(x > 0)) return 0;
+    const double y = std::min(x, 1e100); // its square is still a number
+    return std::min((0.9036 * y * y + 0.018 * y) / (0.8748 * y * y + 0.354 * y + 0.14),
+                    1.0);
+}
+
+/// The exposures at which a picture is worth looking at.
+/// \param reference  Linear sRGB.
+/// \return From the one that takes the brightest luminance to 0.85 of film_curve(), to
+///         the one that takes the median there.
+/// \throws std::invalid_argument  for an image as check().
+/// \cite andersson2021
+// [exposures_of]
+template <std::floating_point T>
+[[nodiscard]] Exposures exposures_of(const ImageT<T>& reference) {
+    check(reference);
+    constexpr double least = std::numeric_limits<float>::epsilon();
+    constexpr double most = std::numeric_limits<float>::max();
+    std::vector<double> light;
+    light.reserve(reference.pixels.size());
+    for (const RgbT<T>& c : reference.pixels) {
+        const double y = luminance(RgbT<double>(c));
+        light.push_back(y > least ? std::min(y, most) : least);
+    }
+    const auto middle = light.begin() + static_cast<std::ptrdiff_t>(light.size() / 2);
+    std::nth_element(light.begin(), middle, light.end());
+    const double brightest = *std::max_element(middle, light.end());
+
+    // Where the curve is 0.85: the positive root of a quadratic.
+    constexpr double a = 0.9036 - 0.85 * 0.8748, b = 0.018 - 0.85 * 0.354,
+                     c = -0.85 * 0.14;
+    const double bright = (std::sqrt(b * b - 4 * a * c) - b) / (2 * a);
+    const double first = std::log2(bright / brightest);
+    const double last = std::log2(bright / *middle);
+    return {first, last, std::max(2, static_cast<int>(std::ceil(last - first)))};
+}
+// [exposures_of]
+
+/// HDR-FLIP of each pixel: the largest flip_map() over the exposures_of() the
+/// reference.
+/// \param image      Linear sRGB of any brightness.
+/// \param reference  The truth, of the same size; it alone decides the exposures.
+/// \param ppd        From pixels_per_degree().
+/// \return A grey image in [0, 1].
+/// \throws std::invalid_argument  as flip_map().
+/// \cost exposures_of().count times flip_map().
+/// \cite andersson2021
+// [hdr_flip_map]
+template <std::floating_point T, std::floating_point U>
+[[nodiscard]] ImageT<double> hdr_flip_map(const ImageT<T>& image,
+                                          const ImageT<U>& reference,
+                                          double ppd = pixels_per_degree()) {
+    require_same_size(image, reference);
+    const Exposures exposures = exposures_of(reference);
+    ImageT<double> worst = make_image<double>(image.width, image.height);
+    for (int i = 0; i < exposures.count; ++i) {
+        const double part = double(i) / (exposures.count - 1);
+        const double light =
+            std::exp2(exposures.first + part * (exposures.last - exposures.first));
+        const auto developed = [light](const auto& picture) {
+            ImageT<double> result = make_image<double>(picture.width, picture.height);
+            for (std::size_t k = 0; k < result.pixels.size(); ++k)
+                for (int c = 0; c < 3; ++c)
+                    result.pixels[k][c] =
+                        film_curve(light * double(picture.pixels[k][c]));
+            return result;
+        };
+        const auto map = flip_map(developed(image), developed(reference), ppd);
+        for (std::size_t k = 0; k < map.pixels.size(); ++k)
+            worst.pixels[k] = glm::max(worst.pixels[k], map.pixels[k]);
+    }
+    return worst;
+}
+// [hdr_flip_map]
+
+/// The mean of hdr_flip_map().
+/// \param image      Linear sRGB of any brightness.
+/// \param reference  The truth, of the same size.
+/// \param ppd        From pixels_per_degree().
+/// \return In [0, 1]. Scaling both pictures by one number changes nothing.
+/// \throws std::invalid_argument  as flip_map().
+template <std::floating_point T, std::floating_point U>
+[[nodiscard]] double hdr_flip(const ImageT<T>& image, const ImageT<U>& reference,
+                              double ppd = pixels_per_degree()) {
+    return mean_of(hdr_flip_map(image, reference, ppd));
+}
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,139 @@
+#pragma once
+
+/// \file ljus/render/distributed.hpp
+/// \brief Distributed rays: one ray of each kind, sent somewhere else each time.
+
+#include "ljus/materials/glossy.hpp"
+#include "ljus/render/camera_path.hpp"
+#include "ljus/render/direct_light.hpp"
+#include "ljus/scene/shutter.hpp"
+#include "ljus/scene/stratified_stream.hpp"
+
+namespace ljus {
+
+/// \defgroup distributed_rays Distributed rays
+/// \brief Section 2.1: soft shadows and blurry reflections "by averaging multiple
+/// camera rays per pixel", after Cook, Porter and Carpenter \cite cook1984. Chapter:
+/// \ref ch_distributed_rays.
+///
+/// What it carries, in Heckbert's letters, with G for gloss, is L D? (S|G)* E: what
+/// Whitted's tree carries, each ray of it blurred. No matt surface lights another.
+/// \{
+
+/// How rays are distributed.
+struct DistributedRays {
+    int max_depth = 5; ///< Reflections and refractions in a row; 0 sends no ray on.
+};
+
+/// A scene, ready for distributed rays. It refers to the scene, which must outlive it.
+template <typename Scene>
+struct DistributedTracer {
+    using Stream = StratifiedStream; ///< What render() gives it to draw from.
+    IndexedT<Scene> scene;           ///< What is rendered.
+    DistributedRays settings;        ///< How.
+};
+
+/// Makes a tracer. How its rays are spread, over the pixel and all the rest, says
+/// Picture::sampling.
+/// \param scene     Must outlive the tracer; a scene, which it indexes, or an
+///                  IndexedScene.
+/// \param settings  The depth.
+/// \return The tracer.
+/// \throws std::invalid_argument  if the depth is negative.
+template <typename Scene>
+[[nodiscard]] DistributedTracer<Scene>
+make_distributed(const Scene& scene, const DistributedRays& settings = {}) {
+    require(settings.max_depth >= 0, "max_depth",
+            static_cast<long long>(settings.max_depth), "at least 0");
+    return {IndexedT<Scene>(scene), settings};
+}
+
+/// Whether a material is a blurred mirror: it sends rays on, and they find the lamps.
+template <typename M>
+inline constexpr bool is_gloss = false;
+/// Facets are.
+template <typename T, typename Facet>
+inline constexpr bool is_gloss<GlossyT<T, Facet>> = true;
+
+/// The light of all lights at a surface, by one shadow ray to a random point of each.
+/// In gloss a lamp is seen by the reflected ray, so that none is sent to it: each path
+/// has one owner.
+/// \param scene     The scene, at the ray's time.
+/// \param at        The surface.
+/// \param material  What it is made of.
+/// \param stream    Two numbers for each light with a size.
+/// \param counts    Counts the rays.
+/// \return Radiance towards wo.
+/// \report{Section 2.1}
+// [soft shadow]
+template <typename Scene, std::floating_point T, typename Material, typename Stream>
+[[nodiscard]] RgbT<T> soft_light(const Scene& scene, const ShadingT<T>& at,
+                                 const Material& material, Stream& stream,
+                                 Counts& counts) {
+    const auto whole = [](const LightSampleT<T>&, const Vec3T<T>&) { return T(1); };
+    RgbT<T> sum{T(0)};
+    for (const LightT<T>& light : scene.lights) {
+        if (is_gloss<Material> && light.object) continue;
+        const Vec2T<T> u = light.object ? next_2d<T>(stream) : Vec2T<T>{T(0)};
+        sum += direct_light(scene, light, at, material, u, whole, counts);
+    }
+    return sum;
+}
+// [soft shadow]
+
+/// The radiance that one camera ray finds, at a random time, by one ray at each mirror,
+/// glass or gloss and one to each light.
+/// \param tracer  The scene and the settings.
+/// \param ray     A primary ray.
+/// \param stream  The numbers of this ray.
+/// \param counts  Counts the rays.
+/// \param log     Told of each vertex and each term; gloss is D there.
+/// \return Radiance, W/(m^2 sr): an unbiased estimate of what such paths carry, up to
+///         the depth.
+/// \cost At most max_depth + 1 rays, and as many shadow rays to each light.
+/// \report{Section 2.1}
+// [radiance]
+template <typename Scene, std::floating_point T, typename Stream, typename Log = NoLog>
+[[nodiscard]] RgbT<T> radiance(const DistributedTracer<Scene>& tracer,
+                               const RayT<T>& ray, Stream& stream, Counts& counts,
+                               Log&& log = {}) {
+    T time = T(0);
+    if constexpr (lists_moving<Scene>) time = next_1d<T>(stream);
+    const auto& scene = at_time(tracer.scene, time);
+
+    RgbT<T> sum{T(0)};
+    PathT<T> path{.ray = ray};
+    log.begin();
+    for (int depth = 0;; ++depth) {
+        start_bounce(stream, static_cast<std::uint64_t>(depth) + 1);
+        const auto met = meet(scene, path.ray, stream);
+        if (!met) break;
+        const ShadingT<T> at = shading(scene, path.ray, met->hit, path.medium);
+        path.throughput *= transmittance(path.medium, met->distance) * met->arrives();
+        const auto add = [&](const char* owner, const char* letters,
+                             const RgbT<T>& light) {
+            log.term(owner, letters, path.throughput * light);
+            sum += path.throughput * light;
+        };
+        if (at.shines()) add("emission", "L", at.surface.object.emission);
+
+        const auto at_material = [&](const auto& material) {
+            constexpr bool gloss = is_gloss<std::remove_cvref_t<decltype(material)>>;
+            if (has(lobes(material), Lobes::diffuse))
+                add("shadow ray", "DL",
+                    soft_light(scene, at, material, stream, counts));
+            if (depth == tracer.settings.max_depth) return false;
+            return send_on(path, at, material, gloss ? Lobes::all : Lobes::specular,
+                           false, stream, log);
+        };
+        if (!visit_material_of(scene, at.surface, at_material)) break;
+        if (is_black(path.throughput)) break;
+        ++counts.bounce_rays;
+    }
+    return sum;
+}
+// [radiance]
+
+/// \}
+
+} // namespace ljus

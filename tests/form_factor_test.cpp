@@ -1,0 +1,260 @@
+/// \file form_factor_test.cpp
+/// \brief Form factors against tables, quadrature and closed rooms.
+
+#include "ljus/geometry/exchange_area.hpp"
+
+#include <doctest/doctest.h>
+
+#include <vector>
+
+using ljus::Facet;
+
+namespace {
+
+using V = glm::dvec3;
+
+Facet rectangle(const V& corner, const V& u, const V& v) {
+    return {{corner, corner + u, corner + u + v, corner + v}, 4};
+}
+
+/// Numbers of its own: uniform in [-1, 1).
+struct Numbers {
+    std::uint64_t state = 1;
+    double next() {
+        state = state * 6364136223846793005u + 1442695040888963407u;
+        return double(state >> 11) / 4503599627370496.0 - 1;
+    }
+    V point() {
+        const double x = next(), y = next();
+        return {x, y, next()};
+    }
+};
+
+/// The definition: cos cos / (pi r^2) over both areas, by Gauss's rule of 5 points in
+/// each of the four coordinates, on n x n pieces of each rectangle.
+double quadrature(const Facet& a, const Facet& b, int n) {
+    constexpr std::array place{0.04691007703066802, 0.23076534494715845, 0.5,
+                               0.7692346550528415, 0.953089922969332};
+    constexpr std::array weight{0.11846344252809454, 0.23931433524968324,
+                                0.28444444444444444, 0.23931433524968324,
+                                0.11846344252809454};
+    struct Node {
+        V at;
+        double weight;
+    };
+    const auto nodes = [&](const Facet& f) {
+        std::vector<Node> all;
+        const V u = f.corners[1] - f.corners[0], v = f.corners[3] - f.corners[0];
+        for (int i = 0; i < 5 * n; ++i)
+            for (int k = 0; k < 5 * n; ++k) {
+                const auto p = std::size_t(i % 5), q = std::size_t(k % 5);
+                const double x = (i / 5 + place[p]) / n, y = (k / 5 + place[q]) / n;
+                all.push_back(
+                    {f.corners[0] + x * u + y * v, weight[p] * weight[q] / (n * n)});
+            }
+        return all;
+    };
+    const V na = area_vector(a), nb = area_vector(b);
+    double sum = 0;
+    for (const Node& p : nodes(a))
+        for (const Node& q : nodes(b)) {
+            const V way = q.at - p.at;
+            const double r2 = glm::dot(way, way);
+            const double cosines = -glm::dot(way, na) * glm::dot(way, nb);
+            sum += p.weight * q.weight * cosines / (std::numbers::pi * r2 * r2);
+        }
+    return sum;
+}
+
+/// The four sides of a tetrahedron, facing inwards.
+std::vector<Facet> tetrahedron(std::array<V, 4> p) {
+    if (glm::dot(glm::cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]) < 0)
+        std::swap(p[0], p[1]);
+    return {{{p[0], p[1], p[2]}, 3},
+            {{p[0], p[2], p[3]}, 3},
+            {{p[0], p[3], p[1]}, 3},
+            {{p[1], p[3], p[2]}, 3}};
+}
+
+} // namespace
+
+TEST_CASE("form_factor: unit squares, as every table has them") {
+    CHECK(std::abs(ljus::form_factor_facing(1, 1, 1) - 0.1998248957) < 1e-10);
+    CHECK(std::abs(ljus::form_factor_corner(1, 1, 1) - 0.2000437761) < 1e-10);
+    // A floor and the five other faces of a cube.
+    CHECK(ljus::form_factor_facing(1, 1, 1) + 4 * ljus::form_factor_corner(1, 1, 1) ==
+          doctest::Approx(1).epsilon(1e-14));
+    // Very near to each other all of the light arrives, very far almost none.
+    CHECK(ljus::form_factor_facing(1e6, 1e6, 1) > 1 - 1e-5);
+    CHECK(ljus::form_factor_facing(1, 1, 100) * std::numbers::pi * 1e4 ==
+          doctest::Approx(1).epsilon(1e-3));
+}
+
+TEST_CASE("exchange_area: rectangles that face each other or stand on each other") {
+    for (const double a : {0.3, 1.0, 4.0})
+        for (const double b : {0.5, 1.0, 7.0})
+            for (const double c : {0.2, 1.0, 3.0}) {
+                const Facet floor = rectangle({}, {a, 0, 0}, {0, b, 0});
+                const Facet roof = rectangle({0, 0, c}, {0, b, 0}, {a, 0, 0});
+                const Facet wall = rectangle({}, {0, b, 0}, {0, 0, c});
+                CHECK(exchange_area(floor, roof) ==
+                      doctest::Approx(a * b * ljus::form_factor_facing(a, b, c))
+                          .epsilon(1e-11));
+                CHECK(exchange_area(floor, wall) ==
+                      doctest::Approx(a * b * ljus::form_factor_corner(b, a, c))
+                          .epsilon(1e-12));
+                // From behind nothing arrives.
+                CHECK(exchange_area(turned(floor), wall) == 0);
+                CHECK(exchange_area(floor, turned(roof)) == 0);
+            }
+}
+
+TEST_CASE("exchange_area: quads anywhere, by the definition") {
+    Numbers numbers;
+    for (int i = 0; i < 60; ++i) {
+        const V u = numbers.point(), v = numbers.point();
+        const V s = numbers.point(), t = numbers.point();
+        const Facet a = rectangle(-(u + v) / 2.0, u, v);
+        const V up = glm::normalize(area_vector(a));
+        // So far up that all of it is in front; turned so that it faces downwards.
+        Facet b = rectangle(4.0 * up + 0.3 * numbers.point() - (s + t) / 2.0, s, t);
+        if (glm::dot(area_vector(b), up) > 0) b = turned(b);
+        if (glm::dot(glm::normalize(area_vector(b)), up) > -0.8) continue;
+        const double right = quadrature(a, b, 2);
+        CHECK(std::abs(exchange_area(a, b) - right) < 1e-9 * right);
+        // An edge of b that is parallel to one of a takes another way.
+        const Facet c = rectangle(b.corners[0], v, u);
+        CHECK(std::abs(exchange_area(a, c) - quadrature(a, c, 2)) < 1e-9 * right);
+    }
+}
+
+TEST_CASE("exchange_area: reciprocity, however two triangles lie") {
+    Numbers numbers;
+    double worst = 0;
+    int seen = 0;
+    for (int i = 0; i < 400; ++i) {
+        const V p = numbers.point(), q = numbers.point();
+        const Facet a{{p, p + numbers.point(), p + numbers.point()}, 3};
+        Facet b{{q, q + numbers.point(), q + numbers.point()}, 3};
+        if (i % 4 == 1) b.corners[0] = a.corners[0];                 // a common corner
+        if (i % 4 == 2) b.corners = {a.corners[1], a.corners[0], q}; // a common edge
+        if (i % 4 == 3) b.corners[0] = (a.corners[0] + 2.0 * a.corners[1]) / 3.0;
+        const double there = exchange_area(a, b), back = exchange_area(b, a);
+        worst = std::max(worst, std::abs(there - back));
+        seen += there > 0;
+        // The parts of a patch receive what the whole does.
+        const V middle = (b.corners[0] + b.corners[1]) / 2.0;
+        const Facet left{{b.corners[0], middle, b.corners[2]}, 3};
+        const Facet right{{middle, b.corners[1], b.corners[2]}, 3};
+        CHECK(std::abs(exchange_area(a, left) + exchange_area(a, right) - there) <
+              1e-11);
+    }
+    CHECK(worst < 1e-11);
+    CHECK(seen > 200);
+    // Along the axes: 1e-12 of the smaller one's area, at any place.
+    for (int i = 0; i < 200; ++i) {
+        const V p = 3.0 * numbers.point();
+        const double w = 1 + numbers.next(), h = 1 + numbers.next();
+        const Facet a = rectangle({}, {1, 0, 0}, {0, 1, 0});
+        const Facet b = i % 2 == 0 ? rectangle(p, {0, w, 0}, {h, 0, 0})
+                                   : rectangle(p, {0, w, 0}, {0, 0, h});
+        CHECK(std::abs(exchange_area(a, b) - exchange_area(b, a)) <=
+              1e-12 * std::min(1.0, w * h));
+    }
+}
+
+TEST_CASE("exchange_area: in a closed room all light arrives somewhere") {
+    Numbers numbers;
+    for (int i = 0; i < 12; ++i) {
+        const auto sides = tetrahedron(
+            {numbers.point(), numbers.point(), numbers.point(), numbers.point()});
+        for (const Facet& from : sides) {
+            double sum = 0;
+            for (const Facet& to : sides)
+                if (&to != &from) sum += exchange_area(from, to);
+            CHECK(sum ==
+                  doctest::Approx(glm::length(area_vector(from))).epsilon(1e-10));
+        }
+    }
+}
+
+TEST_CASE("exchange_area: what lies behind a plane is cut off") {
+    const Facet floor = rectangle({}, {1, 0, 0}, {0, 1, 0});
+    const Facet wall = rectangle({}, {0, 1, 0}, {0, 0, 1});
+    const Facet deep = rectangle({0, 0, -2}, {0, 1, 0}, {0, 0, 3});
+    CHECK(exchange_area(floor, deep) ==
+          doctest::Approx(exchange_area(floor, wall)).epsilon(1e-13));
+    // The floor reaches behind the wall; there it sees its back.
+    const Facet wide = rectangle({-5, 0, 0}, {6, 0, 0}, {0, 1, 0});
+    CHECK(exchange_area(wide, wall) ==
+          doctest::Approx(exchange_area(floor, wall)).epsilon(1e-13));
+    CHECK(exchange_area(floor, floor) == 0);
+    CHECK(exchange_area(floor, rectangle({3, 0, 0}, {1, 0, 0}, {0, 1, 0})) == 0);
+}
+
+TEST_CASE("exchange_area: sizes, places and far away") {
+    const Facet floor = rectangle({}, {1, 0, 0}, {0, 1, 0});
+    const Facet wall = rectangle({}, {0, 1, 0}, {0, 0, 1});
+    const double right = exchange_area(floor, wall);
+    for (const double size : {1e-60, 1e-6, 1e6, 1e60}) {
+        Facet a = floor, b = wall;
+        for (V& corner : a.corners) corner *= size;
+        for (V& corner : b.corners) corner *= size;
+        CHECK(exchange_area(a, b) / size / size ==
+              doctest::Approx(right).epsilon(1e-12));
+    }
+    for (const double d : {10.0, 100.0, 1000.0}) {
+        const Facet roof = rectangle({0, 0, d}, {0, 1, 0}, {1, 0, 0});
+        // Relative to what there is: doctest's Approx is absolute below 1.
+        CHECK(std::abs(exchange_area(floor, roof) / quadrature(floor, roof, 1) - 1) <
+              1e-11);
+    }
+    // No area, no numbers: no light.
+    const double nan = std::nan("");
+    CHECK(exchange_area(floor, rectangle({}, {}, {0, 0, 1})) == 0);
+    CHECK(exchange_area(floor, Facet{}) == 0);
+    CHECK(exchange_area(floor, rectangle({nan, 0, 0}, {0, 1, 0}, {0, 0, 1})) == 0);
+}
+
+TEST_CASE("form_factor: from a point, by Lambert") {
+    const V up{0, 0, 1};
+    // A square above: four times the corner's factor, Howell's C-11.
+    const auto corner = [](double a, double b, double c) {
+        const double x = a / c, y = b / c;
+        const double sx = std::sqrt(1 + x * x), sy = std::sqrt(1 + y * y);
+        return (x / sx * std::atan(y / sx) + y / sy * std::atan(x / sy)) / 2 /
+               std::numbers::pi;
+    };
+    const Facet roof = rectangle({-1, -1, 2}, {0, 2, 0}, {2, 0, 0});
+    CHECK(form_factor_at({}, up, roof) ==
+          doctest::Approx(4 * corner(1, 1, 2)).epsilon(1e-14));
+    CHECK(form_factor_at({}, up, turned(roof)) == 0);
+    CHECK(form_factor_at({}, -up, roof) == 0);
+    // A cube around the point, which stands on no wall: below its horizon nothing
+    // counts, and above it everything does.
+    const std::vector<Facet> cube{
+        rectangle({-1, -1, -1}, {2, 0, 0}, {0, 2, 0}),
+        rectangle({-1, -1, 1}, {0, 2, 0}, {2, 0, 0}),
+        rectangle({-1, -1, -1}, {0, 2, 0}, {0, 0, 2}),
+        rectangle({1, -1, -1}, {0, 0, 2}, {0, 2, 0}),
+        rectangle({-1, -1, -1}, {0, 0, 2}, {2, 0, 0}),
+        rectangle({-1, 1, -1}, {2, 0, 0}, {0, 0, 2}),
+    };
+    Numbers numbers;
+    for (int i = 0; i < 100; ++i) {
+        const V point = 0.99 * numbers.point();
+        const V normal = glm::normalize(numbers.point());
+        double sum = 0;
+        for (const Facet& side : cube) sum += form_factor_at(point, normal, side);
+        CHECK(sum == doctest::Approx(1).epsilon(1e-12));
+    }
+    // Its mean over a patch is the patch's form factor.
+    const Facet floor = rectangle({}, {1, 0, 0}, {0, 1, 0});
+    const Facet side = rectangle({-0.5, 0, 0.5}, {0, 1, 0}, {0.2, 0, 1});
+    double mean = 0;
+    for (int i = 0; i < 100; ++i)
+        for (int k = 0; k < 100; ++k)
+            mean +=
+                form_factor_at({(i + 0.5) / 100, (k + 0.5) / 100, 0}, up, side) / 1e4;
+    CHECK(mean == doctest::Approx(exchange_area(floor, side)).epsilon(1e-4));
+}

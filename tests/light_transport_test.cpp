@@ -1,0 +1,205 @@
+/// \file light_transport_test.cpp
+/// \brief Classes of paths against std::regex; renderers cut down to a class add up to
+/// the whole; Eq. 1's g against a closed form.
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "ljus/render/light_transport.hpp"
+#include "ljus/render/path_tracing.hpp"
+#include "ljus/render/render.hpp"
+#include "ljus/scene/cornell_box.hpp"
+#include "ljus/scene/furnaces.hpp"
+#include "support/numbers.hpp"
+
+using namespace ljus;
+using doctest::Approx;
+
+namespace {
+
+/// A random expression, at most `depth` brackets deep.
+std::string expression(ljus_test::Numbers& n, int depth) {
+    std::string result;
+    for (int parts = 1 + n.below(3); parts > 0; --parts) {
+        if (depth > 0 && n.below(3) == 0)
+            result += "(" + expression(n, depth - 1) + ")";
+        else
+            result += "EDSL."[n.below(5)];
+        if (n.below(2) == 0) result += "*+?"[n.below(3)];
+        if (parts > 1 && n.below(4) == 0) result += '|';
+    }
+    return result;
+}
+
+Picture small() {
+    return {.width = 16, .height = 16, .rays = 4, .seed = 3, .threads = 1};
+}
+
+template <typename Renderer>
+Image picture(const Renderer& renderer, const Camera& camera) {
+    return render(renderer, camera, small()).image;
+}
+
+/// The largest difference of two pictures, relative to what is there.
+double difference(const Image& a, const Image& b) {
+    double largest = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            const double x = double(a.pixels[i][c]), y = double(b.pixels[i][c]);
+            largest = std::max(largest, std::abs(x - y) / (1 + std::abs(x)));
+        }
+    return largest;
+}
+
+} // namespace
+
+TEST_CASE("light_transport: classes of paths, by hand") {
+    constexpr PathClass whitted = path_class("ES*D?L");
+    CHECK((contains(whitted, "EL") && contains(whitted, "ESSDL")));
+    CHECK_FALSE((contains(whitted, "EDSL") || contains(whitted, "EDDL")));
+    const PathClass caustic = path_class("E.*DS+L");
+    for (const char* path : {"EDSL", "EDSSL", "ESDDSL"}) CHECK(contains(caustic, path));
+    for (const char* path : {"EL", "EDL", "ESL", "EDS", "DSL", "EDSDL", "EDSLL", ""})
+        CHECK_FALSE(contains(caustic, path));
+    CHECK(contains(path_class(""), ""));
+    CHECK(contains(path_class("((E)(S|D|)*)L"), "ESDSDL"));
+    const std::string deep = "E" + std::string(100000, 'D') + "L";
+    CHECK(contains(path_class("E(D*S?)*L"), deep));
+}
+
+TEST_CASE("light_transport: classes of paths, 120 random ones beside std::regex") {
+    ljus_test::Numbers n;
+    int matched = 0;
+    for (int test = 0; test < 120; ++test) {
+        const std::string words = expression(n, 2);
+        std::string other;
+        for (const char c : words) other += c == '.' ? "[DS]" : std::string(1, c);
+        const std::regex judge(other);
+        const PathClass paths = path_class(words);
+        for (int k = 0; k < 30; ++k) {
+            std::string path;
+            for (int length = n.below(6); length > 0; --length)
+                path += "EDSL"[n.below(4)];
+            const bool expected = std::regex_match(path, judge);
+            matched += expected;
+            CAPTURE(words);
+            CAPTURE(path);
+            REQUIRE(contains(paths, path) == expected);
+        }
+    }
+    CHECK(matched > 200); // so that both answers are tested
+}
+
+TEST_CASE("light_transport: an expression that is none is refused with its place") {
+    const auto refusal = [](const char* words) -> std::string {
+        try {
+            (void)path_class(words);
+        } catch (const std::invalid_argument& error) {
+            return error.what();
+        }
+        return "";
+    };
+    CHECK(refusal("ES*L") == "");
+    CHECK(refusal("EXL") ==
+          "The class of paths 'EXL' has something else at place 2; it "
+          "is made of E, D, S, L, '.' for D or S, and | ( ) * + ?.");
+    for (const char* words : {"E(S|D", "E)L", "*", "E L", "(", "E{2}L"})
+        CHECK(refusal(words).find("The class of paths") == 0);
+    CHECK(refusal(std::string(64, 'D').c_str()).find("64th") != std::string::npos);
+    CHECK(refusal(std::string(63, 'D').c_str()) == "");
+}
+
+TEST_CASE("light_transport: the parts of a picture add up to the whole") {
+    const auto room = cornell_box();
+    const auto tracer = make_path_tracer(room.scene);
+    const Image whole = picture(tracer, room.camera);
+    CHECK(difference(whole, picture(only(tracer, "E.*L"), room.camera)) == 0);
+    for (const auto& classes :
+         {std::vector<const char*>{"EL", "E.L", "E..L", "E...+L"},
+          std::vector<const char*>{"ES*L", "ES*DL", "E.*DDL", "E.*DS+DL", "E.*DS+L"}}) {
+        Image sum = make_image(16, 16);
+        for (const char* words : classes) {
+            const Image part = picture(only(tracer, words), room.camera);
+            for (std::size_t i = 0; i < sum.pixels.size(); ++i)
+                sum.pixels[i] += part.pixels[i];
+        }
+        CHECK(difference(whole, sum) < 1e-6);
+    }
+}
+
+TEST_CASE(
+    "light_transport: cut short by the letters or by the depth, the same picture") {
+    const auto room = cornell_box();
+    const auto tracer = make_path_tracer(room.scene);
+    const auto one = make_path_tracer(room.scene, {.max_depth = 1});
+    CHECK(difference(picture(one, room.camera),
+                     picture(only(tracer, "ED?L"), room.camera)) == 0);
+    const auto three = make_path_tracer(room.scene, {.max_depth = 3});
+    CHECK(difference(picture(three, room.camera),
+                     picture(only(tracer, "E(..?)?D?L"), room.camera)) < 1e-6);
+}
+
+TEST_CASE("light_transport: g is 1/r^2 where points see each other, and else 0") {
+    // A point below the corner of a lamp of a x b at height h: a closed form for the
+    // share of its hemisphere that it fills, cosine included.
+    const double a = 0.8, b = 0.5, h = 0.6, x = a / h, y = b / h;
+    const double rx = std::sqrt(1 + x * x), ry = std::sqrt(1 + y * y);
+    const double share = (x / rx * std::atan(y / rx) + y / ry * std::atan(x / ry)) /
+                         (2 * std::numbers::pi);
+    const QuadT<double> lamp{.corner{0, h, 0}, .edge_u{a, 0, 0}, .edge_v{0, 0, b}};
+    // A screen at half the height hides the half of the lamp with x above a / 2.
+    const QuadT<double> screen{
+        .corner{a / 4, h / 2, -9}, .edge_u{9, 0, 0}, .edge_v{0, 0, 18}};
+    Scene<Shapes<QuadT<double>>, Materials<LambertianT<double>>> open, hidden;
+    const auto grey = open.add(LambertianT<double>{});
+    (void)hidden.add(LambertianT<double>{});
+    open.add(lamp, grey);
+    hidden.add(lamp, grey);
+    hidden.add(screen, grey);
+    const SurfacePointT<double> floor{.normal{0, 1, 0}};
+    const int n = 80;
+    double seen = 0, half = 0, below_half = 0;
+    const auto squared = [](const Vec3T<double>& v) { return glm::dot(v, v); };
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            const auto point =
+                sample_area(lamp, Vec2T<double>{(i + 0.5) / n, (j + 0.5) / n});
+            const double g = transport_factor(open, floor, point);
+            CHECK(g == Approx(transport_factor(open, point, floor)).epsilon(1e-12));
+            // g is 1/r^2, and the two cosines h/r bring in another.
+            const auto share_by = [&](double factor) {
+                return h * h / squared(point.position) * factor / std::numbers::pi * a *
+                       b / (n * n);
+            };
+            seen += share_by(g);
+            below_half += i < n / 2 ? share_by(g) : 0;
+            half += share_by(transport_factor(hidden, floor, point));
+        }
+    CHECK(seen == Approx(share).epsilon(1e-4));
+    CHECK(half == Approx(below_half).epsilon(1e-12));
+    CHECK(transport_factor(open, floor, floor) == 0);
+}
+
+TEST_CASE("light_transport: in a furnace each bounce has its power of the albedo") {
+    // Inside of a ball that shines, each bounce keeps rho. 1024 paths; a path's share
+    // of a bounce scatters by less than its mean, so that 6 standard errors are 0.19.
+    const auto furnace = sphere_furnace<float>(Rgb{1}, {0.9f, 0.5f, 0.1f});
+    const auto tracer = make_path_tracer(furnace.scene, {.max_depth = 4});
+    std::string words = "E";
+    for (int bounce = 0; bounce < 4; ++bounce) {
+        const std::string all = words + "L"; // the class does not keep it
+        const Image image = picture(only(tracer, all), furnace.camera);
+        Rgb mean{0};
+        for (const Rgb& c : image.pixels) mean += c / 256.0f;
+        CAPTURE(bounce);
+        CHECK(double(mean.x) == Approx(std::pow(0.9, bounce)).epsilon(0.19));
+        CHECK(double(mean.y) == Approx(std::pow(0.5, bounce)).epsilon(0.19));
+        CHECK(double(mean.z) == Approx(std::pow(0.1, bounce)).epsilon(0.19));
+        words += "D";
+    }
+}

@@ -1,0 +1,302 @@
+// concept: radiosity
+/// \file patches_test.cpp
+/// \brief Patches cover each surface once; form factors by rays agree with closed forms.
+
+#include <doctest/doctest.h>
+
+#include "ljus/render/form_factors.hpp"
+#include "ljus/scene/cornell_box.hpp"
+#include "ljus/scene/furnaces.hpp"
+
+using namespace ljus;
+
+namespace {
+
+template <typename T>
+using Stage = Scene<Shapes<QuadT<T>, TriangleT<T>, SphereT<T>>,
+                    Materials<LambertianT<T>, MirrorT<T>>>;
+
+Rgb grey(float value) {
+    return Rgb{value};
+}
+
+/// A closed box from (0, 0, 0) to (1, 1, 1) whose floor shines.
+Stage<double> unit_box() {
+    Stage<double> box;
+    using V = Vec3T<double>;
+    const auto white = box.add(LambertianT<double>{.albedo = V(0.5)});
+    const V x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, o{0};
+    box.add(QuadT<double>{o, x, y}, white, V(1));
+    box.add(QuadT<double>{z, y, x}, white);
+    box.add(QuadT<double>{o, y, z}, white);
+    box.add(QuadT<double>{x, z, y}, white);
+    box.add(QuadT<double>{o, z, x}, white);
+    box.add(QuadT<double>{y, x, z}, white);
+    return box;
+}
+
+template <typename Body>
+std::string refusal(Body body) {
+    try {
+        body();
+    } catch (const std::invalid_argument& error) {
+        return error.what();
+    }
+    return "nothing was refused";
+}
+
+} // namespace
+
+TEST_CASE("patches: each place of a shape belongs to one cell") {
+    const auto check_all = [](const auto& shape, double size) {
+        for (const bool inward : {false, true}) {
+            PatchGrid grid = patch_grid(shape, size);
+            grid.inward = inward;
+            RandomStream stream = random_stream(1, Pass::user, 0, 0);
+            for (std::uint32_t cell = 0; cell < grid.size(); ++cell) {
+                for (int i = 0; i < 20; ++i) {
+                    const auto point =
+                        sample_cell(grid, shape, cell, next_2d<double>(stream));
+                    // A ray that comes back to the point tells the cell.
+                    const Vec3T<double> outer = inward ? -point.normal : point.normal;
+                    const RayT<double> ray{.origin = point.position + 0.1 * outer,
+                                           .direction = -outer};
+                    const auto t = intersect(ray, shape);
+                    REQUIRE(t);
+                    const auto at = place_on(grid.kind, as_hit(*t), outer);
+                    CHECK(cell_of(grid, at) == cell);
+                }
+                if constexpr (Flat<std::remove_cvref_t<decltype(shape)>>) {
+                    const Facet facet = cell_facet(grid, facet_of(shape), cell);
+                    CHECK(glm::length(area_vector(facet)) ==
+                          doctest::Approx(double(area(shape)) / grid.size())
+                              .epsilon(1e-12));
+                    CHECK((glm::dot(area_vector(facet), area_vector(facet_of(shape))) <
+                           0) == inward);
+                }
+            }
+        }
+    };
+    check_all(QuadT<double>{{1, 2, 3}, {2, 0, 1}, {0.5, 1, 0}}, 0.4);
+    check_all(TriangleT<double>{{0, 0, 0}, {2, 0, 1}, {0.5, 1, 0}}, 0.3);
+    check_all(SphereT<double>{.center{1, 2, 3}, .radius = 0.7}, 0.5);
+    // What rounding has put outside belongs to the border.
+    const PatchGrid grid = patch_grid(QuadT<double>{}, 0.25);
+    CHECK(cell_of(grid, {-1e-9, 1 + 1e-9}) == 12);
+    const PatchGrid corner =
+        patch_grid(TriangleT<double>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, 0.5);
+    CHECK(corner.columns == 3);
+    for (const double u : {0.0, 0.2, 1.0 / 3, 0.5, 2.0 / 3, 1.0})
+        CHECK(cell_of(corner, {u, 1 - u + 1e-15}) < corner.size());
+}
+
+TEST_CASE("patches: what there is, and what is left out") {
+    const auto room = cornell_box();
+    const Patches all = make_patches(room.scene, {.size = 0.5});
+    // Five walls of 4 x 4 seen from within, and a lamp of one patch on both sides.
+    CHECK(all.patches.size() == 5 * 16 + 2);
+    CHECK(!all.convex);
+    double area = 0;
+    RgbT<double> flux(0);
+    for (const Patch& patch : all.patches) {
+        area += patch.area;
+        flux += patch.area * patch.emitted;
+    }
+    CHECK(area == doctest::Approx(20.5));
+    CHECK(flux.x == doctest::Approx(std::numbers::pi * 0.25 * 17));
+    REQUIRE(all.left_out.size() == 1);
+    CHECK(all.left_out[0] == "2 objects do not look equally bright from everywhere");
+
+    const auto furnace = sphere_furnace<float>(grey(1), grey(0.5f));
+    const Patches inside = make_patches(furnace.scene, {.size = 1});
+    CHECK(inside.convex);
+    CHECK(inside.grids.size() == 1);
+    CHECK(inside.grids[0].inward);
+
+    Stage<float> odd;
+    odd.add(PointLight{.position{0, 1, 0}});
+    const auto white = odd.add(Lambertian{});
+    odd.add(Quad{}, white);
+    CHECK(refusal([&] { (void)make_patches(odd); }) ==
+          "the number of patches is 0; it must be at least 1: a matt quad, triangle or "
+          "ball that sees another.");
+    odd.add(Quad{.corner{0, 0, 1}, .edge_u{1, 0, 0}, .edge_v{1, 0, 0}}, white);
+    odd.add(Triangle{{0, 0, 2}, {0, 1, 2}, {1, 0, 2}}, white);
+    const Patches two = make_patches(odd, {.size = 10});
+    CHECK(two.patches.size() == 2); // one without an area has no patch
+    CHECK(two.left_out == std::vector<std::string>{"1 light is no surface"});
+}
+
+TEST_CASE("patches: too many are refused before they take any memory") {
+    const auto room = cornell_box();
+    CHECK(
+        refusal([&] { (void)make_patches(room.scene, {.size = 0.01}); }) ==
+        "the number of patches is 40000; it must be at most 8192, for there is a form "
+        "factor for each pair of them: take larger ones.");
+    CHECK(refusal([&] {
+              (void)make_patches(room.scene, {.size = 1e-300});
+          }).starts_with("the number of patches is 1e+12; "));
+    for (const double size : {0.0, -1.0, std::nan("")})
+        CHECK(refusal([&] {
+                  (void)make_patches(room.scene, {.size = size});
+              }).starts_with("patch size is "));
+    CHECK(refusal(
+              [&] { (void)make_patches(room.scene, {.size = 1, .most = 100'000}); }) ==
+          "most is 100000; it must be at most 65536: their form factors take 34 GB.");
+}
+
+TEST_CASE("form_factors: the closed form in a box") {
+    const auto box = unit_box();
+    const Patches all = make_patches(box, {.size = 0.25});
+    CHECK(all.convex);
+    const auto factors = make_form_factors(box, all);
+    REQUIRE(factors);
+    const std::size_t n = factors->size();
+    CHECK(n == 96);
+    // From floor to ceiling and to a wall, put together from the patches.
+    double facing = 0, corner = 0;
+    for (std::size_t i = 0; i < 16; ++i)
+        for (std::size_t j = 0; j < 16; ++j) {
+            facing += factors->row(i)[16 + j];
+            corner += factors->row(i)[32 + j];
+        }
+    CHECK(facing == doctest::Approx(form_factor_facing(1, 1, 1)).epsilon(1e-12));
+    CHECK(corner == doctest::Approx(form_factor_corner(1, 1, 1)).epsilon(1e-12));
+    for (std::size_t i = 0; i < n; ++i) {
+        CHECK(std::abs(factors->row_sum(i) - 1) < 1e-12);
+        for (std::size_t j = 0; j < n; ++j)
+            CHECK(factors->row(i)[j] == factors->row(j)[i]); // reciprocity, exactly
+    }
+}
+
+TEST_CASE("form_factors: rays agree with the closed form") {
+    const auto box = unit_box();
+    const Patches all = make_patches(box, {.size = 0.5});
+    const auto right = make_form_factors(box, all);
+    constexpr int rays = 4000;
+    const auto found = make_form_factors(box, all, {.analytic = false, .rays = rays});
+    const std::size_t n = all.patches.size();
+    double squares = 0, pairs = 0, worst_row = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = i + 1; j < n; ++j) {
+            const double f = (*right)(i, j);
+            if (f == 0) {
+                CHECK((*found)(i, j) == 0);
+                continue;
+            }
+            CHECK(found->row(i)[j] == found->row(j)[i]);
+            // Rays from both sides; spread evenly, they scatter a little less than this.
+            const double sigma = std::sqrt(f * (1 - f) / (2 * rays));
+            squares += std::pow(((*found)(i, j) - f) / sigma, 2);
+            pairs += 1;
+            CHECK(std::abs((*found)(i, j) - f) < 5 * sigma);
+        }
+        worst_row = std::max(worst_row, std::abs(found->row_sum(i) - 1));
+    }
+    MESSAGE("mean square of error / sigma: ", squares / pairs,
+            "; largest error of a row's sum: ", worst_row);
+    CHECK(squares / pairs < 1.2);
+    CHECK(squares / pairs > 0.3);
+    CHECK(worst_row > 0); // symmetry costs the sums, which each row of rays had right
+    CHECK(worst_row < 5 / std::sqrt(2.0 * rays));
+
+    // The same rays, whatever the number of threads.
+    const auto again =
+        make_form_factors(box, all, {.analytic = false, .rays = rays, .threads = 3});
+    CHECK(again->exchange == found->exchange);
+    const auto stop = [](long long, long long) { return false; };
+    CHECK(!make_form_factors(box, all, {.rays = 1, .progress = stop}));
+    CHECK_THROWS_AS((void)make_form_factors(box, all, {.rays = 0}),
+                    std::invalid_argument);
+    CHECK_THROWS_AS((void)make_form_factors(box, all, {.shadow_rays = 0}),
+                    std::invalid_argument);
+}
+
+TEST_CASE("form_factors: rays find the numbers of the tables") {
+    const auto box = unit_box();
+    constexpr int rays = 20000;
+    const auto found = make_form_factors(box, make_patches(box, {.size = 1}),
+                                         {.analytic = false, .rays = rays});
+    REQUIRE(found->size() == 6);
+    const double sigma = std::sqrt(0.2 * 0.8 / (2.0 * rays));
+    for (std::size_t i = 0; i < 6; ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            const bool facing = i / 2 == j / 2;
+            const double right =
+                facing ? form_factor_facing(1, 1, 1) : form_factor_corner(1, 1, 1);
+            CHECK(std::abs((*found)(i, j) - right) < 3 * sigma); // the seed is fixed
+        }
+}
+
+TEST_CASE("form_factors: rows are closed, and stay symmetric") {
+    const auto box = unit_box();
+    const Patches all = make_patches(box, {.size = 0.5});
+    const auto few =
+        make_form_factors(box, all, {.analytic = false, .rays = 50, .closed = true});
+    for (std::size_t i = 0; i < few->size(); ++i) {
+        CHECK(std::abs(few->row_sum(i) - 1) < 1e-13);
+        for (std::size_t j = 0; j < few->size(); ++j)
+            CHECK(few->row(i)[j] == doctest::Approx(few->row(j)[i]).epsilon(1e-14));
+    }
+    Stage<float> open; // the triangle sees the quad's back, which has no other
+    const auto white = open.add(Lambertian{});
+    open.add(Quad{}, white);
+    open.add(Triangle{{0, 0, 2}, {0, 1, 2}, {1, 0, 2}}, white);
+    open.add(Triangle{{9, 9, 9}, {9, 10, 9}, {9, 9, 10}}, white);
+    CHECK(refusal([&] {
+              (void)make_form_factors(open, make_patches(open, {.size = 9}),
+                                      {.closed = true});
+          }).starts_with("closed is 1; it must be false"));
+}
+
+TEST_CASE("form_factors: what stands between") {
+    // A screen at half height covers a part of the way from the floor to the ceiling.
+    const auto share = [](double width) {
+        Stage<double> stage;
+        using V = Vec3T<double>;
+        const auto white = stage.add(LambertianT<double>{});
+        stage.add(QuadT<double>{V(0), {1, 0, 0}, {0, 1, 0}}, white);
+        stage.add(QuadT<double>{{0, 0, 1}, {0, 1, 0}, {1, 0, 0}}, white);
+        if (width > 0)
+            stage.add(QuadT<double>{{-5, -5, 0.5}, {5 + width, 0, 0}, {0, 10, 0}},
+                      stage.add(MirrorT<double>{}));
+        const Patches all = make_patches(stage, {.size = 1});
+        CHECK(all.convex == (width <= 0));
+        const auto factors = make_form_factors(stage, all, {.shadow_rays = 4000});
+        const auto rays =
+            make_form_factors(stage, all, {.analytic = false, .rays = 20000});
+        CHECK((*rays)(0, 1) == doctest::Approx((*factors)(0, 1)).epsilon(0.03));
+        return (*factors)(0, 1) / form_factor_facing(1, 1, 1);
+    };
+    CHECK(share(0) == doctest::Approx(1).epsilon(1e-12));
+    CHECK(share(1) == 0);
+    // By symmetry; 4000 rays know it to 1 %, and the seed is fixed.
+    CHECK(share(0.5) == doctest::Approx(0.5).epsilon(0.03));
+}
+
+TEST_CASE("form_factors: within a ball each patch sees all alike") {
+    const auto furnace = sphere_furnace<double>(RgbT<double>(1), RgbT<double>(0.5));
+    const Patches all = make_patches(furnace.scene, {.size = 1});
+    const auto factors = make_form_factors(furnace.scene, all, {.rays = 4000});
+    const double right = 1.0 / double(all.patches.size());
+    for (std::size_t i = 0; i < factors->size(); ++i)
+        for (std::size_t j = 0; j < factors->size(); ++j) // itself among them: hollow
+            CHECK(std::abs((*factors)(i, j) - right) < 5 * std::sqrt(right / 4000));
+    // Against a floor, a ball and rays in float: Howell's C-39 for a ball above the
+    // middle of a square floor is F = 4 / (4 pi) asin(1 / (1 + h^2)) from the ball.
+    Stage<float> stage;
+    const auto white = stage.add(Lambertian{});
+    stage.add(Quad{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}}, white);
+    stage.add(Sphere{.center{0, 0, 2}, .radius = 0.5f}, white);
+    const Patches two = make_patches(stage, {.size = 1});
+    const auto mixed = make_form_factors(stage, two, {.rays = 2000});
+    double sum = 0, ball = 0;
+    for (std::size_t i = 4; i < two.patches.size(); ++i) {
+        for (std::size_t j = 0; j < 4; ++j) sum += mixed->row(i)[j];
+        ball += two.patches[i].area;
+        CHECK((*mixed)(i, i) == 0);
+    }
+    CHECK(ball == doctest::Approx(std::numbers::pi));
+    const double c39 = std::asin(1 / (1 + 4.0)) / std::numbers::pi;
+    CHECK(sum / ball == doctest::Approx(c39).epsilon(0.03));
+}

@@ -1,0 +1,250 @@
+/// \file sampling_pattern_test.cpp
+/// \brief Four ways to spread the rays of a pixel: as many points as asked for, each of
+/// them uniform, and an error that falls as theory has it.
+///
+/// Statistical tests have a false-alarm rate of one in a million each, and are the same
+/// at every run.
+
+#include "ljus/scene/sampling_pattern.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "support/numbers.hpp"
+
+using namespace ljus;
+using ljus_test::chi_square;
+using ljus_test::chi_square_limit;
+
+namespace {
+
+constexpr Sampling all[] = {Sampling::random, Sampling::jittered,
+                            Sampling::multi_jittered, Sampling::sobol};
+
+/// The share of the unit square on one side of a line, by clipping its corners: nothing
+/// of what is tested.
+double share_below(double c, double s, double offset) {
+    const std::array<glm::dvec2, 4> corners{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+    const auto side = [&](const glm::dvec2& p) {
+        return (p.x - 0.5) * c + (p.y - 0.5) * s - offset;
+    };
+    std::vector<glm::dvec2> kept;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const glm::dvec2 a = corners[i], b = corners[(i + 1) % 4];
+        const double fa = side(a), fb = side(b);
+        if (fa < 0) kept.push_back(a);
+        if ((fa < 0) != (fb < 0)) kept.push_back(a + fa / (fa - fb) * (b - a));
+    }
+    double area = 0;
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        const glm::dvec2 a = kept[i], b = kept[(i + 1) % kept.size()];
+        area += (a.x * b.y - a.y * b.x) / 2;
+    }
+    return area;
+}
+
+/// The rms errors of the mean over a pixel: of what is smooth, and of edges that cross
+/// it in all directions.
+struct Errors {
+    double smooth = 0, edge = 0;
+};
+
+Errors errors(Sampling sampling, int count, int keys = 400) {
+    const Pattern pattern = make_pattern(sampling, count);
+    const double exact = (std::numbers::e - 1) / 2 + 0.25; // of e^x y + x y
+    Errors sum;
+    for (std::uint64_t key = 0; key < std::uint64_t(keys); ++key) {
+        RandomStream stream = random_stream(5, Pass::user, 0, key);
+        const double angle = 2 * std::numbers::pi * next_1d<double>(stream);
+        const double offset = 0.6 * (next_1d<double>(stream) - 0.5);
+        const double c = std::cos(angle), s = std::sin(angle);
+        double smooth = 0, below = 0;
+        for (int i = 0; i < count; ++i) {
+            const Vec2T<double> p = spread(pattern, i, key, next_2d<double>(stream));
+            smooth += (std::exp(p.x) + p.x) * p.y;
+            below += (p.x - 0.5) * c + (p.y - 0.5) * s < offset;
+        }
+        sum.smooth += std::pow(smooth / count - exact, 2) / keys;
+        sum.edge += std::pow(below / count - share_below(c, s, offset), 2) / keys;
+    }
+    return {std::sqrt(sum.smooth), std::sqrt(sum.edge)};
+}
+
+/// The exponents of n by which the errors fall, by least squares.
+Errors slopes(Sampling sampling, const std::vector<int>& counts) {
+    double n = 0, x = 0, xx = 0;
+    glm::dvec2 y(0), xy(0);
+    for (const int count : counts) {
+        const Errors e = errors(sampling, count);
+        const double lx = std::log(double(count));
+        const glm::dvec2 ly(std::log(e.smooth), std::log(e.edge));
+        n += 1, x += lx, xx += lx * lx, y += ly, xy += lx * ly;
+    }
+    const glm::dvec2 slope = (n * xy - x * y) / (n * xx - x * x);
+    return {slope.x, slope.y};
+}
+
+} // namespace
+
+TEST_CASE_TEMPLATE("sampling_pattern: any count has its points, within the pixel", T,
+                   float, double) {
+    for (const int count : {1, 2, 3, 7, 8, 10, 13, 97, 100, 1000, 1009, 99991, 100000})
+        for (const Sampling sampling : all) {
+            const Pattern pattern = make_pattern(sampling, count);
+            CHECK(pattern.points == count);
+            bool inside = true;
+            for (int i = 0; i < count; ++i)
+                for (const T corner :
+                     {T(0), T(1) - std::numeric_limits<T>::epsilon()}) {
+                    const Vec2T<T> p = spread(pattern, i, 9, Vec2T<T>{corner});
+                    inside = inside && p.x >= 0 && p.y >= 0 && p.x <= 1 && p.y <= 1;
+                }
+            CAPTURE(count);
+            CHECK(inside);
+        }
+}
+
+TEST_CASE("sampling_pattern: multi-jittered, each count: one point in each of n rows, "
+          "no two in one of the columns' parts, and a grid of cells") {
+    for (int count = 1; count <= 400; ++count) {
+        const Pattern pattern = make_pattern(Sampling::multi_jittered, count);
+        const int m = pattern.strata.columns, n = pattern.strata.rows;
+        CAPTURE(count);
+        REQUIRE((m * m <= count && (m + 1) * (m + 1) > count)); // as square as can be
+        REQUIRE((m * n >= count && m * (n - 1) < count));
+        std::vector<int> fine_x(static_cast<std::size_t>(m * n)),
+            fine_y(static_cast<std::size_t>(count)), cells(fine_x.size());
+        for (int i = 0; i < count; ++i) {
+            const auto p = spread(pattern, i, 42, Vec2T<double>{0.5});
+            ++fine_x[std::size_t(p.x * m * n)];
+            ++fine_y[std::size_t(p.y * count)];
+            ++cells[std::size_t(int(p.y * count) / m * m + int(p.x * m))];
+        }
+        REQUIRE(*std::max_element(fine_x.begin(), fine_x.end()) == 1);
+        REQUIRE(*std::min_element(fine_y.begin(), fine_y.end()) == 1);
+        REQUIRE(*std::max_element(cells.begin(), cells.end()) == 1);
+    }
+}
+
+TEST_CASE(
+    "sampling_pattern: Sobol, the first n of 2^k points: at most one in each cell "
+    "of each dyadic grid") {
+    for (const int count : {1, 2, 5, 16, 61, 64, 100, 128})
+        for (const std::uint64_t key : {0u, 1u, 77u}) {
+            int k = 0;
+            while (1 << k < count) ++k;
+            const Pattern pattern = make_pattern(Sampling::sobol, count);
+            for (int a = 0; a <= k; ++a) {
+                std::vector<int> cells(std::size_t(1) << k);
+                for (int i = 0; i < count; ++i) {
+                    const auto p = spread(pattern, i, key, Vec2T<double>{0});
+                    ++cells[(std::size_t(std::ldexp(p.x, a)) << (k - a)) +
+                            std::size_t(std::ldexp(p.y, k - a))];
+                }
+                CHECK(*std::max_element(cells.begin(), cells.end()) == 1);
+            }
+        }
+}
+
+TEST_CASE("sampling_pattern: each point is uniform over the pixels, and all together") {
+    for (const Sampling sampling : all)
+        for (const int count : {1, 5, 7, 16}) {
+            const Pattern pattern = make_pattern(sampling, count);
+            std::vector<int> together(400), last(400);
+            for (std::uint64_t key = 0; key < 40000; ++key) {
+                RandomStream stream = random_stream(1, Pass::user, 0, key);
+                for (int i = 0; i < count; ++i) {
+                    const Vec2 p = spread(pattern, i, key, next_2d(stream));
+                    const int x = std::min(19, int(p.x * 20)),
+                              y = std::min(19, int(p.y * 20));
+                    ++together[std::size_t(20 * y + x)];
+                    // One point of Sobol alone is uniform. One of a multi-jittered
+                    // pattern has its row; in x it has no home.
+                    const bool sobol = sampling == Sampling::sobol;
+                    if (i == count - 1)
+                        ++last[std::size_t(20 * (sobol ? y : int(key % 20)) + x)];
+                }
+            }
+            CAPTURE(count);
+            CAPTURE(int(sampling));
+            CHECK(chi_square(together) < chi_square_limit(399));
+            if (sampling != Sampling::jittered)
+                CHECK(chi_square(last) < chi_square_limit(399));
+        }
+}
+
+TEST_CASE("sampling_pattern: neighbouring pixels do not repeat each other") {
+    for (std::uint64_t key = 0; key < 1000; ++key) {
+        const auto here = scrambled_sobol<double>(0, key);
+        const auto there = scrambled_sobol<double>(0, key + 1);
+        CHECK(here.x != there.x);
+        CHECK(here.y != there.x);
+        CHECK(here.x != here.y);
+    }
+    // The errors of two neighbours are as often of equal as of opposite sign: 4000
+    // coins, 5 standard errors.
+    for (const Sampling sampling : all) {
+        const Pattern pattern = make_pattern(sampling, 13);
+        int equal = 0;
+        double before = 0;
+        for (std::uint64_t key = 0; key <= 4000; ++key) {
+            RandomStream stream = random_stream(2, Pass::user, 0, key);
+            double sum = -13.0 / 4; // the mean of a product is 1/4
+            for (int i = 0; i < 13; ++i) {
+                const auto p = spread(pattern, i, key, next_2d<double>(stream));
+                sum += p.x * p.y;
+            }
+            equal += sum * before > 0;
+            before = sum;
+        }
+        CAPTURE(int(sampling));
+        CHECK(std::abs(equal - 2000) < 5 * 32);
+    }
+}
+
+TEST_CASE("sampling_pattern: the error falls as theory has it, where light is smooth "
+          "and at edges") {
+    const std::vector<int> squares{16, 64, 256, 1024};
+    const auto near = [](double value, double exponent) {
+        return std::abs(value - exponent) < 0.08;
+    };
+    const Errors chance = slopes(Sampling::random, squares);
+    CHECK(near(chance.smooth, -0.5));
+    CHECK(near(chance.edge, -0.5));
+    const Errors jittered = slopes(Sampling::jittered, squares);
+    CHECK(near(jittered.smooth, -1));
+    CHECK(near(jittered.edge, -0.75));
+    const Errors kensler = slopes(Sampling::multi_jittered, squares);
+    CHECK(kensler.smooth < -0.7);
+    CHECK(near(kensler.edge, -0.75));
+    const Errors sobol = slopes(Sampling::sobol, squares);
+    CHECK(sobol.smooth < -1.35);
+    CHECK(near(sobol.edge, -0.75));
+}
+
+TEST_CASE("sampling_pattern: primes do as well as squares; rooks do not") {
+    const Errors square = errors(Sampling::multi_jittered, 256);
+    const Errors prime = errors(Sampling::multi_jittered, 257);
+    CHECK(prime.smooth < 1.3 * square.smooth);
+    CHECK(prime.edge < 1.15 * square.edge);
+    CHECK(errors(Sampling::sobol, 257).edge < 1.3 * square.edge);
+    const Errors rooks = errors(Sampling::jittered, 257);
+    CHECK(rooks.smooth > 2 * prime.smooth);
+    CHECK(rooks.edge > 2 * prime.edge);
+}
+
+TEST_CASE("sampling_pattern: at an edge the default is the best of the four") {
+    for (const int count : {4, 7, 16, 61, 64, 97, 100, 256})
+        for (const Sampling other :
+             {Sampling::random, Sampling::jittered, Sampling::sobol}) {
+            CAPTURE(count);
+            CAPTURE(int(other));
+            CHECK(errors(Pattern{}.sampling, count, 1000).edge <
+                  1.03 * errors(other, count, 1000).edge);
+        }
+}

@@ -1,0 +1,309 @@
+// All renderers on one scene: what they all carry is the same light. Comparisons of random
+// numbers are at 4 standard errors: about 60 of them, of which fresh seeds would fail one
+// in 250 runs. What is biased has its bias stated beside it.
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "common/convergence.hpp"
+#include "ljus/render/class_means.hpp"
+#include "ljus/render/distributed.hpp"
+#include "ljus/render/path_tracing.hpp"
+#include "ljus/render/photon_mapping.hpp"
+#include "ljus/render/radiosity.hpp"
+#include "ljus/render/whitted.hpp"
+#include "ljus/scene/cornell_box.hpp"
+#include "support/mean.hpp"
+
+using namespace ljus;
+using ljus_test::Mean;
+using Cornell = CornellSceneT<float>;
+
+namespace {
+
+constexpr int blocks_a_side = 2;
+
+Picture picture(std::uint64_t seed, int rays) {
+    return {.width = 10 * blocks_a_side,
+            .height = 10 * blocks_a_side,
+            .rays = rays,
+            .seed = seed,
+            .threads = 1};
+}
+
+/// The means of the blocks of pictures, green, over some seeds.
+template <typename MakeImage>
+std::vector<Mean> blocks(int seeds, MakeImage make) {
+    std::vector<Mean> means(std::size_t(blocks_a_side * blocks_a_side));
+    for (int seed = 1; seed <= seeds; ++seed) {
+        const auto image = block_means(make(std::uint64_t(seed)));
+        for (std::size_t i = 0; i < means.size(); ++i) means[i].add(image.pixels[i].y);
+    }
+    return means;
+}
+
+/// Blocks of two renderers: nearer than 4 standard errors and a stated bias, relative.
+void same(const std::vector<Mean>& a, const std::vector<Mean>& b, double bias) {
+    double worst = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const double error = std::hypot(a[i].error(), b[i].error());
+        const double off = std::abs(a[i].mean - b[i].mean);
+        CAPTURE(i);
+        CAPTURE(a[i].mean);
+        CAPTURE(b[i].mean);
+        CAPTURE(error);
+        CHECK(off < 4 * error + bias * b[i].mean);
+        CHECK(4 * error < 0.03 * b[i].mean); // it is a comparison
+        worst = std::max(worst, off / b[i].mean);
+    }
+    MESSAGE("largest relative difference of a block ", worst, ", allowed bias ", bias);
+}
+
+/// A table below a lamp so small that its middle stands for it. All is flat: rays from
+/// patches of a ball would hardly ever meet such a lamp.
+Cornell small_lamp_box() {
+    Cornell scene;
+    add_cornell_walls(scene);
+    const auto matt = scene.add(Lambertian{.albedo = Rgb{0.7f}});
+    scene.add(Quad{{-0.3f, 0.5f, -0.3f}, {0, 0, 0.6f}, {0.6f, 0, 0}}, matt); // a table
+    const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
+    scene.add(Quad{{-0.02f, 1.9f, -0.02f}, {0.04f, 0, 0}, {0, 0, 0.04f}}, black,
+              Rgb{2000});
+    return scene;
+}
+
+PhotonMapping mapping(IndirectLight indirect, std::uint64_t seed, float radius) {
+    PhotonMapping settings{.indirect = indirect};
+    settings.general = {.photons = 20000, .seed = seed, .threads = 1};
+    settings.caustics = {.photons = 20000, .seed = seed, .threads = 1};
+    settings.gather_general.radius = radius;
+    settings.gather_caustics.radius = 0.08f;
+    return settings;
+}
+
+} // namespace
+
+TEST_CASE("side_by_side: direct light of a small lamp, by all renderers") {
+    const Cornell scene = small_lamp_box();
+    const Camera camera = cornell_camera();
+    constexpr std::array direct{path_class("EDL")};
+    const auto of = [&](const auto& renderer, std::uint64_t seed) {
+        return class_means(renderer, camera, picture(seed, 4), direct)[0].y;
+    };
+    const auto mean_of = [&](const auto& renderer) {
+        Mean mean;
+        for (std::uint64_t seed = 1; seed <= 8; ++seed) mean.add(of(renderer, seed));
+        return mean;
+    };
+    const Mean truth = mean_of(make_path_tracer(scene));
+    const auto close = [&](const std::string& name, const Mean& mean, double bias) {
+        CAPTURE(name);
+        CAPTURE(mean.mean);
+        CAPTURE(truth.mean);
+        const double error = std::hypot(mean.error(), truth.error());
+        CHECK(4 * error < 0.03 * truth.mean);
+        CHECK(std::abs(mean.mean - truth.mean) < 4 * error + bias * truth.mean);
+    };
+    // The middle of a lamp of size 0.04 at distance 1 or so: (0.04)^2 is what it misses.
+    close("Whitted", mean_of(make_whitted(scene)), 0.002);
+    close("distributed rays", mean_of(make_distributed(scene)), 0);
+    for (const auto indirect :
+         {IndirectLight::rays, IndirectLight::map, IndirectLight::photons}) {
+        const auto settings = mapping(indirect, 1, 0.3f);
+        const auto maps = make_photon_maps(scene, settings);
+        close("photon mapping", mean_of(make_photon_mapper(scene, maps, settings)), 0);
+    }
+    // Radiosity: what the lamp's patches send, received by patches of 0.25, not blended.
+    const Patches patches = make_patches(scene, {.size = 0.25});
+    const auto factors = make_form_factors(scene, patches, {.threads = 1});
+    std::vector<RgbT<double>> lamp;
+    for (const Patch& patch : patches.patches) lamp.push_back(patch.emitted);
+    const auto view = make_light_map_view(
+        scene, make_light_map(scene, patches, *factors, lamp), {.smooth = false});
+    close("radiosity", mean_of(view), 0.02);
+}
+
+TEST_CASE("side_by_side: the matt room, by all renderers that carry its light") {
+    const auto room = matt_cornell_box();
+    const auto image = [&](const auto& renderer, std::uint64_t seed, int rays) {
+        // But for the lamp itself, whose edge in the picture is the largest noise.
+        return render(only(renderer, "ED.*L"), room.camera, picture(seed, rays)).image;
+    };
+    const auto tracer = make_path_tracer(room.scene);
+    const auto truth = blocks(12, [&](auto seed) { return image(tracer, seed, 32); });
+    const auto mapped = [&](IndirectLight indirect, float radius, int rays) {
+        return blocks(12, [&](std::uint64_t seed) {
+            const auto settings = mapping(indirect, seed + 20, radius);
+            const auto maps = make_photon_maps(room.scene, settings);
+            return image(make_photon_mapper(room.scene, maps, settings), seed + 20,
+                         rays);
+        });
+    };
+    SUBCASE("indirect rays on and on: no bias") {
+        same(mapped(IndirectLight::rays, 0.2f, 32), truth, 0);
+    }
+    SUBCASE("the map behind a bounce: 2 %") {
+        same(mapped(IndirectLight::map, 0.2f, 16), truth, 0.02);
+    }
+    SUBCASE("the map seen directly: 4 %, dark at edges") {
+        const auto seen = mapped(IndirectLight::photons, 0.2f, 8);
+        same(seen, truth, 0.04);
+        double all = 0, right = 0;
+        for (std::size_t i = 0; i < seen.size(); ++i) {
+            all += seen[i].mean;
+            right += truth[i].mean;
+        }
+        CHECK(all < 0.995 * right); // a disc reaches over the edge of a wall
+    }
+    SUBCASE("radiosity: 2 % with patches of 0.25") {
+        const auto all = make_radiosity(
+            room.scene, {.patches = {.size = 0.25},
+                         .factors = {.analytic = false, .rays = 512, .threads = 1}});
+        const auto view = make_light_map_view(room.scene, all->map, {.smooth = false});
+        same(blocks(4, [&](auto seed) { return image(view, seed, 16); }), truth, 0.02);
+    }
+    SUBCASE("what Whitted and distributed rays leave out") {
+        for (const auto& seen :
+             {blocks(2, [&](auto s) { return image(make_whitted(room.scene), s, 8); }),
+              blocks(2, [&](auto s) {
+                  return image(make_distributed(room.scene), s, 8);
+              })})
+            for (std::size_t i = 0; i < seen.size(); ++i)
+                CHECK(seen[i].mean < 0.9 * truth[i].mean);
+    }
+}
+
+TEST_CASE("side_by_side: classes are measured, and add up to the picture") {
+    const auto room = cornell_box();
+    constexpr std::array classes{path_class("ES*L"),       path_class("EDL"),
+                                 path_class("ES+DL"),      path_class("ES*DS+L"),
+                                 path_class("E.*D.*D.*L"), path_class("E.*L")};
+    const Picture one = picture(5, 4);
+    const auto means = [&](const auto& renderer) {
+        const auto sums = class_means(renderer, room.camera, one, classes);
+        RgbT<double> parts(0);
+        for (std::size_t i = 0; i + 1 < sums.size(); ++i) parts += sums[i];
+        const auto picture = render(renderer, room.camera, one).image;
+        const auto whole = block_means(picture, one.width).pixels[0];
+        for (int c = 0; c < 3; ++c) {
+            CHECK(parts[c] == doctest::Approx(sums.back()[c]).epsilon(1e-6));
+            CHECK(parts[c] == doctest::Approx(whole[c]).epsilon(1e-4));
+        }
+        return sums;
+    };
+    const auto carries = [](const std::vector<RgbT<double>>& sums) {
+        std::string result;
+        for (std::size_t i = 0; i + 1 < sums.size(); ++i)
+            result += sums[i].y > 0 ? '1' : '0';
+        return result;
+    };
+    CHECK(carries(means(make_whitted(room.scene))) == "11100");
+    CHECK(carries(means(make_distributed(room.scene))) == "11100");
+    CHECK(carries(means(make_path_tracer(room.scene))) == "11111");
+    for (const auto indirect : {IndirectLight::map, IndirectLight::photons}) {
+        const auto settings = mapping(indirect, 1, 0.2f);
+        const auto maps = make_photon_maps(room.scene, settings);
+        CHECK(carries(means(make_photon_mapper(room.scene, maps, settings))) ==
+              "11111");
+    }
+    const auto all = make_radiosity(
+        room.scene, {.patches = {.size = 0.5},
+                     .factors = {.analytic = false, .rays = 64, .threads = 1}});
+    // A light map answers for E D+ L at once; its shortest path is E D L.
+    CHECK(carries(means(make_light_map_view(room.scene, all->map))) == "11000");
+
+    // The same for any number of threads; and a picture that cannot be is refused.
+    Picture threads = one;
+    threads.threads = 3;
+    const auto tracer = make_path_tracer(room.scene);
+    CHECK(class_means(tracer, room.camera, one, classes) ==
+          class_means(tracer, room.camera, threads, classes));
+    threads.rays = 0;
+    CHECK_THROWS_AS((void)class_means(tracer, room.camera, threads, classes),
+                    std::invalid_argument);
+}
+
+TEST_CASE("side_by_side: what maps hold does not know who looks") {
+    // A point of the floor from five sides: the light that the map and the patches
+    // answer for is the same, to the rounding of the point.
+    const auto room = matt_cornell_box();
+    const auto settings = mapping(IndirectLight::photons, 1, 0.3f);
+    const auto maps = make_photon_maps(room.scene, settings);
+    const auto mapper =
+        only(make_photon_mapper(room.scene, maps, settings), "ES*D.*DL");
+    const auto solved = make_radiosity(
+        room.scene, {.patches = {.size = 0.5},
+                     .factors = {.analytic = false, .rays = 64, .threads = 1}});
+    const auto view = make_light_map_view(room.scene, solved->map);
+    const Vec3 point{-0.3f, 0, 0.6f}; // no ball is in the way
+    double first_map = 0, first_patch = 0;
+    for (int side = 0; side < 5; ++side) {
+        const Vec3 eye{-0.8f + 0.4f * float(side), 1.5f, 0.95f};
+        const Ray ray{.origin = eye, .direction = glm::normalize(point - eye)};
+        auto stream = random_stream(1, Pass::camera, 0, std::uint64_t(side));
+        Counts counts;
+        const double of_map = double(radiance(mapper, ray, stream, counts).x);
+        const double of_patch = double(radiance(view, ray, stream, counts).x);
+        if (side == 0) {
+            first_map = of_map;
+            first_patch = of_patch;
+        }
+        CHECK(of_map > 0);
+        CHECK(of_map == doctest::Approx(first_map).epsilon(1e-4));
+        CHECK(of_patch == doctest::Approx(first_patch).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("side_by_side: slopes, and when an error is reached") {
+    using examples::fit_power;
+    using examples::reach;
+    const std::vector<double> x{1, 2, 4, 8};
+    std::vector<double> y;
+    for (const double at : x) y.push_back(3 / std::sqrt(at));
+    CHECK(fit_power(x, y).slope == doctest::Approx(-0.5).epsilon(1e-12));
+    CHECK(fit_power(x, y).error < 1e-7);
+    // By hand: ln y = 0, 1, 1 at ln x = -1, 0, 1: slope 1/2, off the line by 1/6, so
+    // that its error is sqrt((1/6) / (3 - 2) / 2).
+    const double e = std::exp(1.0);
+    const auto bent = fit_power({1 / e, 1, e}, {1, e, e});
+    CHECK(bent.slope == doctest::Approx(0.5).epsilon(1e-12));
+    CHECK(bent.error == doctest::Approx(std::sqrt(1.0 / 12)).epsilon(1e-9));
+    CHECK(std::isnan(fit_power({1, 2}, {1, 2}).error));
+    CHECK(std::isnan(fit_power({1, 2}, {1, -2}).slope));
+
+    CHECK(reach(x, y, 3 / std::sqrt(3.0)) == doctest::Approx(3).epsilon(1e-12));
+    CHECK(reach(x, y, 5) == 1);
+    CHECK(std::isnan(reach(x, y, 1)));
+}
+
+TEST_CASE("side_by_side: bias and noise of known sizes add up to relMSE") {
+    // Pictures that are 10 % too bright, and carry noise of 20 %.
+    ImageT<double> truth{20, 20, std::vector<RgbT<double>>(400, RgbT<double>(2, 1, 3))};
+    std::vector<Image> runs;
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        Image run{20, 20, {}};
+        for (std::uint64_t i = 0; i < 400; ++i) {
+            auto stream = random_stream(seed, Pass::user, 0, i);
+            const float noise =
+                0.2f * std::sqrt(12.0f) * (next_1d<float>(stream) - 0.5f);
+            run.pixels.push_back(Rgb(truth.pixels[i]) * (1.1f + noise));
+        }
+        runs.push_back(run);
+    }
+    const auto split = examples::relative_split(runs, truth);
+    CHECK(split.bias_squared == doctest::Approx(0.01).epsilon(0.03));
+    CHECK(split.variance == doctest::Approx(0.04).epsilon(0.03));
+    double mean = 0;
+    for (const Image& run : runs) mean += rel_mse(run, truth) / 40;
+    CHECK(split.bias_squared + split.variance == doctest::Approx(mean).epsilon(1e-9));
+    // In blocks of 10 x 10 noise has a hundredth of its variance, bias all of it.
+    const auto broad = examples::relative_split(runs, truth, 0, 10);
+    CHECK(broad.bias_squared == doctest::Approx(0.01).epsilon(0.1));
+    CHECK(broad.variance == doctest::Approx(0.0004).epsilon(0.3));
+    // The noise of a reference is none of the renderer's bias.
+    CHECK(examples::relative_split(runs, truth, 0.004).bias_squared ==
+          doctest::Approx(split.bias_squared - 0.004));
+}

@@ -1,0 +1,436 @@
+// Whitted's ray tracing against optics on paper: a ball over a checkered floor under a
+// point light. The paper knows nothing of the library's functions: textbook quadratic,
+// Snell by angles, and a ray in a ball of glass as a fan of chords in one plane.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "ljus/materials/glass.hpp"
+#include "ljus/materials/lambertian.hpp"
+#include "ljus/materials/mirror.hpp"
+#include "ljus/materials/texture.hpp"
+#include "ljus/materials/textured.hpp"
+#include "ljus/render/render.hpp"
+#include "ljus/render/whitted.hpp"
+#include "support/mean.hpp"
+
+using namespace ljus;
+using ljus_test::apart;
+using ljus_test::mean_radiance;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+using D3 = glm::dvec3;
+
+// --- The scene -------------------------------------------------------------------------
+template <typename T>
+using Floor = Textured<LambertianT<T>, CheckerT<T>>;
+
+template <typename T>
+using BallScene = Scene<Shapes<SphereT<T>, QuadT<T>>,
+                        Materials<MirrorT<T>, GlassT<T>, LambertianT<T>, Floor<T>>>;
+
+const D3 ball_center{0.3, 1.25, -0.2}, light_place{-3, 6, 4};
+constexpr double ball_radius = 1, light_intensity = 100, half_floor = 20;
+constexpr double even = 0.8, odd = 0.2, glass_index = 1.5, mirror_share = 0.9;
+
+template <typename T, typename Material>
+BallScene<T> ball_scene(const Material& material) {
+    BallScene<T> scene;
+    const T h = T(half_floor);
+    const auto floor =
+        scene.add(Floor<T>{{.albedo = RgbT<T>{T(1)}},
+                           {.map{.edge_u{T(2), T(0), T(0)}, .edge_v{T(0), T(0), T(2)}},
+                            .even = RgbT<T>{T(even)},
+                            .odd = RgbT<T>{T(odd)}}});
+    scene.add(QuadT<T>{{-h, T(0), h}, {2 * h, T(0), T(0)}, {T(0), T(0), -2 * h}},
+              floor);
+    scene.add(SphereT<T>{.center = Vec3T<T>(ball_center), .radius = T(ball_radius)},
+              scene.add(material));
+    scene.add(PointLightT<T>{.position = Vec3T<T>(light_place),
+                             .intensity = RgbT<T>{T(light_intensity)}});
+    return scene;
+}
+
+template <typename T>
+CameraT<T> camera() {
+    return look_at<T>({.position{T(1), T(2.6), T(6)},
+                       .target{T(0.2), T(0.9), T(0)},
+                       .vfov_degrees = T(40)});
+}
+
+// --- The paper -------------------------------------------------------------------------
+// What decides on a pixel, as text; where it changes, there is an edge.
+struct Paper {
+    double radiance = 0;
+    std::string edges;
+};
+
+/// Whether the ball is within the way from a to b.
+bool ball_between(const D3& a, const D3& b) {
+    const D3 way = b - a;
+    double s = glm::dot(ball_center - a, way) / glm::dot(way, way);
+    s = std::min(1.0, std::max(0.0, s));
+    return glm::length(a + s * way - ball_center) < ball_radius;
+}
+
+/// The floor's light along a ray that does not meet the ball.
+double floor_light(const D3& o, const D3& d, Paper& paper) {
+    if (!(d.y < 0)) return paper.edges += "sky;", 0;
+    const D3 p = o - o.y / d.y * d;
+    if (std::abs(p.x) > half_floor || std::abs(p.z) > half_floor)
+        return paper.edges += "beyond;", 0;
+    const double i = std::floor(p.x), k = std::floor(p.z);
+    paper.edges += std::to_string(i) + "," + std::to_string(k);
+    if (ball_between(p, light_place)) return paper.edges += " shadow;", 0;
+    const D3 way = light_place - p;
+    const double r2 = glm::dot(way, way);
+    const double albedo = std::fmod(std::abs(i + k), 2.0) < 0.5 ? even : odd;
+    return albedo / pi * light_intensity * (way.y / std::sqrt(r2)) / r2;
+}
+
+/// The unpolarised share that is reflected, by angles.
+double fresnel_by_angles(double i, double t) {
+    const double s = std::sin(i - t) / std::sin(i + t);
+    const double p = std::tan(i - t) / std::tan(i + t);
+    return (s * s + p * p) / 2;
+}
+
+/// The light along a primary ray after at most `depth` turns.
+Paper on_paper(const D3& o, const D3& d, bool glass, int depth) {
+    Paper paper;
+    const double b = glm::dot(o - ball_center, d);
+    const double c = glm::dot(o - ball_center, o - ball_center) - 1;
+    if (b * b - c < 0) {
+        paper.radiance = floor_light(o, d, paper);
+        return paper;
+    }
+    paper.edges = "ball;";
+    const double t = -b - std::sqrt(b * b - c);
+    const D3 n = o + t * d - ball_center; // of length 1
+    const double cosine = -glm::dot(d, n);
+    const D3 mirrored = d + 2 * cosine * n;
+    if (!glass) {
+        if (depth >= 1)
+            paper.radiance =
+                mirror_share * floor_light(ball_center + n, mirrored, paper);
+        return paper;
+    }
+    // In the plane of n and d: e lies along the surface.
+    const D3 e = glm::normalize(d + cosine * n);
+    const double in = std::acos(cosine), turned = std::asin(std::sin(in) / glass_index);
+    const double f = fresnel_by_angles(in, turned);
+    if (depth >= 1) paper.radiance = f * floor_light(ball_center + n, mirrored, paper);
+    // Each chord moves the point by pi - 2 turned around the centre; what leaves there
+    // makes the angle `in` with the new normal.
+    double share = (1 - f) * (1 - f);
+    for (int chord = 1; chord + 1 <= depth; ++chord, share *= f) {
+        const double around = chord * (pi - 2 * turned);
+        const D3 normal = std::cos(around) * n + std::sin(around) * e;
+        const D3 along = -std::sin(around) * n + std::cos(around) * e;
+        const D3 out = std::cos(in) * normal + std::sin(in) * along;
+        paper.radiance += share * floor_light(ball_center + normal, out, paper);
+    }
+    return paper;
+}
+
+struct Worst {
+    int pixels = 0;    ///< Compared.
+    int on_ball = 0;   ///< Of them.
+    int left_out = 0;  ///< Too close to an edge.
+    double error = 0;  ///< Largest absolute one; the brightest pixel is about 2.
+    double beyond = 0; ///< Share of the pixels with an error above 1e-5.
+};
+
+/// Compares pixels all over the picture with the paper.
+template <typename T, typename Material>
+Worst compare(const Material& material, bool glass, int depth, double margin) {
+    constexpr int size = 38;
+    const auto scene = ball_scene<T>(material);
+    const auto tracer = make_whitted(scene, {.max_depth = depth});
+    const CameraT<T> in_t = camera<T>();
+    const CameraT<double> exact = camera<double>();
+    Worst worst;
+    Counts counts;
+    RandomStream stream;
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) {
+            const glm::dvec2 at{x + 0.5, y + 0.5};
+            const auto paper = [&](double dx, double dy) {
+                const auto ray =
+                    primary_ray(exact, at + glm::dvec2{dx, dy}, size, size);
+                return on_paper(ray.origin, ray.direction, glass, depth);
+            };
+            const Paper right = paper(0, 0);
+            bool edge = false;
+            for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
+                edge = edge || paper(margin * dx, margin * dy).edges != right.edges;
+            if (edge) {
+                ++worst.left_out;
+                continue;
+            }
+            const auto ray = primary_ray(in_t, Vec2T<T>(at), size, size);
+            const auto seen = radiance(tracer, ray, stream, counts);
+            const double error = std::abs(double(seen.x) - right.radiance);
+            worst.error = std::max(worst.error, error);
+            worst.beyond += error > 1e-5;
+            ++worst.pixels;
+            worst.on_ball += right.edges.starts_with("ball");
+        }
+    worst.beyond /= worst.pixels;
+    return worst;
+}
+
+/// A ray that meets the ball off its middle.
+template <typename T>
+RayT<T> at_the_ball() {
+    const D3 from{1, 2.6, 6};
+    return {.origin = Vec3T<T>(from),
+            .direction =
+                Vec3T<T>(glm::normalize(ball_center + D3{0.4, 0.5, 0} - from))};
+}
+
+} // namespace
+
+TEST_CASE("whitted: a mirror over a checkered floor is what paper says") {
+    const Worst in_double =
+        compare<double>(MirrorT<double>{RgbT<double>{mirror_share}}, false, 5, 1e-3);
+    CAPTURE(in_double.error);
+    CAPTURE(in_double.left_out);
+    CHECK(in_double.pixels >= 1000);
+    CHECK(in_double.on_ball > 100);
+    CHECK(in_double.error < 1e-5);
+    CHECK(in_double.error < 1e-12); // seen: 3e-14
+    const Worst in_float =
+        compare<float>(Mirror{Rgb{float(mirror_share)}}, false, 5, 1e-2);
+    CAPTURE(in_float.error);
+    CAPTURE(in_float.beyond);
+    CHECK(in_float.pixels >= 1000);
+    CHECK(in_float.error < 1e-5);
+}
+
+TEST_CASE("whitted: a ball of glass over a checkered floor, depth by depth") {
+    for (const int depth : {0, 1, 2, 3, 5, 9}) {
+        CAPTURE(depth);
+        const Worst in_double =
+            compare<double>(GlassT<double>{glass_index}, true, depth, 1e-4);
+        CAPTURE(in_double.error);
+        CAPTURE(in_double.left_out);
+        CHECK(in_double.pixels >= 1000);
+        CHECK(in_double.on_ball > 90);
+        CHECK(in_double.error < 1e-5);
+        CHECK(in_double.error < 1e-11);
+    }
+    const Worst in_float = compare<float>(Glass{float(glass_index)}, true, 5, 1e-3);
+    CAPTURE(in_float.error);
+    CAPTURE(in_float.beyond);
+    CHECK(in_float.pixels >= 1000);
+    CHECK(in_float.error < 1e-5); // seen: 2.6e-6
+}
+
+TEST_CASE("whitted: one ball of glass costs 1 + 2d rays") {
+    // At each turn one of the two rays leaves for good, the other stays within.
+    const auto scene = ball_scene<double>(GlassT<double>{glass_index});
+    for (int d = 0; d <= 12; ++d) {
+        Counts counts{.camera_rays = 1};
+        RandomStream stream;
+        (void)radiance(make_whitted(scene, {.max_depth = d}), at_the_ball<double>(),
+                       stream, counts);
+        CAPTURE(d);
+        CHECK(counts.camera_rays + counts.bounce_rays == std::uint64_t(1 + 2 * d));
+    }
+}
+
+TEST_CASE("whitted: a mirror costs one ray, a matt floor none but its shadow ray") {
+    const auto scene = ball_scene<double>(MirrorT<double>{});
+    RandomStream stream;
+    Counts counts;
+    (void)radiance(make_whitted(scene), at_the_ball<double>(), stream, counts);
+    CHECK(counts.bounce_rays == 1);
+    CHECK(counts.shadow_rays == 0); // it is mirrored into the sky
+    const RayT<double> down{.origin{4, 3, 4}, .direction{0, -1, 0}};
+    counts = {};
+    (void)radiance(make_whitted(scene), down, stream, counts);
+    CHECK(counts.bounce_rays == 0);
+    CHECK(counts.shadow_rays == 1);
+    // A mirror asks no light, and without a light nobody is asked.
+    counts = {};
+    const RayT<double> up{.origin{0.3, 5, -0.2}, .direction{0, -1, 0}};
+    (void)radiance(make_whitted(scene), up, stream, counts);
+    CHECK(counts.shadow_rays == 0);
+}
+
+TEST_CASE("whitted: the tree doubles only if every ray meets glass again") {
+    // Two flat boundaries of index 1.5, one glass above, one below, and between them
+    // the gap: a ray in the gap meets glass for ever, what has left never again.
+    using Two = Scene<Shapes<QuadT<double>>, Materials<GlassT<double>>>;
+    Two gap;
+    const auto glass = gap.add(GlassT<double>{1.5});
+    gap.add(QuadT<double>{{-50, 0, 50}, {100, 0, 0}, {0, 0, -100}}, glass);
+    gap.add(QuadT<double>{{-50, 1, 50}, {0, 0, -100}, {100, 0, 0}}, glass);
+    // Nested balls: every ray within meets one of the two shells again.
+    using Shells = Scene<Shapes<SphereT<double>>, Materials<GlassT<double>>>;
+    Shells room;
+    const auto clear = room.add(GlassT<double>{1.01}); // no total reflection head on
+    for (int i = 1; i <= 12; ++i) room.add(SphereT<double>{.radius = double(i)}, clear);
+    const RayT<double> ray{.origin{0, 0.5, 0}, .direction{0.0, 1.0, 0.0}};
+    for (const int d : {1, 2, 3, 4, 5}) {
+        CAPTURE(d);
+        Counts counts{.camera_rays = 1};
+        RandomStream stream;
+        (void)radiance(make_whitted(gap, {.max_depth = d}), ray, stream, counts);
+        CHECK(counts.camera_rays + counts.bounce_rays == std::uint64_t(1 + 2 * d));
+        counts = {.camera_rays = 1};
+        (void)radiance(make_whitted(room, {.max_depth = d}), ray, stream, counts);
+        CHECK(counts.camera_rays + counts.bounce_rays ==
+              (std::uint64_t(2) << d) - 1); // 1 + 2 + 4 + ... + 2^d
+    }
+}
+
+TEST_CASE("whitted: roulette has the mean of both branches, at a ray for each turn") {
+    // 4 means within 4 standard errors: fixed seeds; new ones fail once in 4000 runs.
+    const auto scene = ball_scene<double>(GlassT<double>{glass_index});
+    for (const int depth : {2, 5}) {
+        Counts counts;
+        RandomStream stream;
+        const double both = radiance(make_whitted(scene, {.max_depth = depth}),
+                                     at_the_ball<double>(), stream, counts)
+                                .x;
+        const auto one = make_whitted(scene, {.max_depth = depth, .both_ways = false});
+        const auto seen = mean_radiance(
+            one, 20000, 5, [](RandomStream&) { return at_the_ball<double>(); });
+        CAPTURE(depth);
+        CAPTURE(both);
+        CAPTURE(seen.mean);
+        CHECK(both > 0);
+        CHECK(seen.error() > 0); // it is a lottery
+        CHECK(std::abs(apart(seen, both)) < 4);
+        counts = {};
+        (void)radiance(one, at_the_ball<double>(), stream, counts);
+        CHECK(counts.bounce_rays <= std::uint64_t(depth));
+    }
+}
+
+TEST_CASE("whitted: every path is L D? S* E, the ambient light apart") {
+    auto scene = ball_scene<float>(Glass{float(glass_index)});
+    const auto lamp = scene.add(Lambertian{.albedo = Rgb{0.5f}});
+    scene.add(Quad{{-1, 5, -1}, {2, 0, 0}, {0, 0, 2}}, lamp, Rgb{20});
+    scene.add(Sphere{.center{-2, 0.6f, 1}, .radius = 0.6f}, scene.add(Mirror{}));
+    const auto tracer = make_whitted(scene, {.max_depth = 4});
+    PathLog log;
+    Counts counts;
+    RandomStream stream;
+    std::set<std::string> kinds;
+    Rgb sum{0}, told{0};
+    for (int y = 0; y < 24; ++y)
+        for (int x = 0; x < 24; ++x) {
+            const auto ray = primary_ray(
+                camera<float>(), Vec2{float(x) + 0.5f, float(y) + 0.5f}, 24, 24);
+            sum += radiance(tracer, ray, stream, counts, log);
+        }
+    for (const PathLogLine& line : log.lines) {
+        if (line.what == "vertex") continue;
+        kinds.insert(line.path);
+        told += Rgb(line.value);
+    }
+    for (const std::string& path : kinds) {
+        CAPTURE(path);
+        const auto last_s = path.find_first_not_of('S', 1);
+        REQUIRE(last_s != std::string::npos);
+        const std::string end = path.substr(last_s);
+        CHECK((end == "L" || end == "DL"));
+        CHECK(last_s <= 5); // E and at most 4 S
+    }
+    CHECK(kinds.contains("EDL"));
+    CHECK(kinds.contains("ESSDL"));
+    CHECK(kinds.contains("ESSSSDL"));
+    CHECK(kinds.contains("ESL")); // the lamp in the mirror
+    CHECK(told.x == doctest::Approx(sum.x).epsilon(1e-5));
+}
+
+TEST_CASE("whitted: a lamp with a size lights from its middle, or is only seen") {
+    using Room =
+        Scene<Shapes<QuadT<double>, SphereT<double>>, Materials<LambertianT<double>>>;
+    const RayT<double> ray{.origin{0, 1, 0}, .direction{0, -1, 0}};
+    const auto seen = [&](const Room& room, const Whitted& settings) {
+        RandomStream stream;
+        Counts counts;
+        return radiance(make_whitted(room, settings), ray, stream, counts).x;
+    };
+    const auto floor_only = [] {
+        Room room;
+        const auto matt = room.add(LambertianT<double>{.albedo = RgbT<double>{0.5}});
+        room.add(QuadT<double>{{-9, 0, 9}, {18, 0, 0}, {0, 0, -18}}, matt);
+        return room;
+    };
+    // A square lamp of area 4 at height 3, its middle straight above: L A / r^2.
+    Room square = floor_only();
+    const auto grey = square.add(LambertianT<double>{});
+    square.add(QuadT<double>{{-1, 3, -1}, {2, 0, 0}, {0, 0, 2}}, grey, RgbT<double>{7});
+    CHECK(seen(square, {}) == doctest::Approx(0.5 / pi * 7 * 4 / 9).epsilon(1e-12));
+    CHECK(seen(square, {.lamps = false}) == 0);
+    // A ball of radius 1, 3 above: its solid angle, 2 pi (1 - cos), is all that counts.
+    Room ball = floor_only();
+    ball.add(SphereT<double>{.center{0, 3, 0}}, ball.add(LambertianT<double>{}),
+             RgbT<double>{7});
+    const double solid = 2 * pi * (1 - std::sqrt(8.0 / 9));
+    CHECK(seen(ball, {}) == doctest::Approx(0.5 / pi * 7 * solid).epsilon(1e-12));
+    // Ambient light: albedo times its radiance, beside the rest.
+    CHECK(seen(ball, {.lamps = false, .ambient = Rgb{0.25f}}) ==
+          doctest::Approx(0.125));
+    CHECK(seen(ball, {.ambient = Rgb{0.25f}}) - seen(ball, {}) ==
+          doctest::Approx(0.125));
+}
+
+TEST_CASE("whitted: what two lamps send is the sum of each") {
+    const RayT<double> ray{.origin{4, 1, 4}, .direction{0, -1, 0}};
+    const auto seen = [&](int lamps) {
+        auto scene = ball_scene<double>(MirrorT<double>{});
+        for (int i = 1; i < lamps; ++i)
+            scene.add(PointLightT<double>{.position{-3, 6, 4},
+                                          .intensity = RgbT<double>{light_intensity}});
+        RandomStream stream;
+        Counts counts;
+        return radiance(make_whitted(scene), ray, stream, counts).x;
+    };
+    CHECK(seen(3) == doctest::Approx(3 * seen(1)).epsilon(1e-14));
+}
+
+TEST_CASE("whitted: at the extremes") {
+    const auto glass = ball_scene<float>(Glass{float(glass_index)});
+    CHECK_THROWS_WITH_AS((void)make_whitted(glass, {.max_depth = -1}),
+                         "max_depth is -1; it must be at least 0.",
+                         std::invalid_argument);
+    CHECK_THROWS_AS((void)make_whitted(glass, {.ambient = Rgb{-1.0f}}),
+                    std::invalid_argument);
+    CHECK_THROWS_AS(
+        (void)make_whitted(glass,
+                           {.ambient = Rgb{std::numeric_limits<float>::quiet_NaN()}}),
+        std::invalid_argument);
+    // A light on the floor, in the middle of the glass, at the camera: no NaN.
+    for (const Vec3& place :
+         {Vec3{0.5f, 0, 1.5f}, Vec3(ball_center), Vec3{1, 2.6f, 6}}) {
+        auto scene = ball_scene<float>(Glass{float(glass_index)});
+        scene.add(PointLight{.position = place, .intensity = Rgb{5}});
+        const auto seen = render(make_whitted(scene, {.max_depth = 8}), camera<float>(),
+                                 {.width = 16, .height = 16, .rays = 2, .threads = 1});
+        CHECK(seen.counts.rejected == 0);
+    }
+    // Facing mirrors without a light between them end at the depth, not before.
+    using Hall = Scene<Shapes<Quad>, Materials<Mirror>>;
+    Hall hall;
+    const auto mirror = hall.add(Mirror{});
+    hall.add(Quad{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}}, mirror);
+    hall.add(Quad{{-1, -1, 1}, {0, 2, 0}, {2, 0, 0}}, mirror);
+    Counts counts;
+    RandomStream stream;
+    const Ray across{.origin{0, 0, 0.5f}, .direction{0, 0, 1}};
+    (void)radiance(make_whitted(hall, {.max_depth = 1000}), across, stream, counts);
+    CHECK(counts.bounce_rays == 1000);
+}
