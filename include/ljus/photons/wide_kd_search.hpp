@@ -31,13 +31,19 @@ bool WideKdTreeT<T>::in_ball(const Vec3T<T>& center, T radius, const ReachT<T>& 
         std::uint32_t some =
             lanes_up_to(detail::near2(node, center), reach.last) & children;
         children = 255;
+        const int below = shape_.levels - 1 - level; // levels between these and leaves
+        const int depth = shape_.halvings - 3 * below;
+        std::uint32_t whole =
+            255; // of what lies in the ball as a whole, no more is asked
+        if (below > 0 && some != 0)
+            whole = lanes_up_to(detail::far2(node, center), reach.sure);
         for (; some != 0; some &= some - 1) {
             const auto i = static_cast<std::uint32_t>(std::countr_zero(some));
             const std::uint32_t child = 8 * number + i;
-            if (level + 1 < shape_.levels)
+            if ((whole >> i & 1u) == 0)
                 stack[size++] = {level + 1, child};
-            else if (visit(shape_.first_block(shape_.halvings, child),
-                           shape_.first_block(shape_.halvings, child + 1)))
+            else if (visit(shape_.first_block(depth, child),
+                           shape_.first_block(depth, child + 1)))
                 return true;
         }
     }
