@@ -265,6 +265,11 @@ struct OneOwner {
     std::string_view owner;
 };
 
+template <typename Renderer>
+OneOwner<Renderer> part_of(const Renderer& whole, std::string_view owner) {
+    return {whole, owner};
+}
+
 template <typename Renderer, typename Log = ljus::NoLog>
 Rgb radiance(const OneOwner<Renderer>& one, const ljus::Ray& ray,
              ljus::RandomStream& stream, ljus::Counts& counts, Log&& = {}) {
@@ -318,8 +323,8 @@ void on_the_plates(const examples::Options& options) {
         if (way != 2) continue;
         for (const auto& [owner, name] : {std::array{"shadow ray", "of-shadow"},
                                           std::array{"emission", "of-paths"}})
-            save_png(rendered("shares", OneOwner{tracer, std::string_view(owner)},
-                              room.camera, picture, options)
+            save_png(rendered("shares", part_of(tracer, owner), room.camera, picture,
+                              options)
                          .image,
                      options.path(std::string("path_tracing-plates-") + name + ".png"));
     }
