@@ -173,8 +173,8 @@ struct Way {
 const std::array ways{
     Way{"paths alone", "paths", {.sample_lights = false}},
     Way{"shadow rays alone", "shadow", {.share = LampShare::shadow_rays}},
-    Way{"both, balance heuristic", "balance"},
-    Way{"both, power heuristic", "power", {.share = LampShare::power}}};
+    Way{"both by balance", "balance"},
+    Way{"both by power", "power", {.share = LampShare::power}}};
 // [ways]
 
 /// The matt room by each way, and its noise against rays.
@@ -192,8 +192,7 @@ void in_the_room(const examples::Options& options, const Sizes& sizes) {
     for (int rays = 1; rays <= sizes.most; rays *= 4)
         plot.rows.push_back({double(rays), nothing, nothing, nothing, nothing});
     examples::Table table{.name = "path_tracing-ways",
-                          .columns = {"way", "rays a camera ray", "slope",
-                                      "noise at equal camera rays",
+                          .columns = {"way", "rays a camera ray", "slope", "noise",
                                       "efficiency by rays", "by time"}};
     double first_rms = 0, first_by_rays = 0, first_by_time = 0;
     for (std::size_t way = 0; way < 3; ++way) {
@@ -220,7 +219,7 @@ void in_the_room(const examples::Options& options, const Sizes& sizes) {
                               text(by_rays / first_by_rays, "%.1f"),
                               text(by_time / first_by_time, "%.1f")});
     }
-    for (auto& row : plot.rows) row[4] = plot.rows[0][2] / std::sqrt(row[0]);
+    for (auto& row : plot.rows) row[4] = plot.rows[0][2] / (2 * std::sqrt(row[0]));
     save_plot(options.path(""), plot);
     save_table(options.path(""), table);
     print(table, options);
@@ -507,12 +506,12 @@ void roulette(const examples::Options& options, const Sizes& sizes) {
         double threshold, most;
         int from = 1; ///< From which surface on.
     };
-    std::vector<Case> cases{{"none: as long as it goes", 0, 1}};
+    std::vector<Case> cases{{"1: no roulette", 0, 1}};
     for (const double threshold : {0.05, 0.1, 0.2, 0.4, 0.7, 1.0, 2.0, 4.0, 10.0, 40.0})
         cases.push_back({"throughput / " + text(threshold), threshold, 1});
     for (const double most : {0.9, 0.7, 0.5, 0.3, 0.1})
-        cases.push_back({"a constant chance of " + text(most), 1e-30, most});
-    cases.push_back({"the default: throughput, from the 4th surface on", 1, 1, 4});
+        cases.push_back({text(most), 1e-30, most});
+    cases.push_back({"throughput from surface 4 on", 1, 1, 4});
     examples::Plot plot{.name = "path_tracing-roulette",
                         .columns = {"threshold", "by rays", "by time", "no roulette"},
                         .y_label = "efficiency, 1 / (variance x cost); 1: threshold 1",

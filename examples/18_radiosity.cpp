@@ -275,10 +275,9 @@ void room_pictures(const examples::Options& options, const Sizes& sizes) {
     const Image truth =
         rendered("reference", tracer, room.camera, options, options.rays * 4 + many);
     save_png(truth, options.path("radiosity-path.png"));
-    examples::Table table{.name = "radiosity-trade",
-                          .columns = {"way", "patches", "form factors, s",
-                                      "equations, s", "a view, s",
-                                      "error of 10 x 10 pixels"}};
+    examples::Table table{
+        .name = "radiosity-trade",
+        .columns = {"way", "patches", "factors, s", "solve, s", "view, s", "error"}};
     const auto error = [&](const Image& image) {
         return examples::text(100 * std::sqrt(block_error(image, truth)), "%.1f %%");
     };

@@ -33,8 +33,9 @@ auto stage() {
 bool same(const LightMap& a, const LightMap& b) {
     return a.objects == b.objects && a.grids == b.grids &&
            a.irradiance.size() == b.irradiance.size() &&
-           std::memcmp(a.irradiance.data(), b.irradiance.data(),
-                       a.irradiance.size() * sizeof(Color)) == 0;
+           (a.irradiance.empty() ||
+            std::memcmp(a.irradiance.data(), b.irradiance.data(),
+                        a.irradiance.size() * sizeof(Color)) == 0);
 }
 
 std::string why_not(const std::string& path) {

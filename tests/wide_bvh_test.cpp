@@ -266,3 +266,20 @@ TEST_CASE(
     CHECK(std::memcmp(one.tree().nodes().data(), many.tree().nodes().data(),
                       one.tree().nodes().size() * sizeof(WideNode)) == 0);
 }
+
+TEST_CASE("wide bvh: few nodes, for most of their places are taken") {
+    // 22 things, as in the report's room; 3 nodes would have places enough.
+    Numbers n;
+    int most = 0;
+    for (int i = 0; i < 100; ++i) {
+        std::vector<Box> boxes;
+        for (int k = 0; k < 22; ++k) {
+            const Vec3 at(n.point(5));
+            boxes.push_back({at, at + Vec3(0.5f)});
+        }
+        const WideBvh tree(boxes, {.leaf_size = 1});
+        most = std::max(most, static_cast<int>(tree.nodes().size()));
+    }
+    MESSAGE("nodes at most: " << most);
+    CHECK(most <= 10); // a cut without a choice makes 14
+}

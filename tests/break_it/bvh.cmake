@@ -63,3 +63,15 @@ ljus_break_it(NAME indexed-scene-type HEADER scene/indexed_scene.hpp TEST indexe
     FROM "++type;"
     TO   "type += 0;"
     CASES "indexed scene: in double*")
+
+# The first child of a wide node's two gets all places but one, whatever they cost.
+ljus_break_it(NAME bvh-collapse HEADER geometry/bvh_collapse.hpp TEST wide_bvh
+    FROM "if (low == 1 || sum < best.cost) best = {low, sum};"
+    TO   "best = {low, sum};"
+    CASES "wide bvh: few nodes*")
+
+# A search for any forgets the lanes of a node that it has entered a child of.
+ljus_break_it(NAME wide-bvh-any HEADER geometry/wide_bvh.hpp TEST wide_bvh
+    FROM "waiting += entered != 0 ? 1 : 0;"
+    TO   "waiting += 0;"
+    CASES "wide bvh: the same answers*")

@@ -66,8 +66,7 @@ ljus_break_it(NAME general-map-area HEADER photons/photon_map.hpp TEST general_m
     CASES "general map: a flat estimate*")
 
 # Photons of the other side count too.
-ljus_break_it(NAME general-map-other-side HEADER materials/lambertian.hpp TEST general_map
-    FROM [[if (!same_side(wo, wi)) return RgbT<T>{T(0)};
-    return surface.albedo]]
-    TO   "return surface.albedo"
+ljus_break_it(NAME general-map-other-side HEADER photons/lane_estimate.hpp TEST general_map
+    FROM "(inside[i] != 0) & (towards < T(0))"
+    TO   "(inside[i] != 0)"
     CASES "general map: a flat estimate*")

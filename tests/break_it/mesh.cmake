@@ -39,3 +39,11 @@ ljus_break_it(NAME mesh-angle HEADER geometry/mesh_data.hpp TEST mesh
     FROM "angle * normal"
     TO   "normal"
     CASES "mesh: smooth() finds*")
+
+# A shadow ray takes the triangles in the tree's order for those of the mesh.
+ljus_break_it(NAME mesh-meets HEADER geometry/mesh.hpp TEST mesh
+    FROM "return mesh.tree().any(ray, [&](std::uint32_t place) {
+        return intersect<Compute>(ray, mesh.triangle(order[place]), prepared)"
+    TO   "return mesh.tree().any(ray, [&](std::uint32_t place) {
+        return intersect<Compute>(ray, mesh.triangle(order[0] + 0 * place), prepared)"
+    CASES "mesh: hits are those*")

@@ -8,7 +8,7 @@ ljus_break_it(NAME wide-kd-tree-float HEADER photons/point_block.hpp TEST wide_k
 ljus_break_it(NAME wide-kd-tree-margin HEADER photons/point_block.hpp TEST wide_kd_tree
     FROM "constexpr double margin = 8 * double(Numbers::epsilon());"
     TO   "constexpr double margin = 0;"
-    CASES "wide_kd_tree: every search*")
+    CASES "wide_kd_tree: the ball is closed*")
 
 # The smallest floats taken at their word.
 ljus_break_it(NAME wide-kd-tree-tiny HEADER photons/point_block.hpp TEST wide_kd_tree

@@ -120,7 +120,9 @@ private:
                                static_cast<const WideRay*>(nullptr));
         return start;
     }
-    // Asks eight boxes at once: which ones the ray enters, and where.
+    // Asks eight boxes at once: which ones the ray enters, and where. A function of its
+    // own for each search, so that compilers put it there.
+    template <typename Search>
     std::uint64_t enter(Lanes& t, std::uint32_t node, const WideRay& r, float t_min,
                         float t_max) const noexcept;
 
@@ -128,8 +130,9 @@ private:
 };
 
 // [enter]
-inline std::uint64_t WideBvh::enter(Lanes& t, std::uint32_t node, const WideRay& r,
-                                    float t_min, float t_max) const noexcept {
+template <typename Search>
+std::uint64_t WideBvh::enter(Lanes& t, std::uint32_t node, const WideRay& r,
+                             float t_min, float t_max) const noexcept {
     const Lanes* const lanes = wide_.nodes[0].plane.data();
     const Lanes& near_x = (lanes + r.near[0])[node];
     const Lanes& near_y = (lanes + r.near[1])[node];
@@ -180,7 +183,7 @@ void WideBvh::walk(const Ray& ray, Leaf&& leaf, Watch&& watch) const {
         } else {
             watch();
             Lanes t;
-            std::uint64_t entered = enter(t, at, start.ray, ray.t_min, ray.t_max);
+            std::uint64_t entered = enter<Leaf>(t, at, start.ray, ray.t_min, ray.t_max);
             if (entered != 0) {
                 const auto& child = wide_.nodes[at / WideChild::stride].child;
                 const auto key = [&](std::size_t i) {
@@ -232,19 +235,9 @@ bool WideBvh::walk_any(const Ray& ray, Leaf&& leaf, Watch&& watch) const {
     };
     std::array<Later, bvh_depth> later;
     std::size_t waiting = 0;
-    Lanes t;
     std::uint32_t at = 0;
-    watch();
-    std::uint64_t entered = enter(t, at, start.ray, ray.t_min, ray.t_max);
-    for (;;) {
-        while (entered == 0) {
-            if (waiting == 0) return false;
-            --waiting;
-            at = later[waiting].node;
-            entered = later[waiting].lanes;
-        }
-        const std::uint32_t child =
-            wide_.nodes[at / WideChild::stride].child[take_lane(entered)];
+    std::uint64_t entered = 0;
+    for (std::uint32_t child = 0;;) {
         if ((child & WideChild::leaf) != 0) {
             if (leaf(child & WideChild::first, WideChild::count(child), &start.ray))
                 return true;
@@ -253,8 +246,16 @@ bool WideBvh::walk_any(const Ray& ray, Leaf&& leaf, Watch&& watch) const {
             waiting += entered != 0 ? 1 : 0;
             at = child;
             watch();
-            entered = enter(t, at, start.ray, ray.t_min, ray.t_max);
+            Lanes t;
+            entered = enter<Leaf>(t, at, start.ray, ray.t_min, ray.t_max);
         }
+        while (entered == 0) {
+            if (waiting == 0) return false;
+            --waiting;
+            at = later[waiting].node;
+            entered = later[waiting].lanes;
+        }
+        child = wide_.nodes[at / WideChild::stride].child[take_lane(entered)];
     }
 }
 // [walk_any]

@@ -126,13 +126,18 @@ void light_at(const PhotonMapper<Scene>& mapper, const ShadingT<T>& at,
 }
 // [light_at]
 
+/// So many times, at most, a camera path goes both ways.
+inline constexpr std::size_t most_splits = 8;
+
 /// The radiance that one camera path finds with the help of the photon maps.
 ///
 /// At each diffuse surface: one shadow ray to each light, the caustics map, and one
 /// indirect ray; at each mirror or glass: one branch. With IndirectLight::map, the
 /// first diffuse surface that an indirect ray meets answers from the general map; with
 /// IndirectLight::photons, the one that the camera path meets itself. With split_glass
-/// a path goes both ways at the glass that the camera sees.
+/// a path goes both ways at glass, as long as it has met nothing matt: by chance alone,
+/// one path in some hundreds would be mirrored inside of a ball and meet the lamp, and
+/// its pixel would be a hundred times too bright.
 /// \param mapper  The scene, the maps, the limits.
 /// \param ray     A primary ray.
 /// \param stream  The numbers of this path.
@@ -149,7 +154,9 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
                                RandomStream& stream, Counts& counts, Log&& log = {}) {
     const PhotonMapping& settings = mapper.settings;
     RgbT<T> sum{T(0)};
-    std::optional<PathT<T>> other; // the second way at the first glass
+    std::array<PathT<T>, most_splits> others; // the second ways, to be followed later
+    std::array<int, most_splits> depths{};    // and how many boundaries they have met
+    std::size_t splits = 0;
 
     const auto follow = [&](PathT<T> path, int first) {
         const auto add = [&](const char* owner, const char* letters,
@@ -174,9 +181,13 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
                 if (has(lobes(material), Lobes::diffuse))
                     light_at(mapper, at, material, gather, stream, counts, add);
                 if (depth == settings.max_depth) return false;
-                if (depth == 1 && settings.split_glass) {
-                    other = split(path, at, material, log);
-                    if (other) return true;
+                if (settings.split_glass && !path.met_diffuse && splits < most_splits) {
+                    if (const auto other = split(path, at, material, log)) {
+                        depths[splits] = depth;
+                        others[splits++] = *other;
+                        others[splits - 1].bounce = std::uint64_t(splits) << 32;
+                        return true;
+                    }
                 }
                 // Go on by one branch; after gathering, by mirrors and glass only.
                 const bool by_rays =
@@ -188,19 +199,25 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
             };
             if (!visit_material_of(mapper.scene, at.surface, at_material)) return;
             if (is_black(path.throughput)) return;
+            // A second way is faint: roulette as elsewhere would make it rare and as
+            // bright as if it were the only one.
+            const T squeeze =
+                splits > 0 && !path.met_diffuse ? path.squeeze / T(16) : path.squeeze;
             if (depth >= settings.roulette_depth &&
-                !survives(path.throughput, path.squeeze, next_1d<T>(stream)))
+                !survives(path.throughput, squeeze, next_1d<T>(stream)))
                 return;
             ++counts.bounce_rays;
         }
     };
     log.begin();
     follow({.ray = ray}, 1);
-    if (other) {
+    for (std::size_t i = 0; i < splits; ++i) { // following one may add more
+        const PathT<T> other = others[i];
         ++counts.bounce_rays;
         log.begin();
-        log.vertex('S', other->ray.origin, other->throughput, T(0));
-        follow(*other, 2);
+        for (int depth = 1; depth <= depths[i]; ++depth)
+            log.vertex('S', other.ray.origin, other.throughput, T(0));
+        follow(other, depths[i] + 1);
     }
     return sum;
 }

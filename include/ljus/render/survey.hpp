@@ -31,7 +31,7 @@ struct PhotonMapping {
     int max_depth = 1000;     ///< Surfaces on a camera path, mirrors and glass counted.
     int roulette_depth = 4;   ///< From this surface on, roulette may end a path.
     int shadow_rays = 1;      ///< Shadow rays to each light, at least 1.
-    bool split_glass = false; ///< At glass that the camera sees, go both ways.
+    bool split_glass = false; ///< At glass before anything matt, go both ways.
     IndirectLight indirect = IndirectLight::rays; ///< Who carries indirect light.
     PhotonPass caustics{};                 ///< Photons aimed at mirrors and glass.
     PhotonPass general{};                  ///< Photons for all the rest.
