@@ -1,5 +1,5 @@
 // figures: side_by_side
-// smoke: --quality draft --width 16 --height 16 --rungs 3 --seeds 2 --truth 64
+// smoke: --quality draft --width 16 --height 16 --rungs 2 --seeds 2 --truth 16
 /// \file 19_side_by_side.cpp
 /// \brief Chapter 19: two rooms by all renderers: error against time, the same time, the
 /// same error, bias and noise, and which light paths each carries.
@@ -249,7 +249,7 @@ auto judge(const Study& study, bool matt, const examples::Options& options) {
                 .image;
         };
         const auto& scene = study.room.scene;
-        const long long many = options.pick(200000, 1000000, 10000000);
+        const long long many = 400LL * rays;
         // [judge]
         // Rays alone in the matt room. Where there are caustics, paths for all
         // but these, and photons for them, in discs smaller than a pixel.
