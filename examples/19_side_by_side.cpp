@@ -1,5 +1,5 @@
 // figures: side_by_side
-// smoke: --quality draft --width 16 --height 16 --rungs 3 --seeds 2 --truth 64
+// smoke: --quality draft --width 16 --height 16 --rungs 2 --seeds 2 --truth 16
 /// \file 19_side_by_side.cpp
 /// \brief Chapter 19: two rooms by all renderers: error against time, the same time, the
 /// same error, bias and noise, and which light paths each carries.
@@ -249,7 +249,7 @@ auto judge(const Study& study, bool matt, const examples::Options& options) {
                 .image;
         };
         const auto& scene = study.room.scene;
-        const long long many = options.pick(200000, 1000000, 10000000);
+        const long long many = 400LL * rays;
         // [judge]
         // Rays alone in the matt room. Where there are caustics, paths for all
         // but these, and photons for them, in discs smaller than a pixel.
@@ -285,7 +285,7 @@ void climb(Study& study, const std::vector<Method>& all,
                 Lap lap;
                 double spent = 0;
                 int repeats = 0;
-                for (; spent < 0.03; ++repeats, spent += lap())
+                for (; spent < 0.06; ++repeats, spent += lap())
                     shot = method.shoot(study.room.scene, {study.room.camera},
                                         result.effort,
                                         options.seed + std::uint64_t(seed))[0];
@@ -679,7 +679,7 @@ int main(int argc, char** argv) {
         line.add("--seeds", sizes.seeds, "Runs of each effort", 2, 1000);
         line.add("--truth", sizes.truth, "Rays a pixel of the reference", 8, 10000000);
         const examples::Options options =
-            line.parse({.draft{.width = 30, .height = 30, .rays = 1},
+            line.parse({.draft{.width = 40, .height = 40, .rays = 1},
                         .report{.width = 100, .height = 100, .rays = 1},
                         .reference{.width = 200, .height = 200, .rays = 1}});
         if (!line.given("--rungs")) sizes.rungs = options.pick(3, 4, 5);
