@@ -13,7 +13,7 @@ ljus_break_it(NAME direct-light-distance HEADER scene/light.hpp TEST direct_ligh
 # The density of the point of a lamp.
 ljus_break_it(NAME direct-light-pdf HEADER scene/light.hpp TEST direct_light
     FROM ".weight = light.emission / seen.pdf"
-    TO   ".weight = share * light.emission"
+    TO   ".weight = light.emission"
     CASES "direct light: lamps give*")
 
 # A lamp that shines on both sides.
