@@ -98,6 +98,19 @@ TEST_CASE("mesh: hits are those of its triangles, one by one") {
         check_hits<double>(data, 1, {0, 0, 0});
         check_hits<Watertight>(data, 1, {0, 0, 0});
     }
+    // A mesh of doubles walks the plain tree, which asks every triangle.
+    const MeshT<double> ball(icosphere(ljus::SphereT<double>{.radius = 1}, 2));
+    Numbers numbers{18};
+    int hits = 0;
+    for (int i = 0; i < 500; ++i) {
+        const Vec3T<double> from = 2.0 * numbers.point(1);
+        const ljus::RayT<double> ray{.origin = from,
+                                     .direction = glm::normalize(numbers.point(1))};
+        const bool hit = intersect(ray, ball).has_value();
+        CHECK(meets(ray, ball) == hit);
+        hits += hit ? 1 : 0;
+    }
+    CHECK(hits > 50);
 }
 
 TEST_CASE("mesh: of any size and place") {
