@@ -5,6 +5,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/scene/furnaces.hpp"
 #include "support/mean.hpp"
@@ -50,7 +52,6 @@ constexpr RadiositySolver solvers[] = {RadiositySolver::lu, RadiositySolver::jac
                                        RadiositySolver::shooting};
 
 template <typename Body>
-#include <algorithm>
 std::string refusal(Body body) {
     try {
         body();

@@ -3,6 +3,8 @@
 /// \file ljus/photons/wide_kd_search.hpp
 /// \brief How the wide k-d tree is searched.
 
+#include <algorithm>
+
 #include "ljus/photons/wide_kd_tree.hpp"
 
 namespace ljus {
@@ -106,7 +108,6 @@ void WideKdTreeT<T>::towards(const Vec3T<T>& center, const ReachT<T>& reach,
 }
 
 template <std::floating_point T>
-#include <algorithm>
 std::optional<Neighbor> WideKdTreeT<T>::nearest(const Vec3T<T>& center,
                                                 T radius) const {
     if (!(radius >= T(0)) || size() == 0) return std::nullopt;
