@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "ljus/materials/full_glossy.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
@@ -35,16 +36,21 @@ using RgbD = RgbT<double>;
 /// The mean of n rays of one pixel, as render() draws them.
 template <typename Tracer, typename T>
 double mean_of_rays(const Tracer& tracer, const RayT<T>& ray, int rays,
-                    std::uint64_t pixel, Sampling sampling = Sampling::multi_jittered) {
+                    std::uint64_t pixel, Sampling sampling, Counts& counts) {
     const Pattern pattern = make_pattern(sampling, rays);
     double sum = 0;
-    Counts counts;
     for (int i = 0; i < rays; ++i) {
         StratifiedStream stream;
         start_ray(stream, 3, pixel, i, pattern);
         sum += double(radiance(tracer, ray, stream, counts).x);
     }
     return sum / rays;
+}
+template <typename Tracer, typename T>
+double mean_of_rays(const Tracer& tracer, const RayT<T>& ray, int rays,
+                    std::uint64_t pixel, Sampling sampling = Sampling::multi_jittered) {
+    Counts counts;
+    return mean_of_rays(tracer, ray, rays, pixel, sampling, counts);
 }
 
 /// The slope of log(error) over log(n): error(n) is asked for 4, 16, 64, 256.
@@ -203,10 +209,12 @@ TEST_CASE("distributed rays: the error falls by n^-1/2, stratified by n^-3/4") {
     CHECK(sobol < -0.65);
 }
 
-TEST_CASE("distributed rays: gloss sees a lamp as the integral over it says") {
-    // A satin floor, a lamp, and nothing else; the integral takes evaluate(), the ray
-    // sample().
-    const GlossyT<double> gloss{.reflectance = RgbD{0.8}, .roughness = 0.5};
+namespace {
+
+// A satin floor, a lamp, and nothing else; the integral takes evaluate(), the ray
+// sample().
+template <typename Gloss>
+void check_gloss(const Gloss& gloss) {
     const auto scene = make_scene(
         placed(QuadD{{-20, 0, 20}, {40, 0, 0}, {0, 0, -40}}, gloss),
         placed(QuadD{{-1, 2, -3}, {2, 0, 0}, {0, 2, 0}}, MattD{RgbD{0}}, RgbD{3}));
@@ -223,15 +231,26 @@ TEST_CASE("distributed rays: gloss sees a lamp as the integral over it says") {
                      wi.y * -wi.z / r2 * 3 * 4 / (cells * cells);
         }
     Mean seen;
+    Counts counts;
     const auto tracer = make_distributed(scene);
     for (std::uint64_t pixel = 0; pixel < 200; ++pixel)
         seen.add(mean_of_rays(
-            tracer, RayT<double>{.origin = 3.0 * wo, .direction = -wo}, 64, pixel));
+            tracer, RayT<double>{.origin = 3.0 * wo, .direction = -wo}, 64, pixel,
+            Sampling::multi_jittered, counts));
+    CHECK(counts.shadow_rays == 0); // the reflected ray finds the lamp
     CAPTURE(seen.mean);
     CAPTURE(right);
     CHECK(right > 0.1);
     CHECK(std::abs(apart(seen, right)) < 4);
     CHECK(seen.error() < 0.01 * right);
+}
+
+} // namespace
+
+TEST_CASE("distributed rays: gloss sees a lamp as the integral over it says") {
+    const GlossyT<double> gloss{.reflectance = RgbD{0.8}, .roughness = 0.5};
+    check_gloss(gloss);
+    check_gloss(full_glossy(gloss));
 }
 
 TEST_CASE(

@@ -8,7 +8,7 @@ ljus_break_it(NAME distributed-rays-hard-shadow HEADER render/distributed.hpp
 # A lamp in gloss has two owners: the shadow ray and the reflected one.
 ljus_break_it(NAME distributed-rays-two-owners HEADER render/distributed.hpp
     TEST distributed_rays
-    FROM "if (is_gloss<Material> && light.object) continue;"
+    FROM "if (BlurredMirror<Material> && light.object) continue;"
     TO   ""
     CASES "distributed rays: gloss sees*")
 

@@ -174,6 +174,11 @@ material_at(const M& m, const Vec3T<typename M::Scalar>& position) noexcept {
         return (m);
 }
 
+/// A blurred mirror: it sends rays on, and they find the lamps. It says so by
+/// `static constexpr bool blurred_mirror = true`.
+template <typename M>
+concept BlurredMirror = M::blurred_mirror;
+
 /// Whether a material has specular parts only, so that shadow rays and photon maps have
 /// nothing to ask there.
 /// \param m  The material.

@@ -50,6 +50,7 @@ inline constexpr T least_roughness = T(0.01);
 template <std::floating_point T, typename Facet = RgbT<T>>
 struct GlossyT {
     using Scalar = T;     ///< The precision of its numbers.
+    static constexpr bool blurred_mirror = true; ///< See BlurredMirror.
     Facet reflectance{};  ///< Of a facet.
     T roughness = T(0.3); ///< alpha = roughness^2; 0, a mirror, or in [0.01, 1].
 };

@@ -3,7 +3,6 @@
 /// \file ljus/render/distributed.hpp
 /// \brief Distributed rays: one ray of each kind, sent somewhere else each time.
 
-#include "ljus/materials/glossy.hpp"
 #include "ljus/render/camera_path.hpp"
 #include "ljus/render/direct_light.hpp"
 #include "ljus/scene/shutter.hpp"
@@ -48,13 +47,6 @@ make_distributed(const Scene& scene, const DistributedRays& settings = {}) {
     return {IndexedT<Scene>(scene), settings};
 }
 
-/// Whether a material is a blurred mirror: it sends rays on, and they find the lamps.
-template <typename M>
-inline constexpr bool is_gloss = false;
-/// Facets are.
-template <typename T, typename Facet>
-inline constexpr bool is_gloss<GlossyT<T, Facet>> = true;
-
 /// The light of all lights at a surface, by one shadow ray to a random point of each.
 /// In gloss a lamp is seen by the reflected ray, so that none is sent to it: each path
 /// has one owner.
@@ -73,7 +65,7 @@ template <typename Scene, std::floating_point T, typename Material, typename Str
     const auto whole = [](const LightSampleT<T>&, const Vec3T<T>&) { return T(1); };
     RgbT<T> sum{T(0)};
     for (const LightT<T>& light : scene.lights) {
-        if (is_gloss<Material> && light.object) continue;
+        if (BlurredMirror<Material> && light.object) continue;
         const Vec2T<T> u = light.object ? next_2d<T>(stream) : Vec2T<T>{T(0)};
         sum += direct_light(scene, light, at, material, u, whole, counts);
     }
@@ -118,7 +110,8 @@ template <typename Scene, std::floating_point T, typename Stream, typename Log =
         if (at.shines()) add("emission", "L", at.surface.object.emission);
 
         const auto at_material = [&](const auto& material) {
-            constexpr bool gloss = is_gloss<std::remove_cvref_t<decltype(material)>>;
+            constexpr bool gloss =
+                BlurredMirror<std::remove_cvref_t<decltype(material)>>;
             if (has(lobes(material), Lobes::diffuse))
                 add("shadow ray", "DL",
                     soft_light(scene, at, material, stream, counts));
