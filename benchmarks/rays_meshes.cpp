@@ -41,17 +41,6 @@ struct House {
     }
 };
 
-ljus::Bvh plain_tree(const rays::Mesh& mesh) {
-    std::vector<ljus::Box> boxes;
-    for (const Triangle& triangle : mesh) boxes.push_back(ljus::bounds(triangle));
-    return ljus::Bvh(boxes, {.threads = 1});
-}
-
-ljus::TriangleBvh wide_tree(const rays::Mesh& mesh) {
-    return {static_cast<std::uint32_t>(mesh.size()),
-            [&](std::uint32_t i) -> const Triangle& { return mesh[i]; }, 1};
-}
-
 } // namespace
 
 /// Prints a row for each mesh and set of rays.
@@ -60,9 +49,9 @@ int main() {
                 "wide, ns", "Embree");
     for (const rays::Named& named : rays::meshes()) {
         const rays::Mesh& mesh = named.mesh;
-        const House<ljus::Bvh> plain{mesh, plain_tree(mesh)};
+        const House<ljus::Bvh> plain{mesh, rays::plain_tree(mesh)};
         const double start = rays::seconds();
-        const House<ljus::TriangleBvh> wide{mesh, wide_tree(mesh)};
+        const House<ljus::TriangleBvh> wide{mesh, rays::wide_tree(mesh)};
         const double build = rays::seconds() - start;
         const auto first_hit =
             [&](const Ray& ray) -> std::optional<ljus::SurfacePoint> {

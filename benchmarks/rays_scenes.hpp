@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <ljus/geometry/triangle.hpp>
+#include <ljus/geometry/triangle_bvh.hpp>
 #include <ljus/math/frame.hpp>
 #include <ljus/math/random.hpp>
 #include <ljus/math/sampling.hpp>
@@ -145,6 +146,17 @@ RaySets ray_sets(FirstHit first_hit, Vec3 eye, Vec3 target, Vec3 up, Vec3 lamp,
             }
         }
     return sets;
+}
+
+/// The trees of the house over a mesh, built by one thread.
+inline ljus::Bvh plain_tree(const Mesh& mesh) {
+    std::vector<ljus::Box> boxes;
+    for (const ljus::Triangle& triangle : mesh) boxes.push_back(ljus::bounds(triangle));
+    return ljus::Bvh(boxes, {.threads = 1});
+}
+inline ljus::TriangleBvh wide_tree(const Mesh& mesh) {
+    return {static_cast<std::uint32_t>(mesh.size()),
+            [&](std::uint32_t i) -> const ljus::Triangle& { return mesh[i]; }, 1};
 }
 
 } // namespace rays

@@ -33,16 +33,6 @@ struct Loop {
     }
 };
 
-ljus::Bvh plain_tree(const rays::Mesh& mesh) {
-    std::vector<ljus::Box> boxes;
-    for (const Triangle& triangle : mesh) boxes.push_back(ljus::bounds(triangle));
-    return ljus::Bvh(boxes, {.threads = 1});
-}
-ljus::TriangleBvh wide_tree(const rays::Mesh& mesh) {
-    return {static_cast<std::uint32_t>(mesh.size()),
-            [&](std::uint32_t i) -> const Triangle& { return mesh[i]; }, 1};
-}
-
 /// The trees of the house.
 template <typename Made>
 struct House {
@@ -61,11 +51,11 @@ struct House {
 };
 struct Plain : House<ljus::Bvh> {
     static constexpr const char* name = "plain tree";
-    explicit Plain(const rays::Mesh& of) : House{of, plain_tree(of)} {}
+    explicit Plain(const rays::Mesh& of) : House{of, rays::plain_tree(of)} {}
 };
 struct Wide : House<ljus::TriangleBvh> {
     static constexpr const char* name = "wide tree";
-    explicit Wide(const rays::Mesh& of) : House{of, wide_tree(of)} {}
+    explicit Wide(const rays::Mesh& of) : House{of, rays::wide_tree(of)} {}
 };
 
 bool same(const NearestHit& a, const NearestHit& b) {

@@ -7,8 +7,10 @@
 #include "ljus/render/form_factors.hpp"
 #include "ljus/scene/cornell_box.hpp"
 #include "ljus/scene/furnaces.hpp"
+#include "support/refusal.hpp"
 
 using namespace ljus;
+using ljus_test::refusal;
 
 namespace {
 
@@ -33,16 +35,6 @@ Stage<double> unit_box() {
     box.add(QuadT<double>{o, z, x}, white);
     box.add(QuadT<double>{y, x, z}, white);
     return box;
-}
-
-template <typename Body>
-std::string refusal(Body body) {
-    try {
-        body();
-    } catch (const std::invalid_argument& error) {
-        return error.what();
-    }
-    return "nothing was refused";
 }
 
 } // namespace

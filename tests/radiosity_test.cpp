@@ -10,8 +10,10 @@
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/scene/furnaces.hpp"
 #include "support/mean.hpp"
+#include "support/refusal.hpp"
 
 using namespace ljus;
+using ljus_test::refusal;
 
 namespace {
 
@@ -50,16 +52,6 @@ double imbalance(const Radiosity& all) {
 constexpr RadiositySolver solvers[] = {RadiositySolver::lu, RadiositySolver::jacobi,
                                        RadiositySolver::gauss_seidel,
                                        RadiositySolver::shooting};
-
-template <typename Body>
-std::string refusal(Body body) {
-    try {
-        body();
-    } catch (const std::invalid_argument& error) {
-        return error.what();
-    }
-    return "nothing was refused";
-}
 
 } // namespace
 

@@ -13,8 +13,10 @@
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
+#include "support/refusal.hpp"
 
 using namespace ljus;
+using ljus_test::refusal;
 
 namespace {
 
@@ -23,16 +25,6 @@ constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
 
 using Room =
     Scene<Shapes<Sphere, Quad, Triangle>, Materials<Lambertian, Glass, Mirror>>;
-
-template <typename F>
-std::string refusal(F f) {
-    try {
-        f();
-    } catch (const std::invalid_argument& error) {
-        return error.what();
-    }
-    return "";
-}
 
 /// What a scene can add, as the compiler sees it.
 template <typename S, typename... Args>
