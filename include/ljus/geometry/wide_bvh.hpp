@@ -15,12 +15,11 @@ namespace ljus {
 
 /// \defgroup wide_bvh Wide trees
 /// \brief The twin of the plain tree for speed \cite wald2008 : the same searches, the
-/// same answers.
-/// Chapter: \ref ch_bvh.
+/// same answers. Chapter: \ref ch_bvh.
 /// \{
 
-/// The plain tree, made wide: of each node the largest children are opened until there
-/// are eight.
+/// The plain tree, made wide: nodes of up to eight children, chosen by
+/// \ref bvh_collapse.
 class WideBvh {
 public:
     /// A tree over nothing.
@@ -29,8 +28,8 @@ public:
     /// Builds the tree.
     /// \param boxes     As for build_bvh(), but below 2^27.
     /// \param settings  As for build_bvh(); leaves of at most 16.
-    /// \param multiple  Leaves start at multiples of so many places, holes between
-    /// them.
+    /// \param multiple  Leaves start at multiples of so many places, with holes
+    ///                  between them.
     /// \throws As build_bvh().
     template <typename Boxes>
     requires std::convertible_to<const Boxes&, std::span<const Box>>

@@ -21,9 +21,8 @@ struct WideRay {
     Vec3 inverse{1};    ///< 1 / D, finite.
     Vec3 near_shift{0}; ///< t = plane * inverse - shift, a little early,
     Vec3 far_shift{0};  ///< and a little late.
-    std::array<std::size_t, 3>
-        near{}; ///< The planes that it meets first, along x, y, z,
-    std::array<std::size_t, 3> far{}; ///< and last.
+    std::array<std::size_t, 3> near{}; ///< The planes that it meets first, by axis,
+    std::array<std::size_t, 3> far{};  ///< and last.
     float length = 0;                 ///< The largest component of D.
     float last = 0;                   ///< Beyond this t there is nothing.
     bool moderate = false; ///< Products of three such lengths are far from infinite.

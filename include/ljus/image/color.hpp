@@ -3,7 +3,6 @@
 /// \file ljus/image/color.hpp
 /// \brief From radiance to the 256 steps of a screen: exposure and the sRGB curve.
 
-#include <algorithm>
 #include <cmath>
 #include <concepts>
 
@@ -38,7 +37,7 @@ template <std::floating_point T>
 // [srgb_encode]
 [[nodiscard]] inline double srgb_encode(double linear) noexcept {
     if (!(linear > 0.0)) return 0.0; // written so that NaN is black
-    const double x = std::min(linear, 1.0);
+    const double x = 1.0 < linear ? 1.0 : linear;
     return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
 }
 // [srgb_encode]
@@ -49,7 +48,7 @@ template <std::floating_point T>
 /// light.
 [[nodiscard]] inline double srgb_decode(double encoded) noexcept {
     if (!(encoded > 0.0)) return 0.0;
-    const double y = std::min(encoded, 1.0);
+    const double y = 1.0 < encoded ? 1.0 : encoded;
     return y <= 0.04045 ? y / 12.92 : std::pow((y + 0.055) / 1.055, 2.4);
 }
 

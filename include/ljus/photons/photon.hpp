@@ -24,10 +24,10 @@ enum class PhotonKind : std::uint8_t {
     shadow ///< Not light: the first surface in its way hides this one from the light.
 };
 
-/// Some of the kinds, as a bit each.
+/// Some of the kinds, as a bit each: 1 for direct, 2 for caustic, 4 for indirect, 8 for
+/// shadow.
 struct PhotonKinds {
-    std::uint8_t bits =
-        0; ///< 1 for direct, 2 for caustic, 4 for indirect, 8 for shadow.
+    std::uint8_t bits = 0; ///< Those that are meant.
 
     /// Whether a kind is one of them.
     [[nodiscard]] constexpr bool has(PhotonKind kind) const noexcept {

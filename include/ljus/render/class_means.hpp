@@ -54,9 +54,12 @@ template <typename Renderer, template <std::floating_point> typename AnyCamera,
 [[nodiscard]] std::vector<RgbT<double>>
 class_means(const Renderer& renderer, const AnyCamera<T>& camera,
             const Picture& picture, std::span<const PathClass> classes) {
-    require(picture.width >= 1 && picture.height >= 1 && picture.rays >= 1,
-            "width, height or rays", static_cast<long long>(picture.rays),
-            "at least 1 each");
+    const auto at_least_one = [](const char* what, int count) {
+        require(count >= 1, what, static_cast<long long>(count), "at least 1");
+    };
+    at_least_one("width", picture.width);
+    at_least_one("height", picture.height);
+    at_least_one("rays", picture.rays);
     using Sums = std::vector<RgbT<double>>;
     const Pattern pattern = make_pattern(picture.sampling, picture.rays);
     std::vector<Sums> rows(std::size_t(picture.height),

@@ -94,9 +94,10 @@ template <typename Scene>
 [[nodiscard]] std::optional<FormFactors>
 make_form_factors(const Scene& scene, const Patches& all,
                   const FormFactorSettings& settings = {}) {
-    require(settings.rays >= 1, "rays", (long long)settings.rays, "at least 1");
-    require(settings.shadow_rays >= 1, "shadow_rays", (long long)settings.shadow_rays,
+    require(settings.rays >= 1, "rays", static_cast<long long>(settings.rays),
             "at least 1");
+    require(settings.shadow_rays >= 1, "shadow_rays",
+            static_cast<long long>(settings.shadow_rays), "at least 1");
     const IndexedT<Scene> indexed(scene);
     const std::size_t n = all.patches.size();
     FormFactors factors{.area = std::vector<double>(n),

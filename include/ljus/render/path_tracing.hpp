@@ -45,6 +45,7 @@ struct PathTracer {
 ///                  IndexedScene.
 /// \param settings  Limits.
 /// \return The tracer.
+/// \throws std::invalid_argument  if a setting is out of range.
 template <typename Scene>
 [[nodiscard]] PathTracer<Scene> make_path_tracer(const Scene& scene,
                                                  const PathTracing& settings = {}) {

@@ -129,6 +129,11 @@ void light_at(const PhotonMapper<Scene>& mapper, const ShadingT<T>& at,
 /// So many times, at most, a camera path goes both ways.
 inline constexpr std::size_t most_splits = 8;
 
+/// So many times more likely than elsewhere a way survives that began where a path went
+/// both ways. It is faint: roulette as elsewhere would make it rare, and then as bright
+/// as if it were the only one. Any number keeps the mean.
+inline constexpr int second_way_luck = 16;
+
 /// The radiance that one camera path finds with the help of the photon maps.
 ///
 /// At each diffuse surface: one shadow ray to each light, the caustics map, and one
@@ -199,10 +204,9 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
             };
             if (!visit_material_of(mapper.scene, at.surface, at_material)) return;
             if (is_black(path.throughput)) return;
-            // A second way is faint: roulette as elsewhere would make it rare and as
-            // bright as if it were the only one.
-            const T squeeze =
-                splits > 0 && !path.met_diffuse ? path.squeeze / T(16) : path.squeeze;
+            const T squeeze = splits > 0 && !path.met_diffuse
+                                  ? path.squeeze / T(second_way_luck)
+                                  : path.squeeze;
             if (depth >= settings.roulette_depth &&
                 !survives(path.throughput, squeeze, next_1d<T>(stream)))
                 return;

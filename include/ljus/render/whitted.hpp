@@ -22,9 +22,7 @@ namespace ljus {
 struct Whitted {
     int max_depth = 5;     ///< Reflections and refractions in a row; 0 sends no ray on.
     bool both_ways = true; ///< Glass sends two rays; false: one of them, by roulette.
-    bool lamps =
-        true;       ///< A lamp with a size lights, from its middle; false: it is only
-                    ///< seen.
+    bool lamps = true; ///< A lamp with a size lights, from its middle; or is only seen.
     Rgb ambient{0}; ///< W/(m^2 sr) from everywhere to every diffuse surface; in place
                     ///< of all the light that the tree does not carry.
 };
