@@ -236,7 +236,7 @@ void emulate(const examples::Options& options, long long photons, int truth_rays
         save_flip_map(image, truth, options.path(file + "-flip.png"));
     };
     for (const int rays : {4, 16, 64, 256}) {
-        if (rays > 2 * truth_rays) break;
+        if (8 * rays > truth_rays) break; // it would see the truth's own noise
         take(std::to_string(rays) + " paths", rays == 16 ? "emulate-paths" : "", [&] {
             return rendered("paths", tracer, camera, options, rays, options.seed);
         });
@@ -281,12 +281,14 @@ int main(int argc, char** argv) {
             line.parse({.draft{.width = 96, .height = 96, .rays = 9},
                         .report{.width = 300, .height = 300, .rays = 64},
                         .reference{.width = 400, .height = 400, .rays = 1024}});
+        const long long seen =
+            photons != 0 ? photons : options.pick(30000LL, 300000LL, 3000000LL);
         if (photons == 0) photons = options.pick(30000LL, 1000000LL, 10000000LL);
-        if (truth == 0) truth = options.pick(128, 4096, 65536);
+        if (truth == 0) truth = options.pick(512, 2048, 65536);
         figure_2(options, photons);
         bounces(options);
         truncations(options);
         visibility(options);
-        emulate(options, photons, truth);
+        emulate(options, seen, truth);
     });
 }
