@@ -59,7 +59,6 @@ struct Method {
     std::function<std::vector<Shot>(const Cornell&, const std::vector<Camera>&,
                                     double effort, std::uint64_t seed)>
         shoot{};
-    bool mirrors = true; ///< Whether it knows more than matt surfaces.
 };
 
 /// Seconds of processor time since the last call.
@@ -159,8 +158,7 @@ std::vector<Method> methods(const examples::Options& options) {
                  {.solution = lap(),
                   .memory = kept,
                   .working = kept + solved->factors.exchange.size() * sizeof(double)});
-         },
-         false});
+         }});
     for (const auto indirect : {IndirectLight::map, IndirectLight::photons}) {
         const bool direct = indirect == IndirectLight::photons;
         all.push_back(
@@ -424,11 +422,15 @@ Shot panel(const Study& study, const Method& method, double effort,
                         options.seed + 77)[0];
 }
 
-/// The effort that takes a time: between rungs a straight line, beyond them time in
-/// proportion. At least 1 ray a pixel.
+/// The effort that takes a time: between rungs a straight line, beyond them the power law
+/// of the last two, or in proportion if that is less. At least 1 ray a pixel.
 double effort_for(const std::vector<Rung>& rungs, double seconds) {
-    const Rung& last = rungs.back();
-    if (seconds >= last.seconds) return last.effort * seconds / last.seconds;
+    const Rung &last = rungs.back(), &before = rungs[rungs.size() - 2];
+    if (seconds >= last.seconds) {
+        const double power = std::log(last.seconds / before.seconds) /
+                             std::log(last.effort / before.effort);
+        return last.effort * std::pow(seconds / last.seconds, 1 / std::max(power, 1.0));
+    }
     for (std::size_t i = 1; i < rungs.size(); ++i)
         if (seconds <= rungs[i].seconds && rungs[i].seconds > rungs[i - 1].seconds) {
             const double t = (seconds - rungs[i - 1].seconds) /
@@ -617,10 +619,10 @@ void class_table(const Study& study, const examples::Options& options,
                        1e-6 * right.mean)) // a rest of two light maps is rounding
                 row.push_back("0");
             else
-                row.push_back(examples::text(its.mean / right.mean, "%.2f") + " ± " +
+                row.push_back(examples::text(its.mean / right.mean, "%.3f") + " ± " +
                               examples::text(its.mean / right.mean *
                                                  std::hypot(error(its), error(right)),
-                                             "%.2f"));
+                                             "%.3f"));
         }
         table.rows.push_back(row);
     }
@@ -653,14 +655,11 @@ void views(const Study& study, const std::vector<Method>& all,
     const double effort = std::pow(4.0, sizes.rungs - 1);
     for (const Method& method : all) {
         if (method.file == "whitted" || method.file == "distributed") continue;
-        const int repeats = options.pick(1, 2, 2); // a processor's clock may be coarse
-        std::vector<Shot> shots;
-        double view = 0, solution = 0;
-        for (int i = 0; i < repeats; ++i) {
-            shots = method.shoot(study.room.scene, cameras, effort, options.seed);
-            solution += shots[0].solution / repeats;
-            for (const Shot& shot : shots) view += shot.view / (count * repeats);
-        }
+        const auto shots =
+            method.shoot(study.room.scene, cameras, effort, options.seed);
+        const double solution = shots[0].solution;
+        double view = 0;
+        for (const Shot& shot : shots) view += shot.view / count;
         const auto size = [](std::size_t bytes) {
             return bytes == 0 ? std::string("nothing")
                               : examples::text(double(bytes) / 1e6, "%.2f MB");
