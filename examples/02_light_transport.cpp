@@ -55,7 +55,7 @@ void figure_2(const examples::Options& options, long long photons) {
     const auto room = ljus::cornell_box();
     const ljus::PhotonMapping settings{
         .caustics{.photons = photons},
-        .gather_caustics{.radius = options.pick(0.1f, 0.04f, 0.02f)}};
+        .gather_caustics{.radius = options.pick(0.1f, 0.02f, 0.007f)}};
     const auto maps = make_photon_maps(room.scene, settings);
     const auto mapper = make_photon_mapper(room.scene, maps, settings);
     // [figure 2]

@@ -213,14 +213,24 @@ struct Study {
 
 /// Paths of which every number, at every surface, is shared out evenly among the rays of
 /// a pixel, and photons for caustics.
-// [judge]
 struct Judge {
-    using Stream = StratifiedStream; // what render() gives it to draw from
-    IndexedT<Cornell> scene;
-    const PhotonMap& caustics; // empty in the matt room
-    Gather gather;             // in discs smaller than a pixel
+    using Stream = StratifiedStream; ///< What render() gives it to draw from.
+    IndexedT<Cornell> scene;         ///< A room.
+    const PhotonMap& caustics;       ///< Empty in the matt room.
+    Gather gather;                   ///< In discs smaller than a pixel.
 };
 
+/// What a matt surface sends on of each lamp's light, and of the caustics map's.
+template <typename Material>
+Rgb lamps_and_caustics(const Judge& judge, const ShadingT<float>& at,
+                       const Material& material, StratifiedStream& stream,
+                       Counts& counts) {
+    const Rgb lamps = soft_light(judge.scene, at, material, stream, counts);
+    return lamps + estimate_radiance(judge.caustics, at.surface, material, at.wo,
+                                     judge.gather, light_kinds, counts.map_photons);
+}
+
+// [judge]
 Rgb radiance(const Judge& judge, const Ray& ray, StratifiedStream& stream,
              Counts& counts, NoLog log = {}) {
     Rgb sum{0};
@@ -233,18 +243,15 @@ Rgb radiance(const Judge& judge, const Ray& ray, StratifiedStream& stream,
         path.throughput *= transmittance(path.medium, met->distance);
         if (at.shines() && !path.met_diffuse)
             sum += path.throughput * at.surface.object.emission;
-        const auto at_material = [&](const auto& material) {
-            if (has(lobes(material), Lobes::diffuse))
-                sum +=
-                    path.throughput *
-                    (soft_light(judge.scene, at, material, stream, counts) +
-                     estimate_radiance(judge.caustics, at.surface, material, at.wo,
-                                       judge.gather, light_kinds, counts.map_photons));
-            return send_on(path, at, material, Lobes::all, false, stream, log);
+        const auto at_material = [&](const auto& matter) {
+            if (has(lobes(matter), Lobes::diffuse))
+                sum += path.throughput *
+                       lamps_and_caustics(judge, at, matter, stream, counts);
+            return send_on(path, at, matter, Lobes::all, false, stream, log);
         };
         if (!visit_material_of(judge.scene, at.surface, at_material)) break;
         if (depth >= 4 &&
-            !survives(path.throughput, path.squeeze, next_1d(stream), 0.4f, 1.0f))
+            !survives(path.throughput, path.squeeze, next_1d(stream), 0.4f))
             break;
     }
     return sum;

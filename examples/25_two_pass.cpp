@@ -80,8 +80,8 @@ void parts(const ljus::Room<Scene>& room, const PhotonMapping& settings,
         save_png(result.image, options.path(std::string(name) + ".png"));
     };
     save("ES*D?L", "fig-1-direct");       // lamps, and what they light
-    save("ES*DS+L", "fig-1-caustics");    // the caustics map where a path is matt first
-    save("E.*D.*D.*L", "fig-1-indirect"); // all that comes after that surface
+    save("ES*DS+L", "fig-1-caustics");    // the caustics map
+    save("E.*D.*D.*L", "fig-1-indirect"); // all that comes later
     // [parts]
 }
 
