@@ -201,11 +201,11 @@ void visibility(const examples::Options& options) {
                  options.path(seen ? "g-visible.png" : "g-report.png"));
 }
 
-/// A map of FLIP as a picture: black where nobody sees a difference.
+/// A map of FLIP as a picture: black where nobody sees a difference, white from 1/3 on.
 void save_flip_map(const Image& image, const Image& truth, const std::string& path) {
     auto map = flip_map(image, truth);
     for (auto& c : map.pixels)
-        c = ljus::RgbT<double>(ljus::srgb_decode(c.x)); // grey in proportion
+        c = ljus::RgbT<double>(ljus::srgb_decode(3 * c.x)); // grey in proportion
     save_png(map, path);
 }
 
