@@ -475,7 +475,7 @@ void equal_time(const Study& study, const std::vector<Method>& all,
                  std::to_string(shot.photons), examples::text(error, "%.5f"),
                  examples::text(std::sqrt(error / study.noise), "%.0f"),
                  examples::text(
-                     block_error(shot.image, study.truth) - study.block_noise, "%.5f"),
+                     block_error(shot.image, study.truth) - study.block_noise, "%.6f"),
                  examples::text(flip(shot.image, study.truth), "%.3f")});
         }
     save_table(options.out, table);
@@ -626,10 +626,11 @@ void class_table(const Study& study, const examples::Options& options,
                        1e-6 * right.mean)) // a rest of two light maps is rounding
                 row.push_back("0");
             else
-                row.push_back(examples::text(its.mean / right.mean, "%.3f") + " ± " +
-                              examples::text(its.mean / right.mean *
-                                                 std::hypot(error(its), error(right)),
-                                             "%.3f"));
+                row.push_back(
+                    examples::text(its.mean / right.mean, "%.3f(") +
+                    std::to_string(std::lround(1000 * its.mean / right.mean *
+                                               std::hypot(error(its), error(right)))) +
+                    ")");
         }
         table.rows.push_back(row);
     }
