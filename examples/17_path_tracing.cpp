@@ -452,7 +452,7 @@ void constant_chances(const examples::Options& options, const Sizes& sizes) {
                                     "albedo 0.5: measured"},
                         .y_label = "variance x surfaces a path",
                         .log_y = true,
-                        .more = "set xrange [0:1]\nset yrange [1:1e5]\n"};
+                        .more = "set xrange [0:1]\nset yrange [1:1e7]\n"};
     for (int i = 1; i < 100; ++i) {
         const double p = i / 100.0;
         plot.rows.push_back({p});
