@@ -187,9 +187,10 @@ void residuals(const examples::Options& options, const Sizes& sizes) {
 }
 
 /// The room after a few shots: what has been sent, and what waits.
-void progress(const examples::Options& options, const Sizes& sizes) {
+void progress(const examples::Options& options) {
     const auto room = block_room();
-    const Patches patches = make_patches(room.scene, {.size = 1.5 * sizes.patch});
+    // Four patches of the lamp, in every quality, so that four shots are direct light.
+    const Patches patches = make_patches(room.scene, {.size = 0.31});
     const auto factors = make_form_factors(
         room.scene, patches,
         {.analytic = false, .rays = 1024, .threads = options.threads});
@@ -580,7 +581,7 @@ int main(int argc, char** argv) {
         if (!line.given("--steps")) sizes.steps = options.pick(3, 4, 5);
         factors_by_chance(options);
         residuals(options, sizes);
-        progress(options, sizes);
+        progress(options);
         error_of_size(options, sizes);
         room_pictures(options, sizes);
         agreement(options, sizes);
