@@ -148,6 +148,7 @@
 #include "ljus/scene/make_scene.hpp"
 #include "ljus/scene/material_rows.hpp"
 #include "ljus/scene/obj_report.hpp"
+#include "ljus/scene/obj_text.hpp"
 #include "ljus/scene/object.hpp"
 #include "ljus/scene/query.hpp"
 #include "ljus/scene/report_room.hpp"
