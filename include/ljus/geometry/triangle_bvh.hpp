@@ -35,9 +35,8 @@ struct FirstLook {
 /// \return Which ones it may hit, and which it hits.
 /// \cost Some 90 operations for all eight together.
 // [first_look]
-template <typename Caller>
-[[nodiscard]] FirstLook first_look(const TriangleLanes& block, const WideRay& ready,
-                                   const Ray& ray) noexcept {
+[[nodiscard]] inline FirstLook
+first_look(const TriangleLanes& block, const WideRay& ready, const Ray& ray) noexcept {
     constexpr float min = std::numeric_limits<float>::min();
     // Each number is a sum of six products with at most 8 roundings on the way.
     constexpr float rounding = 64 * std::numeric_limits<float>::epsilon() / 2;
@@ -163,8 +162,7 @@ private:
                         const WideRay* ready) const {
             if (ready == nullptr || !ready->moderate)
                 return of.tree_.each_place(ask)(first, count, ready);
-            FirstLook found =
-                first_look<Ask>(of.blocks_[first / lane_count], *ready, ray);
+            FirstLook found = first_look(of.blocks_[first / lane_count], *ready, ray);
             if (certain_ends && found.certain != 0) return true;
             while (found.maybe != 0)
                 if (ask(first + static_cast<std::uint32_t>(take_lane(found.maybe))))
