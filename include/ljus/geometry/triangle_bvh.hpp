@@ -35,6 +35,7 @@ struct FirstLook {
 /// \return Which ones it may hit, and which it hits.
 /// \cost Some 90 operations for all eight together.
 // [first_look]
+template <typename Caller>
 [[nodiscard]] inline FirstLook
 first_look(const TriangleLanes& block, const WideRay& ready, const Ray& ray) noexcept {
     constexpr float min = std::numeric_limits<float>::min();
@@ -162,7 +163,8 @@ private:
                         const WideRay* ready) const {
             if (ready == nullptr || !ready->moderate)
                 return of.tree_.each_place(ask)(first, count, ready);
-            FirstLook found = first_look(of.blocks_[first / lane_count], *ready, ray);
+            FirstLook found =
+                first_look<Ask>(of.blocks_[first / lane_count], *ready, ray);
             if (certain_ends && found.certain != 0) return true;
             while (found.maybe != 0)
                 if (ask(first + static_cast<std::uint32_t>(take_lane(found.maybe))))

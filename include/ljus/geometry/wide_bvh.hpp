@@ -119,16 +119,17 @@ private:
                                static_cast<const WideRay*>(nullptr));
         return start;
     }
-    // Asks eight boxes at once: which ones the ray enters, and where.
+    // Asks eight boxes at once: which ones the ray enters, and where. A function of its
+    // own for each search, and `inline`, so that compilers put it there.
+    template <typename Search>
     std::uint64_t enter(Lanes& t, std::uint32_t node, const WideRay& r, float t_min,
                         float t_max) const noexcept;
 
     WideNodes wide_;
 };
 
-// One `inline` function, no template a search: of two that come out the same, g++ makes
-// one, which is then called; put into the searches it makes them a fifth faster.
 // [enter]
+template <typename Search>
 inline std::uint64_t WideBvh::enter(Lanes& t, std::uint32_t node, const WideRay& r,
                                     float t_min, float t_max) const noexcept {
     const Lanes* const lanes = wide_.nodes[0].plane.data();
@@ -181,7 +182,7 @@ void WideBvh::walk(const Ray& ray, Leaf&& leaf, Watch&& watch) const {
         } else {
             watch();
             Lanes t;
-            std::uint64_t entered = enter(t, at, start.ray, ray.t_min, ray.t_max);
+            std::uint64_t entered = enter<Leaf>(t, at, start.ray, ray.t_min, ray.t_max);
             if (entered != 0) {
                 const auto& child = wide_.nodes[at / WideChild::stride].child;
                 const auto key = [&](std::size_t i) {
@@ -245,7 +246,7 @@ bool WideBvh::walk_any(const Ray& ray, Leaf&& leaf, Watch&& watch) const {
             at = child;
             watch();
             Lanes t;
-            entered = enter(t, at, start.ray, ray.t_min, ray.t_max);
+            entered = enter<Leaf>(t, at, start.ray, ray.t_min, ray.t_max);
         }
         while (entered == 0) {
             if (waiting == 0) return false;
