@@ -158,13 +158,13 @@ public:
             test(place, ray);
             return false;
         };
-        tree_.walk(ray, look_first<false>(ray, ask), watch);
+        walk_nearest(tree_.wide(), ray, look_first<false>(ray, ask), watch);
     }
 
     /// As BvhT::any(), but a triangle that is certainly hit is not asked.
     template <typename Test, typename Watch = NoWatch>
     [[nodiscard]] bool any(const Ray& ray, Test&& test, Watch&& watch = {}) const {
-        return tree_.walk_any(ray, look_first<true>(ray, test), watch);
+        return walk_any(tree_.wide(), ray, look_first<true>(ray, test), watch);
     }
 
 private:
