@@ -35,6 +35,7 @@
 #include "ljus/geometry/wide_bvh.hpp"
 #include "ljus/geometry/wide_nodes.hpp"
 #include "ljus/geometry/wide_ray.hpp"
+#include "ljus/geometry/wide_walk.hpp"
 #include "ljus/image/bias_variance.hpp"
 #include "ljus/image/byte_reader.hpp"
 #include "ljus/image/color.hpp"
