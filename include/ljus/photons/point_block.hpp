@@ -4,6 +4,7 @@
 /// \brief Eight points side by side, and which of them lie within reach.
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <limits>
@@ -75,17 +76,54 @@ template <std::floating_point T>
 }
 
 /// Which of eight numbers are at most so large.
+///
+/// To bytes first, and those into one register: the two steps that compilers know.
 /// \param numbers  The numbers.
 /// \param bound    How large.
 /// \return A bit each, the first number's the lowest; none for NaN.
 template <std::floating_point T>
 [[nodiscard]] constexpr std::uint32_t lanes_up_to(const LanesT<T>& numbers,
                                                   T bound) noexcept {
-    constexpr std::int32_t bit[lane_count] = {1, 2, 4, 8, 16, 32, 64, 128};
-    std::int32_t bits = 0;
-    for_lanes([&](int i) { bits |= numbers.lane[i] <= bound ? bit[i] : 0; });
-    return static_cast<std::uint32_t>(bits);
+    std::int32_t yes[lane_count] = {};
+    for_lanes([&](int i) { yes[i] = numbers.lane[i] <= bound ? 1 : 0; });
+    std::array<std::int8_t, lane_count> bytes{};
+    for (std::size_t i = 0; i < lane_count; ++i)
+        bytes[i] = static_cast<std::int8_t>(yes[i]);
+    // A product moves the lowest bit of byte i to bit 56 + i.
+    constexpr std::uint64_t together = std::endian::native == std::endian::little
+                                           ? 0x0102040810204080u
+                                           : 0x8040201008040201u;
+    return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(bytes) * together >>
+                                      56);
 }
+
+/// The place of the smallest of eight numbers, or of one that differs from it in the
+/// last three bits only.
+///
+/// The bits of a number that is not below 0 are ordered as it is; in place of the last
+/// three stands the place, and the smallest integer tells both.
+/// \param numbers  The numbers; none of those that count below 0.
+/// \param among    Which of them count: a bit each, the first number's the lowest.
+/// \param bound    Larger ones do not count, nor does NaN.
+/// \return The place, or 8 if there is none.
+// [smallest lane]
+template <std::floating_point T>
+[[nodiscard]] constexpr std::uint32_t
+smallest_lane(const LanesT<T>& numbers, std::uint32_t among, T bound) noexcept {
+    using Bits = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
+    constexpr Bits none = std::numeric_limits<Bits>::max() & ~Bits(7);
+    constexpr std::uint32_t bit[lane_count] = {1, 2, 4, 8, 16, 32, 64, 128};
+    const auto bits = std::bit_cast<std::array<Bits, lane_count>>(numbers);
+    Bits smallest = none;
+    for_lanes([&](int i) {
+        const bool counts = (numbers.lane[i] <= bound) & ((among & bit[i]) != 0);
+        const Bits key =
+            counts ? (bits[std::size_t(i)] & ~Bits(7)) | Bits(i) : Bits(none);
+        smallest = key < smallest ? key : smallest;
+    });
+    return smallest == none ? 8 : static_cast<std::uint32_t>(smallest & 7);
+}
+// [smallest lane]
 
 /// How far a search reaches: a limit in double that decides, and two bounds in T that
 /// decide nearly always.

@@ -40,25 +40,6 @@ template <std::floating_point T>
     return result;
 }
 
-// The squared distances to their farthest corners.
-template <std::floating_point T>
-[[nodiscard]] constexpr LanesT<T> far2(const WideNodeT<T>& node,
-                                       const Vec3T<T>& center) noexcept {
-    LanesT<T> result{};
-    const auto across = [](T low, T high, T x) {
-        const T above = x - low;
-        const T below = high - x;
-        return above > below ? above : below;
-    };
-    for_lanes([&](int i) {
-        const T x = across(node.low.x[i], node.high.x[i], center.x);
-        const T y = across(node.low.y[i], node.high.y[i], center.y);
-        const T z = across(node.low.z[i], node.high.z[i], center.z);
-        result.lane[i] = x * x + y * y + z * z;
-    });
-    return result;
-}
-
 } // namespace detail
 
 /// Where everything lies in a wide tree: a matter of arithmetic, without a pointer.

@@ -179,7 +179,7 @@ private:
     template <typename Visit>
     bool in_ball(const Vec3T<T>& center, T radius, const ReachT<T>& reach,
                  Visit visit) const;
-    template <bool in_order, typename Visit>
+    template <typename Visit>
     void towards(const Vec3T<T>& center, const ReachT<T>& reach, Visit visit) const;
     template <typename Wanted>
     std::size_t count_nearest(const Vec3T<T>& center, ReachT<T> reach,
@@ -197,3 +197,4 @@ using WideKdTree = WideKdTreeT<float>; ///< WideKdTreeT in float.
 } // namespace ljus
 
 #include "ljus/photons/wide_kd_search.hpp"
+#include "ljus/photons/wide_kd_walk.hpp"
