@@ -121,15 +121,11 @@ public:
     void visit_within(const Vec3T<T>& center, T radius, Visit&& visit) const {
         const auto reach = ReachT<T>::up_to(double(radius) * double(radius), false);
         in_ball(center, radius, reach, [&](std::size_t first, std::size_t last) {
-            for (std::size_t b = first; b < last; ++b) {
-                const BlockT<T>& points = blocks_[b];
-                std::uint32_t found =
-                    reach.within(points, center, distances2(points, center));
-                for (; found != 0; found &= found - 1) {
-                    const auto i = std::size_t(std::countr_zero(found));
-                    visit(static_cast<std::uint32_t>(8 * b + i),
-                          distance2(points[i], center));
-                }
+            for (std::uint32_t found = in_leaf(first, last, center, reach); found != 0;
+                 found &= found - 1) {
+                const std::size_t i =
+                    8 * first + static_cast<std::size_t>(std::countr_zero(found));
+                visit(static_cast<std::uint32_t>(i), distance2(point(i), center));
             }
             return false;
         });
@@ -141,10 +137,7 @@ public:
     [[nodiscard]] bool any_within(const Vec3T<T>& center, T radius) const {
         const auto reach = ReachT<T>::up_to(double(radius) * double(radius), false);
         return in_ball(center, radius, reach, [&](std::size_t first, std::size_t last) {
-            for (std::size_t b = first; b < last; ++b)
-                if (reach.within(blocks_[b], center, distances2(blocks_[b], center)))
-                    return true;
-            return false;
+            return in_leaf(first, last, center, reach) != 0;
         });
     }
 
@@ -175,6 +168,25 @@ public:
 private:
     // The most that are selected by counting; more go through a heap.
     static constexpr std::size_t most_counted = 512;
+
+    // Which points of a leaf lie within reach, exactly: a bit each.
+    // [leaf]
+    std::uint32_t in_leaf(std::size_t first, std::size_t last, const Vec3T<T>& center,
+                          const ReachT<T>& reach) const noexcept {
+        std::uint32_t found = 0, sure = 0;
+        for (std::size_t b = first; b < last; ++b) {
+            const LanesT<T> d2 = distances2(blocks_[b], center);
+            found |= lanes_up_to(d2, reach.last) << 8 * (b - first);
+            sure |= lanes_up_to(d2, reach.sure) << 8 * (b - first);
+        }
+        for (std::uint32_t rest = found & ~sure; rest != 0; rest &= rest - 1) {
+            const int i = std::countr_zero(rest);
+            if (!reach.holds(distance2(point(8 * first + std::size_t(i)), center)))
+                found &= ~(1u << i);
+        }
+        return found;
+    }
+    // [leaf]
 
     template <typename Visit>
     bool in_ball(const Vec3T<T>& center, T radius, const ReachT<T>& reach,
