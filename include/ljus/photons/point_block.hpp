@@ -76,25 +76,16 @@ template <std::floating_point T>
 }
 
 /// Which of eight numbers are at most so large.
-///
-/// To bytes first, and those into one register: the two steps that compilers know.
 /// \param numbers  The numbers.
 /// \param bound    How large.
 /// \return A bit each, the first number's the lowest; none for NaN.
 template <std::floating_point T>
 [[nodiscard]] constexpr std::uint32_t lanes_up_to(const LanesT<T>& numbers,
                                                   T bound) noexcept {
-    std::int32_t yes[lane_count] = {};
-    for_lanes([&](int i) { yes[i] = numbers.lane[i] <= bound ? 1 : 0; });
-    std::array<std::int8_t, lane_count> bytes{};
-    for (std::size_t i = 0; i < lane_count; ++i)
-        bytes[i] = static_cast<std::int8_t>(yes[i]);
-    // A product moves the lowest bit of byte i to bit 56 + i.
-    constexpr std::uint64_t together = std::endian::native == std::endian::little
-                                           ? 0x0102040810204080u
-                                           : 0x8040201008040201u;
-    return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(bytes) * together >>
-                                      56);
+    constexpr std::int32_t bit[lane_count] = {1, 2, 4, 8, 16, 32, 64, 128};
+    std::int32_t bits = 0;
+    for_lanes([&](int i) { bits |= numbers.lane[i] <= bound ? bit[i] : 0; });
+    return static_cast<std::uint32_t>(bits);
 }
 
 /// The place of the smallest of eight numbers, or of one that differs from it in the
@@ -168,10 +159,17 @@ struct ReachT {
     [[nodiscard]] constexpr std::uint32_t within(const BlockT<T>& points,
                                                  const Vec3T<T>& center,
                                                  const LanesT<T>& d2) const noexcept {
-        std::uint32_t found = lanes_up_to(d2, last);
+        // Two answers in one number: within reach, as far as T can tell, and surely so.
+        constexpr std::uint32_t bit[lane_count] = {1, 2, 4, 8, 16, 32, 64, 128};
+        std::uint32_t both = 0;
+        for_lanes([&](int i) {
+            const std::uint32_t near = d2.lane[i] <= last ? bit[i] : 0;
+            const std::uint32_t certain = d2.lane[i] <= sure ? bit[i] << 8 : 0;
+            both |= near | certain;
+        });
+        std::uint32_t found = both & 255;
         if (found == 0) return 0;
-        for (std::uint32_t rest = found & ~lanes_up_to(d2, sure); rest != 0;
-             rest &= rest - 1) {
+        for (std::uint32_t rest = found & ~(both >> 8); rest != 0; rest &= rest - 1) {
             const int i = std::countr_zero(rest);
             if (!holds(distance2(points[std::size_t(i)], center))) found &= ~(1u << i);
         }

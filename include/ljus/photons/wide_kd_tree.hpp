@@ -173,13 +173,28 @@ private:
     // [leaf]
     std::uint32_t in_leaf(std::size_t first, std::size_t last, const Vec3T<T>& center,
                           const ReachT<T>& reach) const noexcept {
-        std::uint32_t found = 0, sure = 0;
+        constexpr std::uint32_t bit[lane_count] = {1, 2, 4, 8, 16, 32, 64, 128};
+        const T at_most = reach.last, at_least = reach.sure;
+        std::uint32_t near[lane_count] = {}, sure[lane_count] = {};
         for (std::size_t b = first; b < last; ++b) {
             const LanesT<T> d2 = distances2(blocks_[b], center);
-            found |= lanes_up_to(d2, reach.last) << 8 * (b - first);
-            sure |= lanes_up_to(d2, reach.sure) << 8 * (b - first);
+            for_lanes([&](int i) {
+                const std::uint32_t here = d2.lane[i] <= at_most ? bit[i] << 24 : 0u;
+                near[i] = near[i] >> 8 | here;
+            });
+            for_lanes([&](int i) {
+                const std::uint32_t here = d2.lane[i] <= at_least ? bit[i] << 24 : 0u;
+                sure[i] = sure[i] >> 8 | here;
+            });
         }
-        for (std::uint32_t rest = found & ~sure; rest != 0; rest &= rest - 1) {
+        const auto unused = static_cast<int>(32 - 8 * (last - first));
+        std::uint32_t found = 0, certain = 0;
+        for_lanes([&](int i) { found |= near[i]; });
+        if (found == 0) return 0;
+        for_lanes([&](int i) { certain |= sure[i]; });
+        found >>= unused;
+        certain >>= unused;
+        for (std::uint32_t rest = found & ~certain; rest != 0; rest &= rest - 1) {
             const int i = std::countr_zero(rest);
             if (!reach.holds(distance2(point(8 * first + std::size_t(i)), center)))
                 found &= ~(1u << i);
