@@ -63,3 +63,15 @@ ljus_break_it(NAME wide-kd-tree-left HEADER photons/wide_kd_walk.hpp TEST wide_k
     FROM "at.left &= ~(1u << i);"
     TO   "at.left &= at.left - 1;"
     CASES "wide_kd_tree: every search*")
+
+# More are let through than may be spared.
+ljus_break_it(NAME wide-kd-tree-spare HEADER photons/lane_select.hpp TEST lane_select
+    FROM "up_to_high <= k + spare"
+    TO   "up_to_high <= k + 2 * spare"
+    CASES "lane_select: what sorting*")
+
+# The farthest of those that were let through is left out.
+ljus_break_it(NAME wide-kd-tree-thin HEADER photons/wide_kd_search.hpp TEST wide_kd_tree
+    FROM "kept += x <= bound;"
+    TO   "kept += x < least;"
+    CASES "wide_kd_tree: every search*")

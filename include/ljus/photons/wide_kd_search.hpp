@@ -90,9 +90,29 @@ std::size_t WideKdTreeT<T>::count_nearest(const Vec3T<T>& center, ReachT<T> reac
     const std::size_t k = found.size();
     std::size_t count = 0;
 
-    const auto shrink = [&] {
+    const auto fill_up = [&] {
         for (std::size_t i = count; i % 8 != 0; ++i)
             d2[i] = std::numeric_limits<T>::infinity();
+    };
+    // On the way a few too many will do.
+    const std::size_t spare = k / 8;
+    const auto thin_out = [&] {
+        fill_up();
+        const T least = select_smallest(d2, count, k, spare);
+        const T bound = ReachT<T>::up_to(double(least), false).last;
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const T x = d2[i];
+            d2[kept] = x;
+            index[kept] = index[i];
+            kept += x <= bound;
+        }
+        count = kept;
+        if (double(bound) < reach.limit2)
+            reach = ReachT<T>::up_to(double(bound), false);
+    };
+    const auto shrink = [&] {
+        fill_up();
         // Those that T puts near the k-th are put into their order in double.
         const auto kth = ReachT<T>::up_to(double(select_smallest(d2, count, k)), false);
         std::size_t sure = 0, ties = 0;
@@ -137,8 +157,9 @@ std::size_t WideKdTreeT<T>::count_nearest(const Vec3T<T>& center, ReachT<T> reac
             }
         }
         if (count >= enough) {
-            shrink();
-            enough = k + std::max<std::size_t>(k / 2, 32);
+            thin_out();
+            if (count > k + 2 * spare) shrink(); // many are equally far
+            enough = count + std::max<std::size_t>(k / 2, 32);
         }
     });
     if (count > k) shrink();
