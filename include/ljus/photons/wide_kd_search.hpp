@@ -19,30 +19,29 @@ std::optional<Neighbor> WideKdTreeT<T>::nearest(const Vec3T<T>& center,
     auto reach = ReachT<T>::up_to(double(radius) * double(radius), false);
     std::optional<Neighbor> best;
     towards(center, reach, [&](std::size_t first, std::size_t last) {
-        // The smallest distance in T; only what is as small may be the nearest.
-        LanesT<T> least;
-        for (T& x : least.lane) x = std::numeric_limits<T>::infinity();
-        for (std::size_t b = first; b < last; ++b) {
+        // The smallest distance in T, but for its last bits; only what is as small may
+        // be the nearest.
+        LanesT<T> least = distances2(blocks_[first], center);
+        for (std::size_t b = first + 1; b < last; ++b) {
             const LanesT<T> d2 = distances2(blocks_[b], center);
             for_lanes([&](int i) {
                 least.lane[i] = d2.lane[i] < least.lane[i] ? d2.lane[i] : least.lane[i];
             });
         }
-        T smallest = least.lane[0];
-        for (const T x : least.lane) smallest = x < smallest ? x : smallest;
-        if (!(smallest <= reach.last)) return;
-        auto close = ReachT<T>::up_to(double(smallest), false);
-        close.last = std::min(close.last, reach.last);
-        for (std::size_t b = first; b < last; ++b) {
-            const LanesT<T> d2 = distances2(blocks_[b], center);
-            for (std::uint32_t some = lanes_up_to(d2, close.last); some != 0;
-                 some &= some - 1) {
-                const auto i = std::size_t(std::countr_zero(some));
-                const double exact = distance2(blocks_[b][i], center);
-                if (!reach.holds(exact)) continue;
-                best = Neighbor{exact, static_cast<std::uint32_t>(8 * b + i)};
-                reach = ReachT<T>::up_to(exact, true);
-            }
+        const std::uint32_t smallest = smallest_lane(least, 255, reach.last);
+        if (smallest == 8) return;
+        const T bound = std::min(
+            ReachT<T>::up_to(double(least.lane[smallest]), false).last, reach.last);
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        const ReachT<T> close{.limit2 = infinity, .sure = bound, .last = bound};
+        for (std::uint32_t some = in_leaf(first, last, center, close); some != 0;
+             some &= some - 1) {
+            const std::size_t i =
+                8 * first + static_cast<std::size_t>(std::countr_zero(some));
+            const double exact = distance2(point(i), center);
+            if (!reach.holds(exact)) continue;
+            best = Neighbor{exact, static_cast<std::uint32_t>(i)};
+            reach = ReachT<T>::up_to(exact, true);
         }
     });
     return best;
