@@ -31,11 +31,17 @@ template <std::floating_point T>
         const T above = x < low ? low : x;
         return x - (above > high ? high : above);
     };
+    // One axis at a time: a longer body is not always inlined, and then no vector.
+    LanesT<T> x, y, z;
+    for_lanes(
+        [&](int i) { x.lane[i] = outside(node.low.x[i], node.high.x[i], center.x); });
+    for_lanes(
+        [&](int i) { y.lane[i] = outside(node.low.y[i], node.high.y[i], center.y); });
+    for_lanes(
+        [&](int i) { z.lane[i] = outside(node.low.z[i], node.high.z[i], center.z); });
     for_lanes([&](int i) {
-        const T x = outside(node.low.x[i], node.high.x[i], center.x);
-        const T y = outside(node.low.y[i], node.high.y[i], center.y);
-        const T z = outside(node.low.z[i], node.high.z[i], center.z);
-        result.lane[i] = x * x + y * y + z * z;
+        result.lane[i] =
+            x.lane[i] * x.lane[i] + y.lane[i] * y.lane[i] + z.lane[i] * z.lane[i];
     });
     return result;
 }
