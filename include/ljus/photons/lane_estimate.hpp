@@ -63,8 +63,8 @@ namespace detail {
 // Eight bytes with a sign, as integers: each is shifted to the top of its half of the
 // eight and down again. Written as a conversion it leaves the lanes.
 template <typename Byte>
-constexpr void widen(const Byte (&bytes)[lane_count],
-                     std::int32_t (&wide)[lane_count]) noexcept {
+constexpr void bytes_to_integers(const Byte (&bytes)[lane_count],
+                                 std::int32_t (&wide)[lane_count]) noexcept {
     static_assert(sizeof(Byte) == 1);
     std::array<Byte, lane_count> copy;
     std::copy(bytes, bytes + lane_count, copy.begin());
@@ -110,10 +110,10 @@ flux_in_disc(const WideKdTreeT<T>& tree, const PhotonRecordsT<T>& records,
     const auto visit = [&](const FoundBlockT<T>& block) {
         const RecordBlockT<T>& record = records.blocks()[block.first / 8];
         std::int32_t nx[lane_count], ny[lane_count], nz[lane_count], kind[lane_count];
-        detail::widen(record.nx, nx);
-        detail::widen(record.ny, ny);
-        detail::widen(record.nz, nz);
-        detail::widen(record.kind, kind);
+        detail::bytes_to_integers(record.nx, nx);
+        detail::bytes_to_integers(record.ny, ny);
+        detail::bytes_to_integers(record.nz, nz);
+        detail::bytes_to_integers(record.kind, kind);
         LanesT<T> shares;
         std::int32_t inside[lane_count];
         std::int32_t count = 0;
