@@ -114,6 +114,7 @@
 #include "ljus/photons/wide_kd_shape.hpp"
 #include "ljus/photons/wide_kd_tree.hpp"
 #include "ljus/progress.hpp"
+#include "ljus/photons/wide_kd_walk.hpp"
 #include "ljus/render/camera_path.hpp"
 #include "ljus/render/class_means.hpp"
 #include "ljus/render/counts.hpp"
