@@ -533,8 +533,8 @@ void equal_error(const Study& study, const std::vector<Method>& all,
 /// Each class of paths: what a renderer brings of it, over what path tracing brings.
 void class_table(const Study& study, const examples::Options& options,
                  const Sizes& sizes) {
-    constexpr std::array names{"EL",      "ES+L",       "EDL", "ES+DL",
-                               "ES*DS+L", "E.*D.*D.*L", "E.*L"};
+    static constexpr std::array names{"EL",      "ES+L",       "EDL", "ES+DL",
+                                      "ES*DS+L", "E.*D.*D.*L", "E.*L"};
     std::vector<PathClass> classes;
     for (const char* name : names) classes.push_back(path_class(name));
     const Cornell& scene = study.room.scene;
