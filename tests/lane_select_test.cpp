@@ -39,6 +39,13 @@ void compare_with_sorting() {
         while (values.size() % 8 != 0) values.push_back(infinity);
         const auto k = std::size_t(1 + numbers.below(int(n)));
         REQUIRE(ljus::select_smallest(values.data(), n, k) == sorted[k - 1]);
+
+        const auto spare = std::size_t(numbers.below(30));
+        const T near = ljus::select_smallest(values.data(), n, k, spare);
+        const auto through = std::size_t(
+            std::upper_bound(sorted.begin(), sorted.end(), near) - sorted.begin());
+        REQUIRE(through >= k);
+        REQUIRE((through <= k + spare || near == sorted[k - 1]));
     }
 }
 

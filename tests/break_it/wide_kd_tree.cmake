@@ -51,3 +51,27 @@ ljus_break_it(NAME wide-kd-tree-select HEADER photons/lane_select.hpp TEST lane_
     FROM "if (up_to_low + 1 == k)"
     TO   "if (up_to_low + 2 == k)"
     CASES "lane_select: what sorting*")
+
+# The children that were left open are forgotten.
+ljus_break_it(NAME wide-kd-tree-open HEADER photons/wide_kd_walk.hpp TEST wide_kd_tree
+    FROM "if (open[size].children != 0) ++size;"
+    TO   ""
+    CASES "wide_kd_tree: every search*")
+
+# Another child is crossed off than the one that was looked at.
+ljus_break_it(NAME wide-kd-tree-left HEADER photons/wide_kd_walk.hpp TEST wide_kd_tree
+    FROM "at.left &= ~(1u << i);"
+    TO   "at.left &= at.left - 1;"
+    CASES "wide_kd_tree: every search*")
+
+# More are let through than may be spared.
+ljus_break_it(NAME wide-kd-tree-spare HEADER photons/lane_select.hpp TEST lane_select
+    FROM "up_to_high <= k + spare"
+    TO   "up_to_high <= k + 2 * spare"
+    CASES "lane_select: what sorting*")
+
+# The farthest of those that were let through is left out.
+ljus_break_it(NAME wide-kd-tree-thin HEADER photons/wide_kd_search.hpp TEST wide_kd_tree
+    FROM "kept += x <= bound;"
+    TO   "kept += x < least;"
+    CASES "wide_kd_tree: every search*")

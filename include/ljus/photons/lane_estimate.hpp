@@ -58,6 +58,30 @@ template <std::floating_point T>
     return weight;
 }
 
+namespace detail {
+
+// Eight bytes with a sign, as integers: each is shifted to the top of its half of the
+// eight and down again. Written as a conversion it leaves the lanes.
+template <typename Byte>
+constexpr void bytes_to_integers(const Byte (&bytes)[lane_count],
+                                 std::int32_t (&wide)[lane_count]) noexcept {
+    static_assert(sizeof(Byte) == 1);
+    std::array<Byte, lane_count> copy;
+    std::copy(bytes, bytes + lane_count, copy.begin());
+    const auto half = std::bit_cast<std::array<std::uint32_t, 2>>(copy);
+    constexpr bool little = std::endian::native == std::endian::little;
+    constexpr int up[lane_count] = {little ? 24 : 0, little ? 16 : 8, little ? 8 : 16,
+                                    little ? 0 : 24, little ? 24 : 0, little ? 16 : 8,
+                                    little ? 8 : 16, little ? 0 : 24};
+    const std::uint32_t first = half[0], second = half[1];
+    for_lanes([&](int i) {
+        const std::uint32_t four = i < 4 ? first : second;
+        wide[i] = static_cast<std::int32_t>(four << up[i]) >> 24;
+    });
+}
+
+} // namespace detail
+
 /// The weighted flux in a disc, of photons that come from one side.
 ///
 /// The same photons as one by one, and the same weights within the rounding of T.
@@ -85,33 +109,32 @@ flux_in_disc(const WideKdTreeT<T>& tree, const PhotonRecordsT<T>& records,
     };
     const auto visit = [&](const FoundBlockT<T>& block) {
         const RecordBlockT<T>& record = records.blocks()[block.first / 8];
-        T nx[lane_count], ny[lane_count], nz[lane_count];
-        std::int32_t wanted[lane_count];
-        for_lanes([&](int i) { nx[i] = T(record.nx[i]); });
-        for_lanes([&](int i) { ny[i] = T(record.ny[i]); });
-        for_lanes([&](int i) { nz[i] = T(record.nz[i]); });
-        for_lanes(
-            [&](int i) { wanted[i] = static_cast<std::int32_t>(record.kind[i]); });
-        LanesT<T> x;
+        std::int32_t nx[lane_count], ny[lane_count], nz[lane_count], kind[lane_count];
+        detail::bytes_to_integers(record.nx, nx);
+        detail::bytes_to_integers(record.ny, ny);
+        detail::bytes_to_integers(record.nz, nz);
+        detail::bytes_to_integers(record.kind, kind);
+        LanesT<T> shares;
         std::int32_t inside[lane_count];
         std::int32_t count = 0;
         for_lanes([&](int i) {
             const T h = (block.points.x[i] - c.x) * n.x +
                         (block.points.y[i] - c.y) * n.y +
                         (block.points.z[i] - c.z) * n.z;
-            const T along = nx[i] * n.x + ny[i] * n.y + nz[i] * n.z;
-            const T length2 = nx[i] * nx[i] + ny[i] * ny[i] + nz[i] * nz[i];
+            const T x = T(nx[i]), y = T(ny[i]), z = T(nz[i]);
+            const T along = x * n.x + y * n.y + z * n.z;
+            const T length2 = x * x + y * y + z * z;
             const T share = block.distance2.lane[i] * per_radius2;
             const std::int32_t in = (share < std::numeric_limits<T>::infinity()) &
                                     (h <= height) & (-h <= height) &
                                     !(T(2) * T(127) * along < length2) &
-                                    (kinds >> wanted[i] & 1);
-            x.lane[i] = in != 0 ? share : T(0);
+                                    (kinds >> kind[i] & 1);
+            shares.lane[i] = in != 0 ? share : T(0);
             inside[i] = in;
             count += in;
         });
         gathered += static_cast<std::uint64_t>(count);
-        const LanesT<T> weight = kernel_weights(disc.kernel, x);
+        const LanesT<T> weight = kernel_weights(disc.kernel, shares);
         for_lanes([&](int i) {
             const T towards = record.direction.x[i] * d.x +
                               record.direction.y[i] * d.y + record.direction.z[i] * d.z;

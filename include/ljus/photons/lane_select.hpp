@@ -92,13 +92,16 @@ smallest_and_largest(const T* values, std::size_t count, T above, T up_to) noexc
 ///                eights with infinity.
 /// \param count   How many there are, at least 1.
 /// \param k       Which one, in [1, count].
-/// \return The smallest of them that k numbers do not exceed.
+/// \param spare   So many more than k may be let through, if that is sooner found out.
+/// \return The smallest of them that k numbers do not exceed; with numbers to spare,
+///         that or any other number that k to k + spare of them do not exceed.
 /// \cost About five passes, at most a hundred (in double two hundred); a pass is a
 ///       comparison and an addition for eight numbers.
 // [select]
 template <std::floating_point T>
 [[nodiscard]] constexpr T select_smallest(const T* values, std::size_t count,
-                                          std::size_t k) noexcept {
+                                          std::size_t k,
+                                          std::size_t spare = 0) noexcept {
     constexpr T infinity = std::numeric_limits<T>::infinity();
     constexpr T most = std::numeric_limits<T>::max();
     // Fewer than k lie at or below `low`, at least k at or below `high`.
@@ -109,6 +112,7 @@ template <std::floating_point T>
     if (up_to_high < k) return infinity;
 
     for (int step = 0;; ++step) {
+        if (spare > 0 && up_to_high <= k + spare) return high;
         if (up_to_high == k)
             return smallest_and_largest(values, count, infinity, high).second;
         if (up_to_low + 1 == k)

@@ -4,6 +4,7 @@
 /// \brief Eight points side by side, and which of them lie within reach.
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <limits>
@@ -87,6 +88,34 @@ template <std::floating_point T>
     return static_cast<std::uint32_t>(bits);
 }
 
+/// The place of the smallest of eight numbers, or of one that differs from it in the
+/// last three bits only.
+///
+/// The bits of a number that is not below 0 are ordered as it is; in place of the last
+/// three stands the place, and the smallest integer tells both.
+/// \param numbers  The numbers; none of those that count below 0.
+/// \param among    Which of them count: a bit each, the first number's the lowest.
+/// \param bound    Larger ones do not count, nor does NaN.
+/// \return The place, or 8 if there is none.
+// [smallest lane]
+template <std::floating_point T>
+[[nodiscard]] constexpr std::uint32_t
+smallest_lane(const LanesT<T>& numbers, std::uint32_t among, T bound) noexcept {
+    using Bits = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
+    constexpr Bits none = std::numeric_limits<Bits>::max() & ~Bits(7);
+    constexpr std::uint32_t bit[lane_count] = {1, 2, 4, 8, 16, 32, 64, 128};
+    const auto bits = std::bit_cast<std::array<Bits, lane_count>>(numbers);
+    Bits smallest = none;
+    for_lanes([&](int i) {
+        const bool counts = (numbers.lane[i] <= bound) & ((among & bit[i]) != 0);
+        const Bits key =
+            counts ? (bits[std::size_t(i)] & ~Bits(7)) | Bits(i) : Bits(none);
+        smallest = key < smallest ? key : smallest;
+    });
+    return smallest == none ? 8 : static_cast<std::uint32_t>(smallest & 7);
+}
+// [smallest lane]
+
 /// How far a search reaches: a limit in double that decides, and two bounds in T that
 /// decide nearly always.
 ///
@@ -130,10 +159,17 @@ struct ReachT {
     [[nodiscard]] constexpr std::uint32_t within(const BlockT<T>& points,
                                                  const Vec3T<T>& center,
                                                  const LanesT<T>& d2) const noexcept {
-        std::uint32_t found = lanes_up_to(d2, last);
+        // Two answers in one number: within reach, as far as T can tell, and surely so.
+        constexpr std::uint32_t bit[lane_count] = {1, 2, 4, 8, 16, 32, 64, 128};
+        std::uint32_t both = 0;
+        for_lanes([&](int i) {
+            const std::uint32_t near = d2.lane[i] <= last ? bit[i] : 0;
+            const std::uint32_t certain = d2.lane[i] <= sure ? bit[i] << 8 : 0;
+            both |= near | certain;
+        });
+        std::uint32_t found = both & 255;
         if (found == 0) return 0;
-        for (std::uint32_t rest = found & ~lanes_up_to(d2, sure); rest != 0;
-             rest &= rest - 1) {
+        for (std::uint32_t rest = found & ~(both >> 8); rest != 0; rest &= rest - 1) {
             const int i = std::countr_zero(rest);
             if (!holds(distance2(points[std::size_t(i)], center))) found &= ~(1u << i);
         }

@@ -31,30 +31,17 @@ template <std::floating_point T>
         const T above = x < low ? low : x;
         return x - (above > high ? high : above);
     };
+    // One axis at a time: a longer body is not always inlined, and then no vector.
+    LanesT<T> x, y, z;
+    for_lanes(
+        [&](int i) { x.lane[i] = outside(node.low.x[i], node.high.x[i], center.x); });
+    for_lanes(
+        [&](int i) { y.lane[i] = outside(node.low.y[i], node.high.y[i], center.y); });
+    for_lanes(
+        [&](int i) { z.lane[i] = outside(node.low.z[i], node.high.z[i], center.z); });
     for_lanes([&](int i) {
-        const T x = outside(node.low.x[i], node.high.x[i], center.x);
-        const T y = outside(node.low.y[i], node.high.y[i], center.y);
-        const T z = outside(node.low.z[i], node.high.z[i], center.z);
-        result.lane[i] = x * x + y * y + z * z;
-    });
-    return result;
-}
-
-// The squared distances to their farthest corners.
-template <std::floating_point T>
-[[nodiscard]] constexpr LanesT<T> far2(const WideNodeT<T>& node,
-                                       const Vec3T<T>& center) noexcept {
-    LanesT<T> result{};
-    const auto across = [](T low, T high, T x) {
-        const T above = x - low;
-        const T below = high - x;
-        return above > below ? above : below;
-    };
-    for_lanes([&](int i) {
-        const T x = across(node.low.x[i], node.high.x[i], center.x);
-        const T y = across(node.low.y[i], node.high.y[i], center.y);
-        const T z = across(node.low.z[i], node.high.z[i], center.z);
-        result.lane[i] = x * x + y * y + z * z;
+        result.lane[i] =
+            x.lane[i] * x.lane[i] + y.lane[i] * y.lane[i] + z.lane[i] * z.lane[i];
     });
     return result;
 }

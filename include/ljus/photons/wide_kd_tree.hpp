@@ -121,15 +121,11 @@ public:
     void visit_within(const Vec3T<T>& center, T radius, Visit&& visit) const {
         const auto reach = ReachT<T>::up_to(double(radius) * double(radius), false);
         in_ball(center, radius, reach, [&](std::size_t first, std::size_t last) {
-            for (std::size_t b = first; b < last; ++b) {
-                const BlockT<T>& points = blocks_[b];
-                std::uint32_t found =
-                    reach.within(points, center, distances2(points, center));
-                for (; found != 0; found &= found - 1) {
-                    const auto i = std::size_t(std::countr_zero(found));
-                    visit(static_cast<std::uint32_t>(8 * b + i),
-                          distance2(points[i], center));
-                }
+            for (std::uint32_t found = in_leaf(first, last, center, reach); found != 0;
+                 found &= found - 1) {
+                const std::size_t i =
+                    8 * first + static_cast<std::size_t>(std::countr_zero(found));
+                visit(static_cast<std::uint32_t>(i), distance2(point(i), center));
             }
             return false;
         });
@@ -141,10 +137,7 @@ public:
     [[nodiscard]] bool any_within(const Vec3T<T>& center, T radius) const {
         const auto reach = ReachT<T>::up_to(double(radius) * double(radius), false);
         return in_ball(center, radius, reach, [&](std::size_t first, std::size_t last) {
-            for (std::size_t b = first; b < last; ++b)
-                if (reach.within(blocks_[b], center, distances2(blocks_[b], center)))
-                    return true;
-            return false;
+            return in_leaf(first, last, center, reach) != 0;
         });
     }
 
@@ -176,10 +169,44 @@ private:
     // The most that are selected by counting; more go through a heap.
     static constexpr std::size_t most_counted = 512;
 
+    // Which points of a leaf lie within reach, exactly: a bit each.
+    // [leaf]
+    std::uint32_t in_leaf(std::size_t first, std::size_t last, const Vec3T<T>& center,
+                          const ReachT<T>& reach) const noexcept {
+        constexpr std::uint32_t bit[lane_count] = {1, 2, 4, 8, 16, 32, 64, 128};
+        const T at_most = reach.last, at_least = reach.sure;
+        std::uint32_t near[lane_count] = {}, sure[lane_count] = {};
+        for (std::size_t b = first; b < last; ++b) {
+            const LanesT<T> d2 = distances2(blocks_[b], center);
+            for_lanes([&](int i) {
+                const std::uint32_t here = d2.lane[i] <= at_most ? bit[i] << 24 : 0u;
+                near[i] = near[i] >> 8 | here;
+            });
+            for_lanes([&](int i) {
+                const std::uint32_t here = d2.lane[i] <= at_least ? bit[i] << 24 : 0u;
+                sure[i] = sure[i] >> 8 | here;
+            });
+        }
+        const auto unused = static_cast<int>(32 - 8 * (last - first));
+        std::uint32_t found = 0, certain = 0;
+        for_lanes([&](int i) { found |= near[i]; });
+        if (found == 0) return 0;
+        for_lanes([&](int i) { certain |= sure[i]; });
+        found >>= unused;
+        certain >>= unused;
+        for (std::uint32_t rest = found & ~certain; rest != 0; rest &= rest - 1) {
+            const int i = std::countr_zero(rest);
+            if (!reach.holds(distance2(point(8 * first + std::size_t(i)), center)))
+                found &= ~(1u << i);
+        }
+        return found;
+    }
+    // [leaf]
+
     template <typename Visit>
     bool in_ball(const Vec3T<T>& center, T radius, const ReachT<T>& reach,
                  Visit visit) const;
-    template <bool in_order, typename Visit>
+    template <typename Visit>
     void towards(const Vec3T<T>& center, const ReachT<T>& reach, Visit visit) const;
     template <typename Wanted>
     std::size_t count_nearest(const Vec3T<T>& center, ReachT<T> reach,
@@ -197,3 +224,4 @@ using WideKdTree = WideKdTreeT<float>; ///< WideKdTreeT in float.
 } // namespace ljus
 
 #include "ljus/photons/wide_kd_search.hpp"
+#include "ljus/photons/wide_kd_walk.hpp"
