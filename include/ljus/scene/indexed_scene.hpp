@@ -15,7 +15,7 @@ namespace ljus {
 
 /// So many shapes, at most, are asked in turn; of more, a tree says which ones to ask.
 /// Measured (benchmarks/rays_room.cpp): in the report's room, cut down to its first 2,
-/// 3, 4, ... objects, the loop takes 34, 47, 56, ... ns a ray and the tree 37, 43, 48.
+/// 3, 4, ... objects, the loop takes 34, 45, 53, ... ns a ray and the tree 35, 41, 45.
 inline constexpr std::size_t flat_loop_limit = 2;
 
 /// A box around a shape of any type: its own bounds(), or those of its bounding sphere.
