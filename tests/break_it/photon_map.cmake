@@ -71,7 +71,7 @@ ljus_break_it(NAME lane-estimate-turned HEADER photons/lane_estimate.hpp TEST ph
     TO   "T(127) * along"
     CASES "photon_map: eight*")
 ljus_break_it(NAME lane-estimate-kinds HEADER photons/lane_estimate.hpp TEST photon_map
-    FROM "kinds >> wanted[i] & 1"
+    FROM "kinds >> kind[i] & 1"
     TO   "kinds | 1"
     CASES "photon_map: eight*")
 
