@@ -24,9 +24,9 @@ struct House {
     NearestHit nearest(const Ray& ray) const {
         NearestHit found;
         tree.closest(ray, [&](std::uint32_t place, Ray& rest) {
-            const std::uint32_t i = tree.order()[place];
-            if (const auto hit = ljus::intersect<double>(rest, mesh[i]))
-                found.offer(*hit, i, rest);
+            const Triangle triangle = rays::triangle_at(tree, mesh, place);
+            if (const auto hit = ljus::intersect<double>(rest, triangle))
+                found.offer(*hit, tree.order()[place], rest);
         });
         return found;
     }
@@ -36,7 +36,8 @@ struct House {
     }
     bool any(const Ray& ray) const {
         return tree.any(ray, [&](std::uint32_t place) {
-            return ljus::intersect<double>(ray, mesh[tree.order()[place]]).has_value();
+            const Triangle triangle = rays::triangle_at(tree, mesh, place);
+            return ljus::intersect<double>(ray, triangle).has_value();
         });
     }
 };

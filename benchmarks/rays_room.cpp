@@ -1,6 +1,6 @@
 /// \file rays_room.cpp
 /// \brief The report's room: its own style of loop, the house's loop and index, and
-/// Embree; and the path tracer's rays a second.
+/// Embree.
 
 #include <cstdio>
 #include <memory>
@@ -221,7 +221,7 @@ void print_crossover(const Scene& whole, const std::vector<Ray>& set) {
 
 } // namespace
 
-/// Prints a row for each set of rays, the crossover, and the path tracer's speed.
+/// Prints a row for each set of rays, and the crossover.
 int main() {
     const auto room = ljus::final_room();
     const auto& scene = room.scene;
@@ -266,15 +266,4 @@ int main() {
     row("shadow", sets.shadow, true);
 
     print_crossover(scene, sets.diffuse);
-
-    const auto tracer = make_path_tracer(indexed);
-    double best = 0;
-    for (int run = 0; run < 7; ++run) {
-        const double start = rays::seconds();
-        const auto result =
-            render(tracer, room.camera,
-                   {.width = 100, .height = 100, .rays = 8, .threads = 1});
-        best = std::max(best, double(result.counts.rays()) / (rays::seconds() - start));
-    }
-    std::printf("path tracing: %.2f million rays a second and thread\n", best / 1e6);
 }

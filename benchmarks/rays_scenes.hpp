@@ -158,5 +158,13 @@ inline ljus::TriangleBvh wide_tree(const Mesh& mesh) {
     return {static_cast<std::uint32_t>(mesh.size()),
             [&](std::uint32_t i) -> const ljus::Triangle& { return mesh[i]; }, 1};
 }
+/// A triangle at a place of a tree: where the tree has it, or where the mesh does.
+template <typename Tree>
+Triangle triangle_at(const Tree& tree, const Mesh& mesh, std::uint32_t place) {
+    if constexpr (requires { tree.triangle(place); })
+        return tree.triangle(place);
+    else
+        return mesh[tree.order()[place]];
+}
 
 } // namespace rays

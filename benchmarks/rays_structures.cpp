@@ -42,9 +42,9 @@ struct House {
     NearestHit closest(const Ray& ray) const {
         NearestHit nearest;
         tree.closest(ray, [&](std::uint32_t place, Ray& rest) {
-            const std::uint32_t i = tree.order()[place];
-            if (const auto hit = ljus::intersect<double>(rest, mesh[i]))
-                nearest.offer(*hit, i, rest);
+            const Triangle triangle = rays::triangle_at(tree, mesh, place);
+            if (const auto hit = ljus::intersect<double>(rest, triangle))
+                nearest.offer(*hit, tree.order()[place], rest);
         });
         return nearest;
     }

@@ -101,7 +101,7 @@ void body(examples::CommandLine& line) {
     const auto scene = make_place();
     const ljus::PhotonMapping settings{
         .caustics{.photons = photons, .seed = options.seed, .threads = options.threads},
-        .gather_caustics{.radius = options.pick(0.2f, 0.1f, 0.05f)}};
+        .gather_caustics{.radius = options.pick(0.2f, 0.07f, 0.02f)}};
     // Photons do not know where the camera is: one map serves all frames.
     // [frames]
     const examples::StopWatch watch;

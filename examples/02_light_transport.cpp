@@ -55,7 +55,7 @@ void figure_2(const examples::Options& options, long long photons) {
     const auto room = ljus::cornell_box();
     const ljus::PhotonMapping settings{
         .caustics{.photons = photons},
-        .gather_caustics{.radius = options.pick(0.1f, 0.04f, 0.02f)}};
+        .gather_caustics{.radius = options.pick(0.1f, 0.02f, 0.007f)}};
     const auto maps = make_photon_maps(room.scene, settings);
     const auto mapper = make_photon_mapper(room.scene, maps, settings);
     // [figure 2]
@@ -201,11 +201,11 @@ void visibility(const examples::Options& options) {
                  options.path(seen ? "g-visible.png" : "g-report.png"));
 }
 
-/// A map of FLIP as a picture: black where nobody sees a difference.
+/// A map of FLIP as a picture: black where nobody sees a difference, white from 1/3 on.
 void save_flip_map(const Image& image, const Image& truth, const std::string& path) {
     auto map = flip_map(image, truth);
     for (auto& c : map.pixels)
-        c = ljus::RgbT<double>(ljus::srgb_decode(c.x)); // grey in proportion
+        c = ljus::RgbT<double>(ljus::srgb_decode(3 * c.x)); // grey in proportion
     save_png(map, path);
 }
 
@@ -236,7 +236,7 @@ void emulate(const examples::Options& options, long long photons, int truth_rays
         save_flip_map(image, truth, options.path(file + "-flip.png"));
     };
     for (const int rays : {4, 16, 64, 256}) {
-        if (rays > 2 * truth_rays) break;
+        if (8 * rays > truth_rays) break; // it would see the truth's own noise
         take(std::to_string(rays) + " paths", rays == 16 ? "emulate-paths" : "", [&] {
             return rendered("paths", tracer, camera, options, rays, options.seed);
         });
@@ -281,12 +281,14 @@ int main(int argc, char** argv) {
             line.parse({.draft{.width = 96, .height = 96, .rays = 9},
                         .report{.width = 300, .height = 300, .rays = 64},
                         .reference{.width = 400, .height = 400, .rays = 1024}});
+        const long long seen =
+            photons != 0 ? photons : options.pick(30000LL, 300000LL, 3000000LL);
         if (photons == 0) photons = options.pick(30000LL, 1000000LL, 10000000LL);
-        if (truth == 0) truth = options.pick(128, 4096, 65536);
+        if (truth == 0) truth = options.pick(512, 2048, 65536);
         figure_2(options, photons);
         bounces(options);
         truncations(options);
         visibility(options);
-        emulate(options, photons, truth);
+        emulate(options, seen, truth);
     });
 }

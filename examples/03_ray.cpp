@@ -1,5 +1,5 @@
 // figures: ray
-// smoke: --quality draft --cases 50 --size 24
+// smoke: --quality draft --cases 50 --width 24
 /// \file 03_ray.cpp
 /// \brief Chapter 3: where a ray starts that leaves a surface. A fixed distance is too
 /// long for one scene and too short for the next.
@@ -11,15 +11,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <exception>
-#include <filesystem>
 #include <limits>
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "common/clock.hpp"
+#include "common/command_line.hpp"
 #include "common/numbers.hpp"
 #include "common/plot.hpp"
 #include "ljus/geometry/shape.hpp"
@@ -352,51 +349,28 @@ ljus::Image picture(int width, double size, float fixed) {
     return image;
 }
 
+} // namespace
+
 /// Makes the chapter's figures.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
-/// \return 0.
-int run(int argc, char** argv) {
-    std::string out = "figures", quality = "report";
-    int cases = 0, size = 540;
-    CLI::App app{"Chapter 3, the ray: its figures and its table."};
-    app.add_option("--out", out, "Folder for the files")->capture_default_str();
-    app.add_option("--quality", quality, "How long it may take")
-        ->check(CLI::IsMember({"draft", "report", "reference"}))
-        ->capture_default_str();
-    app.add_option("--cases", cases, "Objects a size, instead of what the quality says")
-        ->check(CLI::Range(1, 100000000));
-    app.add_option("--size", size, "Pixels of the pictures' width")
-        ->check(CLI::Range(1, 10000));
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    if (cases == 0)
-        cases = quality == "draft" ? 10000 : quality == "report" ? 50000 : 1000000;
-
-    std::filesystem::create_directories(out);
-    compare(out, cases);
-    for (const auto& [name, scale] :
-         {std::pair{"0.01", 0.01}, std::pair{"0.1", 0.1}, std::pair{"1", 1.0},
-          std::pair{"100", 100.0}, std::pair{"10000", 1e4}}) {
-        ljus::save_png(picture(size, scale, 1e-3f),
-                       out + "/ray-fixed-" + name + ".png");
-        ljus::save_png(picture(size, scale, 0), out + "/ray-leave-" + name + ".png");
-    }
-    std::printf("03_ray: a plot, pictures and a table are in %s\n", out.c_str());
-    return 0;
-}
-
-} // namespace
-
-/// Runs the program; an error is one sentence and exit code 2.
+/// \return 0; 2 with one sentence for anything that is wrong.
 int main(int argc, char** argv) {
-    try {
-        return run(argc, argv);
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "03_ray: %s\n", error.what());
-        return 2;
-    }
+    return examples::run_main(argc, argv, [](examples::CommandLine& line) {
+        int cases = 0;
+        line.about("Chapter 3, the ray: its figures and its table.");
+        line.add("--cases", cases, "Objects a size", 1, 100000000);
+        const examples::Options options = line.parse(
+            {.draft{.width = 540}, .report{.width = 540}, .reference{.width = 1080}});
+        if (!line.given("--cases")) cases = options.pick(10000, 50000, 1000000);
+        compare(options.out, cases);
+        for (const auto& [name, scale] :
+             {std::pair{"0.01", 0.01}, std::pair{"0.1", 0.1}, std::pair{"1", 1.0},
+              std::pair{"100", 100.0}, std::pair{"10000", 1e4}}) {
+            ljus::save_png(picture(options.width, scale, 1e-3f),
+                           options.path(std::string("ray-fixed-") + name + ".png"));
+            ljus::save_png(picture(options.width, scale, 0),
+                           options.path(std::string("ray-leave-") + name + ".png"));
+        }
+    });
 }

@@ -1,5 +1,5 @@
 // figures: sphere
-// smoke: --quality draft --rays 2000 --size 32
+// smoke: --quality draft --cases 2000 --width 32
 /// \file 04_sphere.cpp
 /// \brief Chapter 4: how the printed ray-sphere formula fails, and what a better one
 /// costs.
@@ -8,18 +8,15 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <exception>
-#include <filesystem>
 #include <limits>
 #include <string>
 #include <vector>
-
-#include <CLI/CLI.hpp>
 
 #define GLM_ENABLE_EXPERIMENTAL
 #include <glm/gtx/intersect.hpp>
 
 #include "common/clock.hpp"
+#include "common/command_line.hpp"
 #include "common/numbers.hpp"
 #include "common/plot.hpp"
 #include "ljus/geometry/sphere.hpp"
@@ -229,51 +226,28 @@ void tabulate_trade(const std::string& folder, std::size_t count) {
     }
 }
 
+} // namespace
+
 /// Makes the chapter's figures.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
-/// \return 0.
-int run(int argc, char** argv) {
-    std::string out = "figures", quality = "report";
-    std::size_t rays = 0;
-    int size = 0;
-    CLI::App app{"Chapter 4, the sphere: its figures and its table."};
-    app.add_option("--out", out, "Folder for the files")->capture_default_str();
-    app.add_option("--quality", quality, "How long it may take")
-        ->check(CLI::IsMember({"draft", "report", "reference"}))
-        ->capture_default_str();
-    app.add_option("--rays", rays, "Rays a distance, instead of what the quality says")
-        ->check(CLI::Range(1, 100000000));
-    app.add_option("--size", size, "Pixels of the pictures' sides")
-        ->check(CLI::Range(1, 10000));
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    if (rays == 0)
-        rays = quality == "draft" ? 100000 : quality == "report" ? 200000 : 5000000;
-    if (size == 0) size = 400;
-
-    std::filesystem::create_directories(out);
-    plot_errors(out, rays);
-    for (const int distance : {100, 300, 1000, 3000, 10000})
-        ljus::save_png(telescope<printed>(size, distance),
-                       out + "/sphere-printed-" + std::to_string(distance) + ".png");
-    ljus::save_png(telescope<robust>(size, 1e4), out + "/sphere-robust-10000.png");
-    tabulate_trade(out, rays);
-    std::printf("04_sphere: plots, pictures and a table are in %s\n", out.c_str());
-    return 0;
-}
-
-} // namespace
-
-/// Runs the program; an error is one sentence and exit code 2.
+/// \return 0; 2 with one sentence for anything that is wrong.
 int main(int argc, char** argv) {
-    try {
-        return run(argc, argv);
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "04_sphere: %s\n", error.what());
-        return 2;
-    }
+    return examples::run_main(argc, argv, [](examples::CommandLine& line) {
+        long long cases = 0;
+        line.about("Chapter 4, the sphere: its figures and its table.");
+        line.add("--cases", cases, "Rays a distance", 1, 100000000);
+        const examples::Options options = line.parse(
+            {.draft{.width = 400}, .report{.width = 400}, .reference{.width = 800}});
+        if (!line.given("--cases")) cases = options.pick(100000, 200000, 5000000);
+        const auto rays = static_cast<std::size_t>(cases);
+        plot_errors(options.out, rays);
+        for (const int distance : {100, 300, 1000, 3000, 10000})
+            ljus::save_png(
+                telescope<printed>(options.width, distance),
+                options.path("sphere-printed-" + std::to_string(distance) + ".png"));
+        ljus::save_png(telescope<robust>(options.width, 1e4),
+                       options.path("sphere-robust-10000.png"));
+        tabulate_trade(options.out, rays);
+    });
 }

@@ -1,5 +1,5 @@
 // figures: triangle
-// smoke: --quality draft --rays 300 --size 24
+// smoke: --quality draft --cases 300 --width 24
 /// \file 05_triangle.cpp
 /// \brief Chapter 5: the conditions that the report forgets, a vertex under the
 /// microscope, and what a test costs through which no ray slips.
@@ -10,20 +10,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <exception>
-#include <filesystem>
 #include <limits>
 #include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #define GLM_ENABLE_EXPERIMENTAL
 #include <glm/gtx/intersect.hpp>
 
 #include "common/clock.hpp"
+#include "common/command_line.hpp"
 #include "common/numbers.hpp"
 #include "common/plot.hpp"
 #include "ljus/geometry/watertight.hpp"
@@ -323,51 +320,31 @@ ljus::Image microscope(int cells, int cell_size) {
 }
 // [microscope]
 
+} // namespace
+
 /// Makes the chapter's figures.
 /// \param argc  Number of arguments.
 /// \param argv  The command line; `--help` explains it.
-/// \return 0.
-int run(int argc, char** argv) {
-    std::string out = "figures", quality = "report";
-    int rays = 0, size = 480;
-    CLI::App app{"Chapter 5, the triangle: its figures and its table."};
-    app.add_option("--out", out, "Folder for the files")->capture_default_str();
-    app.add_option("--quality", quality, "How long it may take")
-        ->check(CLI::IsMember({"draft", "report", "reference"}))
-        ->capture_default_str();
-    app.add_option("--rays", rays, "Rays a cell of the table, instead of the quality's")
-        ->check(CLI::Range(1, 100000000));
-    app.add_option("--size", size, "Pixels of the pictures' sides")
-        ->check(CLI::Range(1, 10000));
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    if (rays == 0)
-        rays = quality == "draft" ? 50000 : quality == "report" ? 500000 : 5000000;
-
-    std::filesystem::create_directories(out);
-    ljus::save_png(tetrahedron(size, true), out + "/triangle-printed.png");
-    ljus::save_png(tetrahedron(size, false), out + "/triangle-conditions.png");
-    const int cells = std::min(48, size), cell = std::max(1, size / 48);
-    ljus::save_png(microscope<in_float>(cells, cell), out + "/triangle-float.png");
-    ljus::save_png(microscope<in_double>(cells, cell), out + "/triangle-double.png");
-    ljus::save_png(microscope<watertight>(cells, cell),
-                   out + "/triangle-watertight.png");
-    compare(out, rays);
-    std::printf("05_triangle: a plot, pictures and a table are in %s\n", out.c_str());
-    return 0;
-}
-
-} // namespace
-
-/// Runs the program; an error is one sentence and exit code 2.
+/// \return 0; 2 with one sentence for anything that is wrong.
 int main(int argc, char** argv) {
-    try {
-        return run(argc, argv);
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "05_triangle: %s\n", error.what());
-        return 2;
-    }
+    return examples::run_main(argc, argv, [](examples::CommandLine& line) {
+        int cases = 0;
+        line.about("Chapter 5, the triangle: its figures and its table.");
+        line.add("--cases", cases, "Rays a cell of the table", 1, 100000000);
+        const examples::Options options = line.parse(
+            {.draft{.width = 480}, .report{.width = 480}, .reference{.width = 960}});
+        if (!line.given("--cases")) cases = options.pick(50000, 500000, 5000000);
+        const int size = options.width;
+        ljus::save_png(tetrahedron(size, true), options.path("triangle-printed.png"));
+        ljus::save_png(tetrahedron(size, false),
+                       options.path("triangle-conditions.png"));
+        const int cells = std::min(48, size), cell = std::max(1, size / 48);
+        ljus::save_png(microscope<in_float>(cells, cell),
+                       options.path("triangle-float.png"));
+        ljus::save_png(microscope<in_double>(cells, cell),
+                       options.path("triangle-double.png"));
+        ljus::save_png(microscope<watertight>(cells, cell),
+                       options.path("triangle-watertight.png"));
+        compare(options.out, cases);
+    });
 }

@@ -82,16 +82,17 @@ struct Loop {
     [[nodiscard]] std::size_t bytes() const { return 0; }
 };
 
-/// By a tree: `tree.closest()` is the same for both.
+/// By a tree: `tree.closest()` is the same for both; `triangle_at(place)` is where the
+/// triangles are.
 template <typename Tree>
-NearestHit first_in(const Tree& tree, const Mesh& mesh, const Ray& ray, auto&& watch) {
+NearestHit first_in(const Tree& tree, auto triangle_at, const Ray& ray, auto&& watch) {
     NearestHit nearest;
     tree.closest(
         ray,
         [&](std::uint32_t place, Ray& rest) {
-            const std::uint32_t i = tree.order()[place];
-            if (const auto hit = ljus::intersect(rest, mesh[i]))
-                nearest.offer(*hit, i, rest);
+            const Triangle triangle = triangle_at(place);
+            if (const auto hit = ljus::intersect(rest, triangle))
+                nearest.offer(*hit, tree.order()[place], rest);
         },
         watch);
     return nearest;
@@ -109,7 +110,10 @@ struct Plain {
     }
     template <typename Watch = ljus::NoWatch>
     NearestHit first(const Ray& ray, Watch&& watch = {}) const {
-        return first_in(tree, mesh, ray, watch);
+        const auto triangle_at = [&](std::uint32_t place) {
+            return mesh[tree.order()[place]];
+        };
+        return first_in(tree, triangle_at, ray, watch);
     }
     [[nodiscard]] std::size_t bytes() const {
         return tree.nodes().capacity() * sizeof(tree.nodes()[0]) +
@@ -120,15 +124,17 @@ struct Plain {
 /// Its twin for speed.
 struct Wide {
     static constexpr const char* name = "wide tree";
-    const Mesh& mesh;
     ljus::TriangleBvh tree;
     explicit Wide(const Mesh& of)
-        : mesh(of), tree(
-                        static_cast<std::uint32_t>(of.size()),
-                        [&](std::uint32_t i) { return of[i]; }, 1) {}
+        : tree(
+              static_cast<std::uint32_t>(of.size()),
+              [&](std::uint32_t i) { return of[i]; }, 1) {}
     template <typename Watch = ljus::NoWatch>
     NearestHit first(const Ray& ray, Watch&& watch = {}) const {
-        return first_in(tree, mesh, ray, watch);
+        const auto triangle_at = [&](std::uint32_t place) {
+            return tree.triangle(place);
+        };
+        return first_in(tree, triangle_at, ray, watch);
     }
     [[nodiscard]] std::size_t bytes() const { return tree.bytes(); }
 };

@@ -178,7 +178,7 @@ void by_photons(const TwoBalls& scene, long long photons,
     ljus::PhotonMapping settings;
     settings.caustics = {
         .photons = photons, .seed = options.seed, .threads = options.threads};
-    settings.gather_caustics = {.radius = 0.07f};
+    settings.gather_caustics = {.radius = options.pick(0.07f, 0.07f, 0.03f)};
     settings.max_depth = 8;
     settings.shadow_rays = 2;
     const auto maps = make_photon_maps(scene, settings);

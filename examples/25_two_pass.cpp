@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <ljus/ljus.hpp>
@@ -22,50 +23,6 @@ namespace {
 using ljus::Image;
 using ljus::PhotonMapping;
 using ljus::Picture;
-using ljus::Rgb;
-
-/// Which part of a camera path's light is kept.
-enum class Part {
-    direct,   ///< E S* L and E S* D L: lamps, and what they light.
-    caustics, ///< E S* D S+ L: the caustics map at the first diffuse surface.
-    indirect  ///< All that comes after the first diffuse surface.
-};
-
-/// A log that adds up one part of the light.
-// [part log]
-struct PartLog {
-    Part part = Part::direct;
-    Rgb sum{0};
-    bool met_diffuse = false;
-
-    void begin() { met_diffuse = false; }
-    void vertex(char letter, const ljus::Vec3&, const Rgb&, float) {
-        met_diffuse = met_diffuse || letter == 'D';
-    }
-    void term(std::string_view owner, std::string_view, const Rgb& value) {
-        const Part of = met_diffuse               ? Part::indirect
-                        : owner == "caustics map" ? Part::caustics
-                                                  : Part::direct;
-        if (of == part) sum += value;
-    }
-};
-// [part log]
-
-/// A photon mapper of which the picture shows one part.
-template <typename Scene>
-struct OnePart {
-    const ljus::PhotonMapper<Scene>& mapper; ///< The whole.
-    Part part;                               ///< What is kept.
-};
-
-/// The part's share of what radiance() finds for the whole.
-template <typename Scene, typename Log>
-Rgb radiance(const OnePart<Scene>& one, const ljus::Ray& ray,
-             ljus::RandomStream& stream, ljus::Counts& counts, Log&&) {
-    PartLog log{.part = one.part};
-    (void)radiance(one.mapper, ray, stream, counts, log);
-    return log.sum;
-}
 
 /// Renders a picture with a progress bar; Ctrl-C ends the program.
 template <typename Renderer>
@@ -116,13 +73,16 @@ void parts(const ljus::Room<Scene>& room, const PhotonMapping& settings,
     const auto maps = make_photon_maps(room.scene, settings);
     const auto mapper = make_photon_mapper(room.scene, maps, settings);
     const Picture picture{options.width, options.height, options.rays, options.seed};
-    for (const auto& [part, name] : {std::pair{Part::direct, "fig-1-direct"},
-                                     std::pair{Part::caustics, "fig-1-caustics"},
-                                     std::pair{Part::indirect, "fig-1-indirect"}}) {
-        const OnePart<Scene> one{mapper, part};
+    // [parts]
+    const auto save = [&](std::string_view paths, const char* name) {
+        const auto one = only(mapper, paths);
         const auto result = rendered(name, one, room.camera, picture, options);
         save_png(result.image, options.path(std::string(name) + ".png"));
-    }
+    };
+    save("ES*D?L", "fig-1-direct");       // lamps, and what they light
+    save("ES*DS+L", "fig-1-caustics");    // the caustics map
+    save("E.*D.*D.*L", "fig-1-indirect"); // all that comes later
+    // [parts]
 }
 
 /// The trade: error against time for the photon mapper and the path tracer.

@@ -186,8 +186,8 @@ TEST_CASE("caustics: the floor gets the power that the ball lets through") {
         const BallCaustic ball{.light = light, .absorption = absorption};
         double right = 0;
         ball.shower([&](double, double flux) { right += flux; });
-        CAPTURE(absorption);
-        CAPTURE(light);
+        CAPTURE(ball.absorption);
+        CAPTURE(ball.light);
         const Mean found = power_of(room_of(ball), 10000);
         CAPTURE(found.mean);
         CAPTURE(right);

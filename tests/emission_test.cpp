@@ -687,9 +687,10 @@ TEST_CASE(
 
 TEST_CASE("emission: a spot light's directions go with its intensity, in cones of any "
           "width") {
-    for (const auto& [inner, outer] :
+    for (const auto& cone :
          {std::pair{0.0, 30.0}, std::pair{20.0, 30.0}, std::pair{60.0, 60.0},
           std::pair{0.0, 180.0}, std::pair{179.0, 180.0}, std::pair{0.02, 0.1}}) {
+        const double inner = cone.first, outer = cone.second;
         Stage stage;
         const D3 axis = glm::normalize(D3{1, -2, 0.5});
         stage.scene.add(SpotLight{.position{1, 2, 3},

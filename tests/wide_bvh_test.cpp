@@ -39,13 +39,22 @@ Found by_loop(const Crowd& crowd, const Ray& ray) {
     return found;
 }
 
+/// Where the tree has it, if it has; else where the crowd does.
+template <typename Tree>
+Triangle triangle_at(const Tree& tree, const Crowd& crowd, std::uint32_t place) {
+    if constexpr (requires { tree.triangle(place); })
+        return tree.triangle(place);
+    else
+        return crowd[tree.order()[place]];
+}
+
 template <typename Tree>
 Found by_tree(const Tree& tree, const Crowd& crowd, const Ray& ray) {
     NearestHit nearest;
     tree.closest(ray, [&](std::uint32_t place, Ray& rest) {
-        const std::uint32_t number = tree.order()[place];
-        if (const auto hit = intersect<double>(rest, crowd[number]))
-            nearest.offer(*hit, number, rest);
+        const Triangle triangle = triangle_at(tree, crowd, place);
+        if (const auto hit = intersect<double>(rest, triangle))
+            nearest.offer(*hit, tree.order()[place], rest);
     });
     if (!nearest.found) return {};
     return {nearest.number, nearest.at.t, nearest.at.u, nearest.at.v};
@@ -54,7 +63,7 @@ Found by_tree(const Tree& tree, const Crowd& crowd, const Ray& ray) {
 template <typename Tree>
 bool any_by_tree(const Tree& tree, const Crowd& crowd, const Ray& ray) {
     return tree.any(ray, [&](std::uint32_t place) {
-        return intersect<double>(ray, crowd[tree.order()[place]]).has_value();
+        return intersect<double>(ray, triangle_at(tree, crowd, place)).has_value();
     });
 }
 
@@ -150,6 +159,21 @@ TEST_CASE("wide bvh: the same answers as asking everything") {
                     hits += trees.check(some_ray(n, 5, place));
             }
     CHECK(hits > 500);
+}
+
+TEST_CASE("wide bvh: the triangles are kept as they were given") {
+    Numbers n(7);
+    const Crowd crowd = soup(n, 500, 1, 0.1, Vec3(1e3f, 0, -0.0f));
+    const TriangleBvh tree(500, [&](std::uint32_t i) { return crowd[i]; });
+    int kept = 0;
+    for (std::uint32_t place = 0; place < tree.order().size(); ++place) {
+        if (tree.order()[place] == WideBvh::hole) continue;
+        const Triangle triangle = tree.triangle(place);
+        const Triangle& given = crowd[tree.order()[place]];
+        REQUIRE(std::memcmp(&triangle, &given, sizeof(Triangle)) == 0);
+        ++kept;
+    }
+    CHECK(kept == 500);
 }
 
 TEST_CASE("wide bvh: rays from the surfaces themselves") {

@@ -71,7 +71,7 @@ ljus_break_it(NAME bvh-collapse HEADER geometry/bvh_collapse.hpp TEST wide_bvh
     CASES "wide bvh: few nodes*")
 
 # A search for any forgets the lanes of a node that it has entered a child of.
-ljus_break_it(NAME wide-bvh-any HEADER geometry/wide_bvh.hpp TEST wide_bvh
+ljus_break_it(NAME wide-bvh-any HEADER geometry/wide_walk.hpp TEST wide_bvh
     FROM "waiting += entered != 0 ? 1 : 0;"
     TO   "waiting += 0;"
     CASES "wide bvh: the same answers*")

@@ -5,7 +5,7 @@ ljus_break_it(NAME load-obj-from-the-end HEADER scene/obj_reader.hpp TEST load_o
     CASES "load_obj: a cube*")
 
 # tinyobjloader's own numbers: what it cannot read is 0.
-ljus_break_it(NAME load-obj-bad-number HEADER scene/obj_reader.hpp TEST load_obj
+ljus_break_it(NAME load-obj-bad-number HEADER scene/obj_text.hpp TEST load_obj
     FROM "if (stop == end && error == std::errc{})"
     TO   ""
     CASES "load_obj: each trouble*")
@@ -17,9 +17,9 @@ ljus_break_it(NAME load-obj-overflow HEADER scene/obj_reader.hpp TEST load_obj
     CASES "load_obj: each trouble*")
 
 # Both ends of a line count as lines.
-ljus_break_it(NAME load-obj-line HEADER scene/obj_reader.hpp TEST load_obj
-    FROM "? 2 : 1), end);"
-    TO   "? 1 : 1), end);"
+ljus_break_it(NAME load-obj-line HEADER scene/obj_text.hpp TEST load_obj
+    FROM "? 2 : 1);"
+    TO   "? 1 : 1);"
     CASES "load_obj: line ends*")
 
 # A fan instead of ears.

@@ -1,7 +1,14 @@
 #!/usr/bin/env bash
 # A header and the files it names, copied into an empty folder, compile there: without
-# OpenMP, with the warnings of a careful user.
+# OpenMP, with the warnings of a careful user, and by another compiler than the build's,
+# if there is one.
 . "$(dirname "$0")/common.sh"
+compiler=$LJUS_CXX
+case $("$compiler" --version) in
+    *clang*) other=g++ ;;
+    *) other=clang++ ;;
+esac
+if command -v "$other" >/dev/null; then compiler=$other; fi
 status=0
 count=0
 while read -r header; do
@@ -13,7 +20,7 @@ while read -r header; do
     done
     files=$(find "$folder" -name '*.hpp' | wc -l | tr -d ' ')
     # shellcheck disable=SC2086
-    if ! echo "#include \"$header\"" | "$LJUS_CXX" -std=c++20 -Wall -Wextra -Wpedantic \
+    if ! echo "#include \"$header\"" | "$compiler" -std=c++20 -Wall -Wextra -Wpedantic \
         -Wconversion -Wshadow -Werror $LJUS_PACKAGE_FLAGS -I "$folder" -fsyntax-only -x c++ -; then
         echo "$header does not compile with only the $files files that it names."
         status=1
@@ -21,5 +28,5 @@ while read -r header; do
     count=$((count + 1))
 done <"$LJUS_HEADERS"
 rm -rf "$scratch/copy"
-echo "$count headers copied, each with what it names"
+echo "$count headers copied, each with what it names, and compiled by $compiler"
 exit $status

@@ -9,7 +9,7 @@ problem() { echo "$*"; problems=$((problems + 1)); }
 # Includes point one way only: math < image, parallel < geometry < ... < render.
 floor() {
     case $1 in
-        ljus/version.hpp) echo 0 ;;
+        ljus/version.hpp | ljus/progress.hpp) echo 0 ;;
         ljus/math/*) echo 1 ;;
         ljus/image/* | ljus/parallel.hpp) echo 2 ;;
         ljus/geometry/*) echo 3 ;;

@@ -72,6 +72,14 @@ public:
     [[nodiscard]] TriangleT<T> triangle(std::uint32_t part) const noexcept {
         return triangle_of(data_, part);
     }
+    /// The triangle at a place of the tree: triangle(tree().order()[place]). The fast
+    /// tree has it at hand, and a search need not wait for two more parts of memory.
+    [[nodiscard]] TriangleT<T> triangle_at(std::uint32_t place) const noexcept {
+        if constexpr (std::is_same_v<T, float>)
+            return tree_.triangle(place);
+        else
+            return triangle(tree_.order()[place]);
+    }
     /// What the mesh is made of.
     [[nodiscard]] const MeshDataT<T>& data() const noexcept { return data_; }
     /// The tree over its triangles.
@@ -106,9 +114,9 @@ template <typename Compute = void, std::floating_point T>
     const auto& order = mesh.tree().order();
     const auto prepared = prepare<Compute>(ray);
     mesh.tree().closest(ray, [&](std::uint32_t place, RayT<T>& rest) {
-        const std::uint32_t part = order[place];
-        if (const auto hit = intersect<Compute>(rest, mesh.triangle(part), prepared))
-            nearest.offer(*hit, part, rest);
+        const auto triangle = mesh.triangle_at(place);
+        if (const auto hit = intersect<Compute>(rest, triangle, prepared))
+            nearest.offer(*hit, order[place], rest);
     });
     if (!nearest.found) return std::nullopt;
     nearest.at.part = nearest.number;
@@ -126,11 +134,9 @@ template <typename Compute = void, std::floating_point T>
 // [meets]
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] bool meets(const RayT<T>& ray, const MeshT<T>& mesh) {
-    const auto& order = mesh.tree().order();
     const auto prepared = prepare<Compute>(ray);
     return mesh.tree().any(ray, [&](std::uint32_t place) {
-        return intersect<Compute>(ray, mesh.triangle(order[place]), prepared)
-            .has_value();
+        return intersect<Compute>(ray, mesh.triangle_at(place), prepared).has_value();
     });
 }
 // [meets]

@@ -42,7 +42,7 @@ template <typename Compute = void, std::floating_point T>
 /// \param quad  Any quad.
 /// \return A normal as long as the area.
 template <std::floating_point T>
-[[nodiscard]] Vec3T<WideT<T>> cross_of_edges(const QuadT<T>& quad) noexcept {
+[[nodiscard]] inline Vec3T<WideT<T>> cross_of_edges(const QuadT<T>& quad) noexcept {
     return glm::cross(Vec3T<WideT<T>>{quad.edge_u}, Vec3T<WideT<T>>{quad.edge_v});
 }
 
@@ -50,7 +50,7 @@ template <std::floating_point T>
 /// \param quad  A quad with an area.
 /// \return Unit vector.
 template <std::floating_point T>
-[[nodiscard]] Vec3T<T> normal(const QuadT<T>& quad) noexcept {
+[[nodiscard]] inline Vec3T<T> normal(const QuadT<T>& quad) noexcept {
     return Vec3T<T>(glm::normalize(cross_of_edges(quad)));
 }
 
@@ -58,7 +58,7 @@ template <std::floating_point T>
 /// \param quad  Any quad.
 /// \return At least 0.
 template <std::floating_point T>
-[[nodiscard]] T area(const QuadT<T>& quad) noexcept {
+[[nodiscard]] inline T area(const QuadT<T>& quad) noexcept {
     return static_cast<T>(glm::length(cross_of_edges(quad)));
 }
 
@@ -68,12 +68,12 @@ template <std::floating_point T>
 /// \param v     Coordinate along the second edge.
 /// \return Position, its error bound, the normal.
 template <std::floating_point T>
-[[nodiscard]] SurfacePointT<T> point_at(const QuadT<T>& quad, T u, T v) noexcept {
+[[nodiscard]] inline SurfacePointT<T> point_at(const QuadT<T>& quad, T u,
+                                               T v) noexcept {
     const Vec3T<T> b = u * quad.edge_u;
     const Vec3T<T> c = v * quad.edge_v;
     return {.position = quad.corner + b + c,
-            .error = rounding_bound<T>(5) *
-                     (sizes(quad.corner) + sizes(b) + sizes(c)),
+            .error = rounding_bound<T>(5) * (sizes(quad.corner) + sizes(b) + sizes(c)),
             .normal = normal(quad)};
 }
 

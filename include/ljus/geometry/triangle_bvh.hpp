@@ -12,11 +12,11 @@ namespace ljus {
 /// \brief The fast tree for a mesh. Chapter: \ref ch_bvh.
 /// \{
 
-/// Up to eight triangles, coordinate by coordinate.
-struct TriangleLanes {
+/// Up to eight triangles, coordinate by coordinate: five cache lines of 64 bytes.
+struct alignas(64) TriangleLanes {
     Lanes3 v1{};  ///< First corners.
-    Lanes3 e1{};  ///< From there to the second ones.
-    Lanes3 e2{};  ///< From there to the third ones.
+    Lanes3 v2{};  ///< Second corners.
+    Lanes3 v3{};  ///< Third corners.
     Lanes size{}; ///< The largest component of both edges; below 0 for no triangle.
 };
 
@@ -36,8 +36,8 @@ struct FirstLook {
 /// \cost Some 90 operations for all eight together.
 // [first_look]
 template <typename Caller>
-[[nodiscard]] FirstLook first_look(const TriangleLanes& block, const WideRay& ready,
-                                   const Ray& ray) noexcept {
+[[nodiscard]] inline FirstLook
+first_look(const TriangleLanes& block, const WideRay& ready, const Ray& ray) noexcept {
     constexpr float min = std::numeric_limits<float>::min();
     // Each number is a sum of six products with at most 8 roundings on the way.
     constexpr float rounding = 64 * std::numeric_limits<float>::epsilon() / 2;
@@ -48,12 +48,12 @@ template <typename Caller>
     const auto size_of = [](float x) { return x < 0 ? -x : x; };
     LaneMask maybe, certain;
     for (int i = 0; i < lane_count; ++i) {
-        const float e1x = block.e1.x.lane[i], e2x = block.e2.x.lane[i];
-        const float e1y = block.e1.y.lane[i], e2y = block.e2.y.lane[i];
-        const float e1z = block.e1.z.lane[i], e2z = block.e2.z.lane[i];
-        const float tx = o.x - block.v1.x.lane[i];
-        const float ty = o.y - block.v1.y.lane[i];
-        const float tz = o.z - block.v1.z.lane[i];
+        const float x = block.v1.x.lane[i], y = block.v1.y.lane[i];
+        const float z = block.v1.z.lane[i];
+        const float e1x = block.v2.x.lane[i] - x, e2x = block.v3.x.lane[i] - x;
+        const float e1y = block.v2.y.lane[i] - y, e2y = block.v3.y.lane[i] - y;
+        const float e1z = block.v2.z.lane[i] - z, e2z = block.v3.z.lane[i] - z;
+        const float tx = o.x - x, ty = o.y - y, tz = o.z - z;
         const float px = d.y * e2z - d.z * e2y;
         const float py = d.z * e2x - d.x * e2z;
         const float pz = d.x * e2y - d.y * e2x;
@@ -78,11 +78,13 @@ template <typename Caller>
         const float deep = rounding * size * scale + min;
         const float near = deep + across * t_min * size * size;
         const float far = deep + across * t_max * size * size;
-        // Written so that NaN, of what overflows, is left to the triangle's own test.
-        const bool out = (u < -wide) | (v < -wide) | (w < -wide) | (before < -near) |
-                         (behind < -far) | (size < 0);
-        const bool in = (u > wide) & (v > wide) & (w > wide) & (before > near) &
-                        (behind > far) & (size > 0);
+        // Written so that NaN, of what overflows, is left to the triangle's own test:
+        // where u or v is NaN, so is w, and `inner` then is w.
+        const float uv = u < v ? u : v;
+        const float inner = uv < w ? uv : w;
+        const bool out =
+            (inner < -wide) | (before < -near) | (behind < -far) | (size < 0);
+        const bool in = (inner > wide) & (before > near) & (behind > far) & (size > 0);
         maybe.lane[i] = out ? 0 : -1;
         certain.lane[i] = in ? -1 : 0;
     }
@@ -91,9 +93,14 @@ template <typename Caller>
 // [first_look]
 
 /// A wide tree over triangles, with the searches of BvhT, and the same answers. It
-/// keeps what the first look needs; the triangles stay the caller's.
+/// keeps the triangles, in its own order: what a search asks about lies where the first
+/// look has just been.
 ///
 ///     const TriangleBvh tree(count, [&](std::uint32_t i) { return triangles[i]; });
+///     tree.closest(ray, [&](std::uint32_t place, Ray& rest) {
+///         if (const auto hit = intersect<double>(rest, tree.triangle(place)))
+///             nearest.offer(*hit, tree.order()[place], rest);
+///     });
 /// \cost About 60 bytes a triangle.
 class TriangleBvh {
 public:
@@ -126,6 +133,15 @@ public:
     [[nodiscard]] const std::vector<std::uint32_t>& order() const noexcept {
         return tree_.order();
     }
+    /// The triangle at a place that is no hole, as it was given.
+    [[nodiscard]] Triangle triangle(std::uint32_t place) const noexcept {
+        const TriangleLanes& block = blocks_[place / lane_count];
+        const std::size_t lane = place % lane_count;
+        const auto corner = [lane](const Lanes3& v) {
+            return Vec3{v.x.lane[lane], v.y.lane[lane], v.z.lane[lane]};
+        };
+        return {corner(block.v1), corner(block.v2), corner(block.v3)};
+    }
     /// The tree of boxes.
     [[nodiscard]] const WideBvh& tree() const noexcept { return tree_; }
     /// A box around everything.
@@ -142,13 +158,13 @@ public:
             test(place, ray);
             return false;
         };
-        tree_.walk(ray, look_first<false>(ray, ask), watch);
+        walk_nearest(tree_.wide(), ray, look_first<false>(ray, ask), watch);
     }
 
     /// As BvhT::any(), but a triangle that is certainly hit is not asked.
     template <typename Test, typename Watch = NoWatch>
     [[nodiscard]] bool any(const Ray& ray, Test&& test, Watch&& watch = {}) const {
-        return tree_.walk_any(ray, look_first<true>(ray, test), watch);
+        return walk_any(tree_.wide(), ray, look_first<true>(ray, test), watch);
     }
 
 private:
@@ -186,8 +202,8 @@ private:
         const Vec3 e1 = triangle.v2 - triangle.v1;
         const Vec3 e2 = triangle.v3 - triangle.v1;
         set(block.v1, triangle.v1);
-        set(block.e1, e1);
-        set(block.e2, e2);
+        set(block.v2, triangle.v2);
+        set(block.v3, triangle.v3);
         block.size.lane[lane] = max_component(glm::max(glm::abs(e1), glm::abs(e2)));
     }
 

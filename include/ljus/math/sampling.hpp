@@ -59,7 +59,7 @@ template <std::floating_point T>
 /// \report{Section 3.2.4}
 // [cosine hemisphere]
 template <std::floating_point T>
-[[nodiscard]] Vec3T<T> sample_cosine_hemisphere(const Vec2T<T>& u) noexcept {
+[[nodiscard]] inline Vec3T<T> sample_cosine_hemisphere(const Vec2T<T>& u) noexcept {
     const Vec2T<T> p = sample_concentric_disc(u);
     // The map keeps the larger of |a| and |b| as the radius of p.
     const T a = std::abs(T(2) * u.x - T(1));

@@ -119,7 +119,7 @@ using IndexedT = typename Indexed<S>::Type;
 /// \param ray    Hits count in [t_min, t_max].
 /// \return As for the scene itself.
 template <typename S, typename Compute, std::floating_point T>
-[[nodiscard]] std::optional<SceneHitT<T>>
+[[nodiscard]] inline std::optional<SceneHitT<T>>
 closest_hit(const IndexedScene<S, Compute>& scene, const RayT<T>& ray) {
     if (scene.ids.empty()) return closest_hit<Compute>(scene.scene, ray);
     NearestHitT<T> nearest;

@@ -61,9 +61,9 @@ template <std::floating_point T = float>
     using Reader = detail::ObjReader<T>;
     Reader reader{.settings = settings, .line{.stream = stream}};
     const std::size_t slash = file.find_last_of("/\\");
-    detail::read_materials(
+    reader.materials = detail::read_materials(
         stream.view(), slash == file.npos ? std::string() : file.substr(0, slash + 1),
-        reader);
+        reader.report);
 
     using Real = tinyobj::real_t;
     tinyobj::callback_t calls;

@@ -3,17 +3,15 @@
 /// \file ljus/scene/obj_reader.hpp
 /// \brief How load_obj() reads: line by line, trusting no number.
 
-#include <charconv>
-#include <limits>
+#include <cmath>
+#include <map>
 #include <optional>
 #include <sstream>
-#include <string_view>
 
 #include <tiny_obj_loader.h>
 
 #include "ljus/geometry/polygon.hpp"
-#include "ljus/image/file.hpp"
-#include "ljus/scene/obj_report.hpp"
+#include "ljus/scene/obj_material.hpp"
 
 namespace ljus {
 
@@ -35,107 +33,34 @@ struct ObjSettings {
     ObjNormals normals = ObjNormals::file; ///< Which normals.
 };
 
-/// What a material file says of a material; numbers as in the file, clamped to what
-/// they may be.
-struct ObjMaterial {
-    std::string name{};      ///< Empty for faces without a material.
-    glm::dvec3 diffuse{0.5}; ///< Kd, in [0, 1].
-    glm::dvec3 specular{0};  ///< Ks, in [0, 1].
-    glm::dvec3 emission{0};  ///< Ke, W/(m^2 sr), at least 0.
-    double index = 1.5;      ///< Ni, within [0.001, 1000].
-    double dissolve = 1;     ///< d: 0 is clear.
-    int illumination = 2;    ///< illum: 3, 5 and 8 mirror; 4, 6, 7 and 9 are glass.
-
-    /// Whether it is glass: by illum, or because d says that it is mostly clear.
-    [[nodiscard]] bool is_glass() const noexcept {
-        const int i = illumination;
-        return i == 4 || i == 6 || i == 7 || i == 9 || dissolve < 0.5;
-    }
-    /// Whether it is a mirror.
-    [[nodiscard]] bool is_mirror() const noexcept {
-        return illumination == 3 || illumination == 5 || illumination == 8;
-    }
-};
-
-/// The largest file that load_obj() takes, in bytes.
-inline constexpr std::size_t max_obj_file = std::size_t(1) << 30;
-
 namespace detail {
 
 // The line that a stream has read last, and its number; asked after each line, so that
 // lines are counted once.
 struct LastLine {
     std::istringstream& stream;
-    std::size_t counted = 0, begin = 0, last = 0;
+    std::size_t begin = 0;
+    LineEnd end{};
     long long number = 0;
 
     [[nodiscard]] std::string_view text() {
-        const std::string_view all = stream.view();
+        std::string_view all = stream.view();
         const auto at = stream.tellg(); // -1 at the end
-        const std::size_t end = at < 0 ? all.size() : static_cast<std::size_t>(at);
-        while (counted < end) {
-            begin = counted;
-            last = std::min(all.find_first_of("\r\n", begin), end);
-            counted = std::min(last + (all.substr(last, 2) == "\r\n" ? 2 : 1), end);
+        if (at >= 0) all = all.substr(0, static_cast<std::size_t>(at));
+        while (end.next < all.size()) {
+            begin = end.next;
+            end = line_end(all, begin);
             ++number;
         }
-        return all.substr(begin, last - begin);
+        return all.substr(begin, end.last - begin);
     }
 };
-
-// The words of a line, as tinyobjloader sees them: up to a 0.
-inline std::vector<std::string_view> words_of(std::string_view line) {
-    line = line.substr(0, line.find('\0'));
-    std::vector<std::string_view> words;
-    while (true) {
-        const std::size_t begin = line.find_first_not_of(" \t");
-        if (begin == line.npos) return words;
-        line.remove_prefix(begin);
-        const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
-        words.push_back(line.substr(0, end));
-        line.remove_prefix(end);
-    }
-}
-
-// The three numbers of a line "v 1 2 3"; NaN where there is none. tinyobjloader takes
-// what it cannot read for 0.
-inline glm::dvec3 numbers_of(std::string_view line) {
-    const auto words = words_of(line);
-    glm::dvec3 result(std::numeric_limits<double>::quiet_NaN());
-    for (std::size_t i = 0; i < 3 && i + 1 < words.size(); ++i) {
-        std::string_view word = words[i + 1];
-        if (word.size() > 1 && word[0] == '+') word.remove_prefix(1);
-        double value = 0;
-        const char* const end = word.data() + word.size();
-        const auto [stop, error] = std::from_chars(word.data(), end, value);
-        if (stop == end && error == std::errc{})
-            result[static_cast<glm::length_t>(i)] = value;
-    }
-    return result;
-}
 
 // A number of a vertex: from 1, or from the end if negative; none if it is not there.
 inline std::optional<std::uint32_t> place_of(int number, std::size_t count) {
     const long long place = number > 0 ? number - 1LL : number + (long long)(count);
     if (number == 0 || place < 0 || place >= (long long)(count)) return std::nullopt;
     return static_cast<std::uint32_t>(place);
-}
-
-inline ObjMaterial material_of(const tinyobj::material_t& from) {
-    const auto within = [](double x, double low, double high) { // NaN: low
-        return x > low ? (x < high ? x : high) : low;
-    };
-    const auto color = [&](const tinyobj::real_t* c, double most) {
-        return glm::dvec3(within(double(c[0]), 0, most), within(double(c[1]), 0, most),
-                          within(double(c[2]), 0, most));
-    };
-    return {.name = from.name,
-            .diffuse = color(from.diffuse, 1),
-            .specular = color(from.specular, 1),
-            .emission = color(from.emission, 1e12),
-            .index = within(double(from.ior), 1e-3, 1e3),
-            .dissolve = within(double(from.dissolve), 0, 1),
-            .illumination = from.illum};
 }
 
 // What is known while a file is read.
@@ -264,36 +189,6 @@ struct ObjReader {
         return true;
     }
 };
-
-// The materials of all files that a mesh file names.
-template <std::floating_point T>
-void read_materials(std::string_view text, const std::string& folder,
-                    ObjReader<T>& reader) {
-    long long number = 0;
-    for (std::size_t begin = 0; begin < text.size();) {
-        const std::size_t end =
-            std::min(text.find_first_of("\r\n", begin), text.size());
-        ++number;
-        const auto words = words_of(text.substr(begin, end - begin));
-        begin = end + (text.substr(end, 2) == "\r\n" ? 2 : 1);
-        if (words.empty() || words[0] != "mtllib") continue;
-        for (std::size_t i = 1; i < words.size(); ++i) {
-            try {
-                const Bytes bytes =
-                    load_file(folder + std::string(words[i]), max_obj_file);
-                std::istringstream stream(std::string(bytes.begin(), bytes.end()));
-                std::map<std::string, int> names;
-                std::vector<tinyobj::material_t> found;
-                std::string warning, error;
-                tinyobj::LoadMtl(&names, &found, &stream, &warning, &error);
-                for (const auto& material : found)
-                    reader.materials.try_emplace(material.name, material_of(material));
-            } catch (const std::runtime_error&) {
-                reader.report.add(ObjTrouble::no_library, number);
-            }
-        }
-    }
-}
 
 } // namespace detail
 
