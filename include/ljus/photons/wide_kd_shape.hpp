@@ -21,8 +21,9 @@ struct WideNodeT {
 
 namespace detail {
 
-// The squared distances to the nearest points of eight boxes.
-template <std::floating_point T>
+// The squared distances to the nearest points of eight boxes. A caller that names
+// itself has its own: compilers inline what is called in one place only.
+template <typename Caller, std::floating_point T>
 [[nodiscard]] constexpr LanesT<T> near2(const WideNodeT<T>& node,
                                         const Vec3T<T>& center) noexcept {
     LanesT<T> result{};

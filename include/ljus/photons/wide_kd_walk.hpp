@@ -31,7 +31,7 @@ bool WideKdTreeT<T>::in_ball(const Vec3T<T>& center, T radius, const ReachT<T>& 
     for (;;) {
         const WideNodeT<T>& node = nodes_[shape_.first[std::size_t(level)] + number];
         std::uint32_t children =
-            lanes_up_to(detail::near2(node, center), reach.last) & all;
+            lanes_up_to(detail::near2<Visit>(node, center), reach.last) & all;
         all = 255;
         if (level + 1 == shape_.levels) {
             for (; children != 0; children &= children - 1) {
@@ -71,7 +71,7 @@ void WideKdTreeT<T>::towards(const Vec3T<T>& center, const ReachT<T>& reach,
     };
     Open open[12]; // a node on each level
     int level = 0;
-    open[0].near = detail::near2(nodes_[0], center);
+    open[0].near = detail::near2<void>(nodes_[0], center);
     open[0].number = 0;
     open[0].left = (1u << shape_.root_children()) - 1;
     for (;;) {
@@ -90,8 +90,8 @@ void WideKdTreeT<T>::towards(const Vec3T<T>& center, const ReachT<T>& reach,
                 continue;
         }
         if (++level < shape_.levels) {
-            open[level].near =
-                detail::near2(nodes_[shape_.first[std::size_t(level)] + child], center);
+            open[level].near = detail::near2<void>(
+                nodes_[shape_.first[std::size_t(level)] + child], center);
             open[level].number = child;
             open[level].left = 255;
         } else {
