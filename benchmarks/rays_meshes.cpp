@@ -77,7 +77,7 @@ int main() {
         embree.commit();
         std::printf(", Embree in %.1f ms", 1e3 * embree.build);
 #else
-        const House<ljus::TriangleBvh>& embree = wide; // no peer
+        const rays::NoPeer embree;
 #endif
         std::printf("\n");
         const auto row = [&](const char* name, const std::vector<Ray>& set, bool any) {

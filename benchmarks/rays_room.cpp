@@ -236,7 +236,7 @@ int main() {
     rays::Embree embree;
     add_to(embree, scene);
 #else
-    const House embree{indexed}; // no peer
+    const rays::NoPeer embree;
 #endif
     const auto first_hit = [&](const Ray& ray) -> std::optional<ljus::SurfacePoint> {
         const auto hit = closest_hit(scene, ray);

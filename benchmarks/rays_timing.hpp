@@ -16,6 +16,7 @@
 #include <ctime>
 #include <limits>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include <ljus/geometry/ray.hpp>
@@ -30,6 +31,12 @@ namespace rays {
 inline double seconds() {
     return double(std::clock()) / CLOCKS_PER_SEC;
 }
+
+/// In place of a peer that is not installed: its time is NaN, and no other's.
+struct NoPeer {
+    float closest(const ljus::Ray&) const { return -1; }
+    bool any(const ljus::Ray&) const { return false; }
+};
 
 /// Nanoseconds a ray of each peer, each block of rays by one peer after the other, the
 /// best of some runs of each block; and the sums of the answers, to see that peers agree.
@@ -65,6 +72,12 @@ Times<Peer...> compare(std::span<const ljus::Ray> set, bool any, const Peer&... 
         for (std::size_t k = 0; k < best.size(); ++k) times.nanoseconds[k] += best[k];
     }
     for (double& t : times.nanoseconds) t *= 1e9 / double(block) / double(blocks);
+    std::size_t k = 0;
+    const auto blank = [&](bool missing) {
+        if (missing) times.nanoseconds[k] = std::numeric_limits<double>::quiet_NaN();
+        ++k;
+    };
+    (blank(std::is_same_v<Peer, NoPeer>), ...);
     return times;
 }
 
