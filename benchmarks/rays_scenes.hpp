@@ -96,7 +96,8 @@ inline Mesh balls(int count) {
 inline std::vector<Named> meshes() {
     std::vector<Named> all;
     for (const int count : {6000, 30000, 125000}) {
-        const std::string k = std::string(" ").append(std::to_string(count / 1000)) + " k";
+        const std::string k =
+            std::string(" ").append(std::to_string(count / 1000)) + " k";
         all.push_back({"ball" + k, bumpy_ball(count)});
         all.push_back({"hills" + k, hills(count)});
         all.push_back({"balls" + k, balls(count)});

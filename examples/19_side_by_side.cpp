@@ -473,7 +473,7 @@ void equal_time(const Study& study, const std::vector<Method>& all,
                  examples::text(shot.seconds(), "%.2f"),
                  examples::text(double(shot.counts.camera_rays) / pixels),
                  std::to_string(shot.photons), examples::text(error, "%.5f"),
-                 examples::text(std::sqrt(error / study.noise), "%.0f"),
+                 examples::text(std::sqrt(std::max(error, 0.0) / study.noise), "%.0f"),
                  examples::text(
                      block_error(shot.image, study.truth) - study.block_noise, "%.6f"),
                  examples::text(flip(shot.image, study.truth), "%.3f")});

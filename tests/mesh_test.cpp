@@ -295,8 +295,9 @@ TEST_CASE("mesh: in a furnace a smooth mesh loses what its horizons cut off") {
             const bool turned = glm::dot(n, at.direction) > 0;
             const double right =
                 turned ? 1.0 : 0.5 + 0.5 * double(glm::dot(n, point.normal));
-            const Mean seen = mean_radiance(make_path_tracer(scene), 4000, 100u + unsigned(i),
-                                            [&](RandomStream&) { return at; });
+            const Mean seen =
+                mean_radiance(make_path_tracer(scene), 4000, 100u + unsigned(i),
+                              [&](RandomStream&) { return at; });
             CHECK(std::abs(apart(seen, right, 1e-3)) < 4);
             lost.add(1 - right);
         }

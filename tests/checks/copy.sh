@@ -8,7 +8,12 @@ case $("$compiler" --version) in
     *clang*) other=g++ ;;
     *) other=clang++ ;;
 esac
-if command -v "$other" >/dev/null; then compiler=$other; fi
+# One that is too old for the library says nothing about it.
+if printf '%s\n' '#include <concepts>' \
+    '#if defined(__clang__) ? __clang_major__ < 14 : __GNUC__ < 11' \
+    '#error' '#endif' | "$other" -std=c++20 -fsyntax-only -x c++ - 2>/dev/null; then
+    compiler=$other
+fi
 status=0
 count=0
 while read -r header; do

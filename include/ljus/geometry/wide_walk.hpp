@@ -86,7 +86,8 @@ void walk_nearest(const WideNodes& wide, const Ray& ray, Leaf&& leaf, Watch&& wa
     if (start.done) return;
     // What waits: a child, and above it the t at which the ray enters it. For numbers
     // from 0 on, the bits are in the order of the values: so the nearer one is less.
-    std::array<std::uint64_t, bvh_depth*(lane_count - 1) + 1> later;
+    constexpr std::size_t most_waiting = bvh_depth * (lane_count - 1) + 1;
+    std::array<std::uint64_t, most_waiting> later;
     std::size_t waiting = 0;
     const auto wait = [&](std::uint64_t key) {
         const auto child = static_cast<std::uint32_t>(key);

@@ -21,11 +21,11 @@ namespace ljus {
 /// \tparam Facet  As GlossyT has it.
 template <std::floating_point T, typename Facet = RgbT<T>>
 struct FullGlossyT {
-    using Scalar = T;          ///< The precision of its numbers.
+    using Scalar = T;                            ///< The precision of its numbers.
     static constexpr bool blurred_mirror = true; ///< See BlurredMirror.
-    GlossyT<T, Facet> first{}; ///< One reflection.
-    FacetLossT<T> loss{};      ///< What it loses; of bake_facet_loss().
-    RgbT<T> mean{T(0)};        ///< A facet's mean reflectance; of mean_reflectance().
+    GlossyT<T, Facet> first{};                   ///< One reflection.
+    FacetLossT<T> loss{}; ///< What it loses; of bake_facet_loss().
+    RgbT<T> mean{T(0)};   ///< A facet's mean reflectance; of mean_reflectance().
 };
 using FullGlossy = FullGlossyT<float>; ///< Of a colour, in float.
 using FullRoughMetal =

@@ -49,9 +49,9 @@ inline constexpr T least_roughness = T(0.01);
 ///                index.
 template <std::floating_point T, typename Facet = RgbT<T>>
 struct GlossyT {
-    using Scalar = T;     ///< The precision of its numbers.
+    using Scalar = T;                            ///< The precision of its numbers.
     static constexpr bool blurred_mirror = true; ///< See BlurredMirror.
-    Facet reflectance{};  ///< Of a facet.
+    Facet reflectance{};                         ///< Of a facet.
     T roughness = T(0.3); ///< alpha = roughness^2; 0, a mirror, or in [0.01, 1].
 };
 using Glossy = GlossyT<float>;                             ///< Of a colour, in float.

@@ -3,6 +3,8 @@
 /// \file ljus/photons/lane_estimate.hpp
 /// \brief The flux around a point, eight photons at a time.
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <limits>
 

@@ -8,6 +8,7 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include "ljus/math/lanes.hpp"
 #include "ljus/photons/neighbor.hpp"

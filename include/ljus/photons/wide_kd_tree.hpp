@@ -174,16 +174,17 @@ private:
     std::uint32_t in_leaf(std::size_t first, std::size_t last, const Vec3T<T>& center,
                           const ReachT<T>& reach) const noexcept {
         constexpr std::uint32_t bit[lane_count] = {1, 2, 4, 8, 16, 32, 64, 128};
-        const T at_most = reach.last, at_least = reach.sure;
+        const T possible = reach.last, beyond_doubt = reach.sure;
         std::uint32_t near[lane_count] = {}, sure[lane_count] = {};
         for (std::size_t b = first; b < last; ++b) {
             const LanesT<T> d2 = distances2(blocks_[b], center);
             for_lanes([&](int i) {
-                const std::uint32_t here = d2.lane[i] <= at_most ? bit[i] << 24 : 0u;
+                const std::uint32_t here = d2.lane[i] <= possible ? bit[i] << 24 : 0u;
                 near[i] = near[i] >> 8 | here;
             });
             for_lanes([&](int i) {
-                const std::uint32_t here = d2.lane[i] <= at_least ? bit[i] << 24 : 0u;
+                const std::uint32_t here =
+                    d2.lane[i] <= beyond_doubt ? bit[i] << 24 : 0u;
                 sure[i] = sure[i] >> 8 | here;
             });
         }

@@ -58,8 +58,9 @@ struct LastLine {
 
 // A number of a vertex: from 1, or from the end if negative; none if it is not there.
 inline std::optional<std::uint32_t> place_of(int number, std::size_t count) {
-    const long long place = number > 0 ? number - 1LL : number + (long long)(count);
-    if (number == 0 || place < 0 || place >= (long long)(count)) return std::nullopt;
+    const auto all = static_cast<long long>(count);
+    const long long place = number > 0 ? number - 1LL : number + all;
+    if (number == 0 || place < 0 || place >= all) return std::nullopt;
     return static_cast<std::uint32_t>(place);
 }
 
