@@ -10,19 +10,19 @@
 #include <benchmark/benchmark.h>
 
 #include <ljus/ljus.hpp>
-#include <ljus/scene/report_rooms.hpp>
+#include <ljus/scenes/report_rooms.hpp>
 
 namespace {
 
 using namespace ljus;
 
 /// Depth 4 and no roulette, as the report has it.
-PhotonMapping report_settings(int shadow_rays, int threads) {
-    PhotonMapping settings{.max_depth = 4, .roulette_depth = 5};
+PhotonMappingSettings report_settings(int shadow_rays, int threads) {
+    PhotonMappingSettings settings{.max_depth = 4, .roulette_depth = 5};
     settings.shadow_rays = shadow_rays;
     settings.caustics.photons = 100000;
     settings.caustics.threads = threads;
-    settings.gather_caustics.radius = 0.05f; // the report's
+    settings.caustics_estimate.radius = 0.05f; // the report's
     return settings;
 }
 
@@ -37,7 +37,7 @@ void count(benchmark::State& state, const Counts& counts) {
 void room(benchmark::State& state) {
     const auto room = four_glass_room();
     const int threads = static_cast<int>(state.range(1));
-    const PhotonMapping settings =
+    const PhotonMappingSettings settings =
         report_settings(static_cast<int>(state.range(2)), threads);
     Counts counts;
     for (auto _ : state) {
@@ -45,7 +45,7 @@ void room(benchmark::State& state) {
         const auto mapper = make_photon_mapper(room.scene, maps, settings);
         const auto result =
             render(mapper, room.camera,
-                   {.rays = static_cast<int>(state.range(0)), .threads = threads});
+                   {.samples = static_cast<int>(state.range(0)), .threads = threads});
         counts = result.counts;
     }
     count(state, counts);
@@ -55,14 +55,14 @@ void room(benchmark::State& state) {
 void render_loop(benchmark::State& state) {
     const auto room = four_glass_room();
     const int threads = static_cast<int>(state.range(1));
-    const PhotonMapping settings = report_settings(1, threads);
+    const PhotonMappingSettings settings = report_settings(1, threads);
     const auto maps = make_photon_maps(room.scene, settings);
     const auto mapper = make_photon_mapper(room.scene, maps, settings);
     Counts counts;
     for (auto _ : state) {
         const auto result =
             render(mapper, room.camera,
-                   {.rays = static_cast<int>(state.range(0)), .threads = threads});
+                   {.samples = static_cast<int>(state.range(0)), .threads = threads});
         counts = result.counts;
     }
     count(state, counts);

@@ -79,7 +79,7 @@ void make_reference(const std::string& name, int pieces, int rays) {
             render(tracer, camera(),
                    {.width = 200,
                     .height = 200,
-                    .rays = rays,
+                    .samples = rays,
                     .seed = 1000000 + static_cast<std::uint64_t>(piece)});
         save_pfm(result.image, piece_name(name, piece));
         std::printf("piece %d of %d\n", piece + 1, pieces);
@@ -121,18 +121,18 @@ Reference load_reference(const std::string& name) {
 Reference reference; // NOLINT: made once, before the benchmarks run
 
 /// Direct light by rays, caustics and indirect light by photons.
-PhotonMapping settings_for(double caustic_photons, double caustic_radius,
-                           double indirect_photons, double indirect_radius) {
-    PhotonMapping settings;
+PhotonMappingSettings settings_for(double caustic_photons, double caustic_radius,
+                                   double indirect_photons, double indirect_radius) {
+    PhotonMappingSettings settings;
     settings.indirect = IndirectLight::photons;
     settings.split_glass = true;
     settings.caustics.photons = static_cast<long long>(caustic_photons);
     settings.caustics.threads = 1;
-    settings.gather_caustics.radius = static_cast<float>(caustic_radius);
+    settings.caustics_estimate.radius = static_cast<float>(caustic_radius);
     settings.general.photons = static_cast<long long>(indirect_photons);
     settings.general.shadow_photons = false;
     settings.general.threads = 1;
-    settings.gather_general.radius = static_cast<float>(indirect_radius);
+    settings.general_estimate.radius = static_cast<float>(indirect_radius);
     return settings;
 }
 
@@ -149,7 +149,7 @@ void count(benchmark::State& state, const Image& image, const Counts& counts) {
 void photon_mapping(benchmark::State& state) {
     const CausticScene scene = glass_caustic();
     const auto seed = static_cast<std::uint64_t>(state.range(5));
-    PhotonMapping settings =
+    PhotonMappingSettings settings =
         settings_for(1e3 * double(state.range(1)), 1e-3 * double(state.range(2)),
                      1e3 * double(state.range(3)), 1e-3 * double(state.range(4)));
     settings.caustics.seed = settings.general.seed = seed;
@@ -161,7 +161,7 @@ void photon_mapping(benchmark::State& state) {
         result = render(mapper, camera(),
                         {.width = 200,
                          .height = 200,
-                         .rays = static_cast<int>(state.range(0)),
+                         .samples = static_cast<int>(state.range(0)),
                          .seed = seed,
                          .threads = 1});
         state.SetIterationTime(processor_seconds() - start);
@@ -179,7 +179,7 @@ void path_tracing(benchmark::State& state) {
         result = render(tracer, camera(),
                         {.width = 200,
                          .height = 200,
-                         .rays = static_cast<int>(state.range(0)),
+                         .samples = static_cast<int>(state.range(0)),
                          .threads = 1});
         state.SetIterationTime(processor_seconds() - start);
     }

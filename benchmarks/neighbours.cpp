@@ -33,9 +33,9 @@
 
 #include <benchmark/benchmark.h>
 
+#include <ljus/accel/kd_tree.hpp>
+#include <ljus/accel/kd_tree8.hpp>
 #include <ljus/math/random.hpp>
-#include <ljus/photons/kd_tree.hpp>
-#include <ljus/photons/wide_kd_tree.hpp>
 
 #include "point_structures.hpp"
 
@@ -73,7 +73,7 @@ std::vector<float> payload_of(const Tree& tree) {
 
 /// The wide tree of the book.
 struct WideTree {
-    ljus::WideKdTree tree;
+    ljus::KdTree8 tree;
     std::vector<float> values; // in the tree's order
 
     explicit WideTree(const std::vector<Vec3>& points)
@@ -286,7 +286,7 @@ std::vector<Vec3> points_of(int kind, std::size_t count) {
 
 /// A radius within which about 50 of them lie, in the median.
 float radius_for_50(const std::vector<Vec3>& points) {
-    const ljus::WideKdTree tree(points, 1);
+    const ljus::KdTree8 tree(points, 1);
     std::vector<float> radii;
     std::array<ljus::Neighbor, 50> room;
     for (std::size_t i = 0; i < points.size(); i += points.size() / 400 + 1) {

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "ljus/photons/neighbor.hpp"
+#include "ljus/accel/neighbor.hpp"
 
 namespace structures {
 

@@ -3,8 +3,8 @@
 
 #include <cstdio>
 
+#include <ljus/accel/detail/triangle_bvh.hpp>
 #include <ljus/geometry/shape.hpp>
-#include <ljus/geometry/triangle_bvh.hpp>
 
 #include "rays_scenes.hpp"
 #include "rays_timing.hpp"

@@ -22,7 +22,7 @@ int main() {
         const double start = rays::seconds();
         const auto result =
             render(tracer, room.camera,
-                   {.width = 100, .height = 100, .rays = 8, .threads = 1});
+                   {.width = 100, .height = 100, .samples = 8, .threads = 1});
         speeds.push_back(double(result.counts.rays()) / (rays::seconds() - start));
     }
     std::sort(speeds.begin(), speeds.end());

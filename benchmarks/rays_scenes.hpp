@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include <ljus/accel/detail/triangle_bvh.hpp>
 #include <ljus/geometry/triangle.hpp>
-#include <ljus/geometry/triangle_bvh.hpp>
 #include <ljus/math/frame.hpp>
 #include <ljus/math/random.hpp>
 #include <ljus/math/sampling.hpp>
@@ -135,12 +135,12 @@ RaySets ray_sets(FirstHit first_hit, Vec3 eye, Vec3 target, Vec3 up, Vec3 lamp,
                 point->normal = -point->normal;
             const Vec3 local =
                 ljus::sample_cosine_hemisphere(ljus::next_2d<float>(stream));
-            sets.diffuse.push_back(ljus::ray_from(
+            sets.diffuse.push_back(ljus::spawn_ray(
                 *point, ljus::to_world(ljus::frame_around(point->normal), local)));
             const ljus::Vec2 v = ljus::next_2d<float>(stream);
             const ljus::SurfacePoint to{.position = lamp + v.x * lamp_u + v.y * lamp_v};
             if (glm::dot(to.position - point->position, point->normal) > 0) {
-                Ray between = ljus::ray_between(*point, to);
+                Ray between = ljus::spawn_ray_to(*point, to);
                 between.t_max = glm::length(between.direction); // as the report has it
                 between.direction /= between.t_max;
                 sets.shadow.push_back(between);

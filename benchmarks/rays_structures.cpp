@@ -4,8 +4,8 @@
 
 #include <cstdio>
 
+#include <ljus/accel/detail/triangle_bvh.hpp>
 #include <ljus/geometry/shape.hpp>
-#include <ljus/geometry/triangle_bvh.hpp>
 
 #include "rays_scenes.hpp"
 #include "rays_structures.hpp"

@@ -15,7 +15,7 @@
 #include <limits>
 #include <vector>
 
-#include <ljus/geometry/bvh.hpp>
+#include <ljus/accel/bvh.hpp>
 #include <ljus/geometry/triangle.hpp>
 
 namespace rays {
@@ -33,7 +33,7 @@ struct Crowd {
     explicit Crowd(const std::vector<ljus::Triangle>& of) : mesh(of) {
         for (const ljus::Triangle& triangle : mesh) {
             boxes.push_back(ljus::bounds(triangle));
-            all = ljus::join(all, boxes.back());
+            all = ljus::box_union(all, boxes.back());
         }
         slack = 1e-5f * ljus::max_component(all.high - all.low);
         for (ljus::Box& box : boxes)

@@ -13,7 +13,7 @@ if(result EQUAL 0 AND output MATCHES "test cases: +0 ")
 endif()
 if(result EQUAL 0)
     message(FATAL_ERROR "break it ${NAME}: nobody noticed. With this change in ${HEADER} "
-        "every test still passes: test the term, or leave it out.\n"
+        "every test still passes: test the term, or offset_ray_origin it out.\n"
         "The change: ${FOLDER}/from.txt to ${FOLDER}/to.txt")
 endif()
 if(NOT result EQUAL 1 OR output MATCHES "CRASHED")

@@ -92,16 +92,16 @@ void body(examples::CommandLine& line) {
     line.add("--photons", photons, "Of the caustics map; 0: by the quality", 0,
              100000000);
     const examples::Options options =
-        line.parse({.draft{.width = 160, .height = 90, .rays = 4},
-                    .report{.width = 480, .height = 270, .rays = 36},
-                    .reference{.width = 1280, .height = 720, .rays = 256}});
+        line.parse({.draft{.width = 160, .height = 90, .samples = 4},
+                    .report{.width = 480, .height = 270, .samples = 36},
+                    .reference{.width = 1280, .height = 720, .samples = 256}});
     if (frames == 0) frames = options.pick(8, 24, 240);
     if (photons == 0) photons = options.pick(20000LL, 200000LL, 2000000LL);
 
     const auto scene = make_place();
-    const ljus::PhotonMapping settings{
+    const ljus::PhotonMappingSettings settings{
         .caustics{.photons = photons, .seed = options.seed, .threads = options.threads},
-        .gather_caustics{.radius = options.pick(0.2f, 0.07f, 0.02f)}};
+        .caustics_estimate{.radius = options.pick(0.2f, 0.07f, 0.02f)}};
     // Photons do not know where the camera is: one map serves all frames.
     // [frames]
     const examples::StopWatch watch;
@@ -116,7 +116,7 @@ void body(examples::CommandLine& line) {
             render(mapper, camera_at(float(i) / float(frames)),
                    {.width = options.width,
                     .height = options.height,
-                    .rays = options.rays,
+                    .samples = options.samples,
                     // Each frame has its own noise; with one seed for all, the noise
                     // would stand still on the screen, like dirt on a lens.
                     .seed = options.seed + static_cast<std::uint64_t>(i),

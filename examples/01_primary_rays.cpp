@@ -91,12 +91,12 @@ void draw_figure_3(const std::string& folder) {
     // The camera plane, as far away as suits the drawing.
     const auto plane = [&](float x, float y) {
         const Ray ray = primary_ray(camera, Vec2{x, y}, columns, rows);
-        return at(ray, 2.1f / glm::dot(ray.direction, camera.forward));
+        return point_at(ray, 2.1f / glm::dot(ray.direction, camera.forward));
     };
     const auto draw_ray = [&](const Vec2& pixel, const examples::Pen& pen) {
         const Ray ray = primary_ray(camera, pixel, columns, rows);
         const auto hit = closest_hit(scene, ray);
-        const Vec3 end = at(ray, hit ? hit->at.t : 6.5f);
+        const Vec3 end = point_at(ray, hit ? hit->at.t : 6.5f);
         draw_line(figure, {see(camera.position), see(end)}, pen);
         if (hit) draw_dot(figure, see(end), 2.5, pen.color);
     };
@@ -206,7 +206,7 @@ double error(const TestCard& card, Sampling sampling, int rays, int pixels,
         const auto seen = render(card, camera,
                                  {.width = pixels,
                                   .height = pixels,
-                                  .rays = rays,
+                                  .samples = rays,
                                   .seed = static_cast<std::uint64_t>(seed),
                                   .sampling = sampling});
         for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
@@ -289,7 +289,7 @@ void plot_errors(const std::string& folder, int pixels, int most) {
             Vec2 sum{0};
             for (std::uint64_t key = 0; key < 500; ++key)
                 for (int i = 0; i < 64; ++i)
-                    sum += spread(pattern, i, ljus::mix(key), Vec2{0.3f, 0.6f});
+                    sum += spread(pattern, i, ljus::mix_bits(key), Vec2{0.3f, 0.6f});
             keep = keep + sum.x + sum.y;
             best = std::min(best, watch.seconds() * 1e9 / (500 * 64));
         }
@@ -306,7 +306,7 @@ template <typename Log = ljus::NoLog>
 Rgb radiance(const Tiles&, const Ray& ray, ljus::RandomStream&, ljus::Counts&,
              Log&& = {}) {
     if (!(ray.direction.y < 0)) return {0.35f, 0.5f, 0.8f};
-    const Vec3 p = at(ray, -ray.origin.y / ray.direction.y);
+    const Vec3 p = point_at(ray, -ray.origin.y / ray.direction.y);
     const bool dark = (std::fmod(std::floor(p.x) + std::floor(p.z), 2.0f) != 0);
     return dark ? Rgb{0.05f} : Rgb{0.8f};
 }
@@ -315,11 +315,12 @@ Rgb radiance(const Tiles&, const Ray& ray, ljus::RandomStream&, ljus::Counts&,
 void tiles(const examples::Options& options) {
     const Camera camera = ljus::look_at(
         {.position{0, 1.3f, 0}, .target{0.6f, 0.85f, -3}, .vfov_degrees = 40});
-    ljus::Picture picture{.width = options.width, .height = options.height, .rays = 4};
+    ljus::RenderSettings picture{
+        .width = options.width, .height = options.height, .samples = 4};
     const Image truth = render(Tiles{}, camera,
                                {.width = options.width,
                                 .height = options.height,
-                                .rays = options.pick(256, 1024, 4096)})
+                                .samples = options.pick(256, 1024, 4096)})
                             .image;
     for (std::size_t k = 0; k < 4; ++k) {
         picture.sampling = patterns[k];
@@ -349,7 +350,7 @@ void exposures(const examples::Options& options) {
     const auto seen = render(make_photon_mapper(room.scene, maps), room.camera,
                              {.width = options.height,
                               .height = options.height,
-                              .rays = options.rays,
+                              .samples = options.samples,
                               .seed = options.seed,
                               .threads = options.threads,
                               .progress = bar});
@@ -397,7 +398,7 @@ void fields_of_view(const examples::Options& options) {
         const auto seen = render(make_path_tracer(scene, {.max_depth = 2}), camera,
                                  {.width = options.width,
                                   .height = options.height,
-                                  .rays = options.rays,
+                                  .samples = options.samples,
                                   .seed = options.seed,
                                   .threads = options.threads});
         save_png(seen.image,
@@ -414,9 +415,9 @@ int main(int argc, char** argv) {
         line.about("Chapter 1, primary rays: figure 3, patterns, exposure.");
         line.add("--pixels", pixels, "Side of the test card in pixels", 4, 200);
         const examples::Options options =
-            line.parse({.draft{.width = 240, .height = 160, .rays = 9},
-                        .report{.width = 600, .height = 400, .rays = 64},
-                        .reference{.width = 900, .height = 600, .rays = 1024}});
+            line.parse({.draft{.width = 240, .height = 160, .samples = 9},
+                        .report{.width = 600, .height = 400, .samples = 64},
+                        .reference{.width = 900, .height = 600, .samples = 1024}});
         draw_figure_3(options.path(""));
         draw_patterns(options.path(""));
         plot_errors(options.path(""), pixels, options.pick(1024, 4096, 16384));

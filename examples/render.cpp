@@ -15,16 +15,16 @@
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
 #include "common/terminal.hpp"
-#include "ljus/image/hdr.hpp"
-#include "ljus/image/pfm.hpp"
-#include "ljus/image/png.hpp"
-#include "ljus/photons/census.hpp"
-#include "ljus/render/explain.hpp"
-#include "ljus/render/photon_dots.hpp"
+#include "ljus/inspect/census.hpp"
+#include "ljus/inspect/explain.hpp"
+#include "ljus/inspect/photon_dots.hpp"
+#include "ljus/io/hdr.hpp"
+#include "ljus/io/load_json.hpp"
+#include "ljus/io/pfm.hpp"
+#include "ljus/io/png.hpp"
 #include "ljus/render/photon_mapping.hpp"
-#include "ljus/scene/load_json.hpp"
 #ifdef LJUS_HAS_TINYOBJLOADER
-#include "ljus/scene/load_obj.hpp"
+#include "ljus/io/load_obj.hpp"
 #endif
 
 namespace {
@@ -68,8 +68,9 @@ struct Request {
 constexpr const char* kernels[] = {"box", "cone", "gaussian", "epanechnikov",
                                    "biweight"};
 
-PhotonMapping settings_of(const Request& request, const examples::Options& options) {
-    PhotonMapping settings;
+PhotonMappingSettings settings_of(const Request& request,
+                                  const examples::Options& options) {
+    PhotonMappingSettings settings;
     settings.max_depth = request.depth;
     settings.roulette_depth = request.roulette;
     settings.shadow_rays = request.shadow_rays;
@@ -78,13 +79,14 @@ PhotonMapping settings_of(const Request& request, const examples::Options& optio
                                                     : IndirectLight::none;
     settings.caustics.photons = request.caustic_photons;
     settings.general.photons = request.general_photons;
-    for (PhotonPass* pass : {&settings.caustics, &settings.general}) {
+    for (PhotonPassSettings* pass : {&settings.caustics, &settings.general}) {
         pass->seed = options.seed;
         pass->threads = options.threads;
     }
-    settings.gather_caustics.radius = static_cast<float>(request.radius);
-    settings.gather_general.radius = static_cast<float>(request.general_radius);
-    for (Gather* gather : {&settings.gather_caustics, &settings.gather_general}) {
+    settings.caustics_estimate.radius = static_cast<float>(request.radius);
+    settings.general_estimate.radius = static_cast<float>(request.general_radius);
+    for (DensityEstimateSettings* gather :
+         {&settings.caustics_estimate, &settings.general_estimate}) {
         gather->nearest = static_cast<std::size_t>(request.nearest);
         for (std::uint8_t i = 0; i < std::size(kernels); ++i)
             if (request.kernel == kernels[i]) gather->kernel = static_cast<Kernel>(i);
@@ -93,7 +95,7 @@ PhotonMapping settings_of(const Request& request, const examples::Options& optio
 }
 
 /// The numbers of "120,80".
-std::pair<int, int> pixel_of(const std::string& text, const Picture& picture) {
+std::pair<int, int> pixel_of(const std::string& text, const RenderSettings& picture) {
     int x = 0;
     int y = 0;
     const char* const end = text.data() + text.size();
@@ -134,8 +136,8 @@ void print(const Counts& counts, double seconds) {
 /// Renders, or explains one pixel.
 /// \return What was rendered; no image if a pixel was explained.
 template <typename Renderer>
-RenderedT<float> run(const Renderer& renderer, const Camera& camera, Picture picture,
-                     const Request& request, bool quiet) {
+RenderedT<float> run(const Renderer& renderer, const Camera& camera,
+                     RenderSettings picture, const Request& request, bool quiet) {
     const Stoppable<Renderer> stoppable{renderer};
     if (!request.pixel.empty()) {
         const auto [x, y] = pixel_of(request.pixel, picture);
@@ -152,8 +154,9 @@ RenderedT<float> run(const Renderer& renderer, const Camera& camera, Picture pic
 }
 
 /// One pass of photons, with the time that it takes.
-PhotonMapsT<float> photon_pass(const LoadedScene& loaded, PhotonMapping settings,
-                               bool caustics, bool quiet) {
+PhotonMapsT<float> photon_pass(const LoadedScene& loaded,
+                               PhotonMappingSettings settings, bool caustics,
+                               bool quiet) {
     (caustics ? settings.general : settings.caustics).photons = 0;
     const Plan plan = survey(loaded.scene, settings);
     if (!(caustics ? plan.caustics_map.on : plan.general_map.on)) return {};
@@ -178,7 +181,7 @@ PhotonMapsT<float> photon_pass(const LoadedScene& loaded, PhotonMapping settings
     return maps;
 }
 
-RenderedT<float> render_scene(const LoadedScene& loaded, const Picture& picture,
+RenderedT<float> render_scene(const LoadedScene& loaded, const RenderSettings& picture,
                               const Request& request,
                               const examples::Options& options) {
     if (request.renderer == "path") {
@@ -187,7 +190,7 @@ RenderedT<float> render_scene(const LoadedScene& loaded, const Picture& picture,
                                             .roulette_depth = request.roulette});
         return run(tracer, loaded.camera, picture, request, options.quiet);
     }
-    const PhotonMapping settings = settings_of(request, options);
+    const PhotonMappingSettings settings = settings_of(request, options);
     auto maps = photon_pass(loaded, settings, true, options.quiet);
     auto general = photon_pass(loaded, settings, false, options.quiet);
     maps.general = std::move(general.general);
@@ -199,18 +202,18 @@ constexpr PhotonKind kinds[] = {PhotonKind::direct, PhotonKind::indirect,
                                 PhotonKind::shadow, PhotonKind::caustic};
 
 /// A drawing of the scene, and on it the photons of one kind, or of all.
-Image draw_photons(const LoadedScene& loaded, const Picture& picture,
+Image draw_photons(const LoadedScene& loaded, const RenderSettings& picture,
                    const Request& request, const examples::Options& options) {
     const auto scene = index_scene(loaded.scene);
     Image image = scene_drawing(scene, loaded.camera, picture.width, picture.height);
-    const PhotonMapping settings = settings_of(request, options);
-    for (const PhotonLaw law : {PhotonLaw::general, PhotonLaw::caustics}) {
-        const bool caustics = law == PhotonLaw::caustics;
+    const PhotonMappingSettings settings = settings_of(request, options);
+    for (const MapType law : {MapType::general, MapType::caustics}) {
+        const bool caustics = law == MapType::caustics;
         if (request.photons != "all" && (request.photons == "caustic") != caustics)
             continue;
         examples::ProgressBar bar(caustics ? "caustics photons" : "general photons",
                                   options.quiet);
-        PhotonPass pass = caustics ? settings.caustics : settings.general;
+        PhotonPassSettings pass = caustics ? settings.caustics : settings.general;
         pass.progress = bar;
         const auto traced = trace_photons(scene, law, pass);
         examples::stop_if_asked();
@@ -266,7 +269,7 @@ void body(examples::CommandLine& line) {
     line.add("--general-radius", request.general_radius,
              "Of a general estimate, scene units", 1e-6, 1e6);
     line.add("--nearest", request.nearest, "Photons of an estimate, 0: all in radius",
-             0, static_cast<int>(max_gathered));
+             0, static_cast<int>(max_nearest));
     line.add("--kernel", request.kernel, "Weight of a photon by its distance",
              {std::begin(kernels), std::end(kernels)});
     line.add("--indirect", request.indirect, "rays, map or none",
@@ -285,12 +288,12 @@ void body(examples::CommandLine& line) {
 #else
     const LoadedScene loaded = load_json(request.scene);
 #endif
-    const Picture picture{.width = line.given("--width") ? options.width : loaded.width,
-                          .height =
-                              line.given("--height") ? options.height : loaded.height,
-                          .rays = options.rays,
-                          .seed = options.seed,
-                          .threads = options.threads};
+    const RenderSettings picture{
+        .width = line.given("--width") ? options.width : loaded.width,
+        .height = line.given("--height") ? options.height : loaded.height,
+        .samples = options.samples,
+        .seed = options.seed,
+        .threads = options.threads};
     require_image_size(picture.width, picture.height);
     const std::string stem = std::filesystem::path(request.scene).stem().string();
     const std::string path =
@@ -304,7 +307,7 @@ void body(examples::CommandLine& line) {
     if (!options.quiet || request.plan)
         std::printf("%s: %zu objects, %zu lights; %d x %d, %d rays a pixel, %s\n",
                     name.c_str(), loaded.scene.size(), loaded.scene.lights.size(),
-                    picture.width, picture.height, picture.rays,
+                    picture.width, picture.height, picture.samples,
                     !request.photons.empty()     ? "not rendered: photons as dots"
                     : request.renderer == "path" ? "path tracing"
                                                  : "photon mapping");

@@ -51,13 +51,13 @@ bool within(const Box& box, const Vec3T<long double>& p) {
 TEST_CASE("box: the box around nothing, and what it grows to") {
     Box box;
     CHECK(box.low.x > box.high.x);
-    box = join(box, Vec3{1, 2, 3});
+    box = box_union(box, Vec3{1, 2, 3});
     CHECK(box.low == Vec3{1, 2, 3});
     CHECK(box.high == Vec3{1, 2, 3});
-    box = join(box, Box{{-1, 5, 0}, {0, 6, 1}});
+    box = box_union(box, Box{{-1, 5, 0}, {0, 6, 1}});
     CHECK(box.low == Vec3{-1, 2, 0});
     CHECK(box.high == Vec3{1, 6, 3});
-    CHECK(join(Box{}, box).low == box.low);
+    CHECK(box_union(Box{}, box).low == box.low);
 }
 
 TEST_CASE("box: no point of a shape is outside of its box") {

@@ -1,7 +1,7 @@
 /// \file bsdf_test.cpp
 /// \brief The concept: what is a material, what is not, and what comes by default.
 
-#include "ljus/materials/bsdf.hpp"
+#include "ljus/materials/material.hpp"
 
 #include <doctest/doctest.h>
 
@@ -45,10 +45,10 @@ Lobes lobes(const Forgetful&) {
 
 } // namespace reader
 
-static_assert(ljus::Bsdf<reader::Paint>);
-static_assert(!ljus::Bsdf<reader::Forgetful>);
-static_assert(!ljus::Bsdf<int>);
-static_assert(!ljus::Bsdf<Vec3>);
+static_assert(ljus::Material<reader::Paint>);
+static_assert(!ljus::Material<reader::Forgetful>);
+static_assert(!ljus::Material<int>);
+static_assert(!ljus::Material<Vec3>);
 
 TEST_CASE("bsdf: a reader's material needs nothing but its functions") {
     const reader::Paint paint;

@@ -1,7 +1,7 @@
 /// \file bvh_test.cpp
 /// \brief The plain tree of boxes, against asking everything.
 
-#include "ljus/geometry/bvh.hpp"
+#include "ljus/accel/bvh.hpp"
 
 #include <doctest/doctest.h>
 
@@ -100,8 +100,8 @@ void check_sound(const Bvh& tree, const std::vector<Box>& boxes,
         ++visited;
         deepest = std::max(deepest, depth);
         const auto holds = [&](const Box& box) {
-            return join(nodes[i].box, box).low == nodes[i].box.low &&
-                   join(nodes[i].box, box).high == nodes[i].box.high;
+            return box_union(nodes[i].box, box).low == nodes[i].box.low &&
+                   box_union(nodes[i].box, box).high == nodes[i].box.high;
         };
         REQUIRE(nodes[i].count <= leaf_size);
         for (std::uint32_t k = 0; k < nodes[i].count; ++k) {
@@ -258,7 +258,7 @@ TEST_CASE("bvh: refuses boxes that are none") {
                              std::invalid_argument);
     }
     CHECK_THROWS_AS(Bvh(std::vector<Box>{Box{}}), std::invalid_argument);
-    CHECK_THROWS_AS(Bvh(std::vector<Box>{}, BvhBuild{.leaf_size = 0}),
+    CHECK_THROWS_AS(Bvh(std::vector<Box>{}, BvhSettings{.leaf_size = 0}),
                     std::invalid_argument);
 }
 

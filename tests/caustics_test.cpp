@@ -63,7 +63,7 @@ Room room_of(const BallCaustic& ball, bool mirror = false, double half = 1e4) {
 
 std::vector<Photon> caustic_photons(const Room& room, long long count,
                                     std::uint64_t seed) {
-    return trace_photons(room, PhotonLaw::caustics,
+    return trace_photons(room, MapType::caustics,
                          {.photons = count, .seed = seed, .threads = 1})
         .photons;
 }
@@ -85,7 +85,8 @@ Mean power_of(const Room& room, long long count) {
 }
 
 /// The irradiance that an estimate reads on the floor.
-double irradiance(const PhotonMap& map, Vec3 at, const Gather& gather) {
+double irradiance(const PhotonMap& map, Vec3 at,
+                  const DensityEstimateSettings& gather) {
     SurfaceT<float> surface{};
     surface.point.position = at;
     surface.point.normal = {0, 1, 0};
@@ -444,12 +445,12 @@ TEST_CASE("caustics: 0, 1, k - 1 and k photons, and a radius larger than the roo
         REQUIRE(photons.size() > 10);
         photons.resize(count);
         const PhotonMap map = make_photon_map(photons);
-        const Gather all{.radius = 1e6f, .kernel = Kernel::box};
+        const DensityEstimateSettings all{.radius = 1e6f, .kernel = Kernel::box};
         // Everything, over the area that was asked for.
         CHECK(irradiance(map, {0, -1, 0}, all) ==
               doctest::Approx(power(photons) / (pi * 1e12)).epsilon(1e-5));
         // Fewer than k are that, too; of k the farthest sets the radius.
-        Gather nearest = all;
+        DensityEstimateSettings nearest = all;
         nearest.nearest = 5;
         const double found = irradiance(map, {0, -1, 0}, nearest);
         if (count < 5) {
@@ -468,7 +469,7 @@ TEST_CASE("caustics: 0, 1, k - 1 and k photons, and a radius larger than the roo
                                .epsilon(1e-4));
         }
         // The largest float that check() lets pass.
-        const Gather huge{.radius = 3e38f};
+        const DensityEstimateSettings huge{.radius = 3e38f};
         CHECK(std::isfinite(irradiance(map, {0, -1, 0}, huge)));
     }
 }
@@ -623,7 +624,7 @@ TEST_CASE("caustics: both ways at the first glass are one way in the mean") {
         library_room(OwnRoom{{{{0, 0, 0}, 0.5, 1.5}}, -1, {0, 2, 0}, 0.8}, flux);
     std::array<Mean, 2> means;
     for (const bool split : {false, true}) {
-        PhotonMapping settings{.split_glass = split};
+        PhotonMappingSettings settings{.split_glass = split};
         settings.caustics = {.photons = 20000, .threads = 1};
         const auto maps = make_photon_maps(room, settings);
         const auto mapper = make_photon_mapper(room, maps, settings);

@@ -1,7 +1,7 @@
 /// \file census_test.cpp
 /// \brief A census against photons that were counted by hand.
 
-#include "ljus/photons/census.hpp"
+#include "ljus/inspect/census.hpp"
 
 #include <doctest/doctest.h>
 

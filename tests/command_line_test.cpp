@@ -44,14 +44,14 @@ int run(const Body& body, std::vector<const char*> words = {"program"}) {
 
 TEST_CASE("command_line: what is not given comes from the quality") {
     const examples::Presets presets{
-        .draft = {.width = 10, .height = 20, .rays = 1},
-        .report = {.width = 30, .height = 40, .rays = 2},
-        .reference = {.width = 50, .height = 60, .rays = 3}};
+        .draft = {.width = 10, .height = 20, .samples = 1},
+        .report = {.width = 30, .height = 40, .samples = 2},
+        .reference = {.width = 50, .height = 60, .samples = 3}};
     const Options report = parse({}, presets);
     CHECK(report.quality == Quality::report);
     CHECK(report.width == 30);
     CHECK(report.height == 40);
-    CHECK(report.rays == 2);
+    CHECK(report.samples == 2);
     CHECK(report.out == ".");
     CHECK(report.seed == 1);
     CHECK(report.threads == 0);
@@ -59,11 +59,11 @@ TEST_CASE("command_line: what is not given comes from the quality") {
     const Options draft = parse({"--quality", "draft", "--height", "7"}, presets);
     CHECK(draft.width == 10);
     CHECK(draft.height == 7);
-    CHECK(draft.rays == 1);
+    CHECK(draft.samples == 1);
     CHECK(draft.pick(1, 2, 3) == 1);
     const Options reference = parse({"--quality=reference", "--spp=9"}, presets);
     CHECK(reference.width == 50);
-    CHECK(reference.rays == 9);
+    CHECK(reference.samples == 9);
     CHECK(reference.pick(1, 2, 3) == 3);
 }
 
@@ -75,7 +75,7 @@ TEST_CASE("command_line: every option arrives, and the last of two counts") {
     CHECK(options.seed == 18446744073709551615u);
     CHECK(options.threads == 3);
     CHECK(options.width == 6);
-    CHECK(options.rays == 7);
+    CHECK(options.samples == 7);
     CHECK(options.quiet);
     CHECK(std::filesystem::is_directory(folder.path / "new" / "one"));
     CHECK(std::filesystem::is_empty(folder.path / "new" / "one"));

@@ -40,8 +40,8 @@ TEST_CASE("counts: one shadow ray a light and surface, one ray a bounce") {
     room.add(PointLight{.position{0, 2, 0}, .intensity = Rgb{1}});
     room.add(PointLight{.position{1, 2, 0}, .intensity = Rgb{1}});
     const Camera camera = look_at({.position{0, 3, 0}, .target{0, 0, 0}, .up{0, 0, 1}});
-    const Picture picture{.width = 10, .height = 10, .rays = 4, .threads = 1};
-    PhotonMapping settings;
+    const RenderSettings picture{.width = 10, .height = 10, .samples = 4, .threads = 1};
+    PhotonMappingSettings settings;
     const auto maps = make_photon_maps(room, settings);
     const auto mapped =
         render(PhotonMapper<Room>{room, maps, settings}, camera, picture);
@@ -64,8 +64,8 @@ TEST_CASE("counts: one shadow ray a light and surface, one ray a bounce") {
 
 TEST_CASE("counts: passes that are off make no photon and ask no query") {
     const Camera camera = room_camera<float>();
-    const Picture picture{.width = 10, .height = 10, .rays = 2, .threads = 1};
-    PhotonMapping settings;
+    const RenderSettings picture{.width = 10, .height = 10, .samples = 2, .threads = 1};
+    PhotonMappingSettings settings;
     settings.caustics.photons = 2000;
     settings.general.photons = 2000;
     const auto counts_of = [&](const Room& room) {

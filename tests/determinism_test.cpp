@@ -46,8 +46,8 @@ bool same_audit(const FluxAudit& a, const FluxAudit& b) {
 }
 
 template <typename T>
-PhotonMapping settings_with(std::uint64_t seed, int threads) {
-    PhotonMapping settings;
+PhotonMappingSettings settings_with(std::uint64_t seed, int threads) {
+    PhotonMappingSettings settings;
     settings.indirect = IndirectLight::map;
     settings.caustics = {.photons = 5000, .seed = seed, .threads = threads};
     settings.general = {.photons = 5000, .seed = seed, .threads = threads};
@@ -69,8 +69,8 @@ TEST_CASE_TEMPLATE("determinism: the same seed gives the same bytes on any numbe
     CHECK_FALSE(maps.caustics.empty());
     CHECK_FALSE(maps.general.empty());
     const auto picture = [](int threads, std::uint64_t seed) {
-        return Picture{
-            .width = 37, .height = 23, .rays = 3, .seed = seed, .threads = threads};
+        return RenderSettings{
+            .width = 37, .height = 23, .samples = 3, .seed = seed, .threads = threads};
     };
     const auto tracer = make_path_tracer(room);
     const PhotonMapper<RoomT<T>> mapper{room, maps, settings_with<T>(7, 1)};
@@ -106,15 +106,15 @@ TEST_CASE_TEMPLATE("determinism: the same seed gives the same bytes on any numbe
 
 TEST_CASE("determinism: the two photon passes draw different numbers") {
     const Room room = make_room<float>(Ball::mirror, Lamp::point, 1);
-    const auto general = trace_photons(room, PhotonLaw::general, {.photons = 100});
-    const auto caustics = trace_photons(room, PhotonLaw::caustics, {.photons = 100});
+    const auto general = trace_photons(room, MapType::general, {.photons = 100});
+    const auto caustics = trace_photons(room, MapType::caustics, {.photons = 100});
     for (const Photon& a : general.photons)
         for (const Photon& b : caustics.photons) CHECK_FALSE(a.position == b.position);
 }
 
 TEST_CASE("determinism: float and double render the same room") {
-    const auto picture =
-        Picture{.width = 12, .height = 12, .rays = 100, .seed = 3, .threads = 1};
+    const auto picture = RenderSettings{
+        .width = 12, .height = 12, .samples = 100, .seed = 3, .threads = 1};
     const auto a =
         render(make_path_tracer(make_room<float>(Ball::glass, Lamp::quad, 1)),
                room_camera<float>(), picture)

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "ljus/render/direct_light.hpp"
+#include "ljus/path/direct_light.hpp"
 #include "support/mean.hpp"
 #include "support/rooms.hpp"
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "ljus/materials/full_glossy.hpp"
+#include "ljus/materials/compensated_glossy.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
@@ -234,9 +234,9 @@ void check_gloss(const Gloss& gloss) {
     Counts counts;
     const auto tracer = make_distributed(scene);
     for (std::uint64_t pixel = 0; pixel < 200; ++pixel)
-        seen.add(mean_of_rays(
-            tracer, RayT<double>{.origin = 3.0 * wo, .direction = -wo}, 64, pixel,
-            Sampling::multi_jittered, counts));
+        seen.add(mean_of_rays(tracer,
+                              RayT<double>{.origin = 3.0 * wo, .direction = -wo}, 64,
+                              pixel, Sampling::multi_jittered, counts));
     CHECK(counts.shadow_rays == 0); // the reflected ray finds the lamp
     CAPTURE(seen.mean);
     CAPTURE(right);
@@ -250,11 +250,11 @@ void check_gloss(const Gloss& gloss) {
 TEST_CASE("distributed rays: gloss sees a lamp as the integral over it says") {
     const GlossyT<double> gloss{.reflectance = RgbD{0.8}, .roughness = 0.5};
     check_gloss(gloss);
-    check_gloss(full_glossy(gloss));
+    check_gloss(compensated_glossy(gloss));
 }
 
-TEST_CASE(
-    "distributed rays: with point lights and mirrors it is Whitted's, bit by bit") {
+TEST_CASE("distributed rays: with point lights and mirrors it is WhittedSettings's, "
+          "bit by bit") {
     using Room = Scene<Shapes<Quad, Sphere>, Materials<Lambertian, Mirror>>;
     Room room;
     const auto matt = room.add(Lambertian{.albedo = Rgb{0.6f}});
@@ -263,11 +263,11 @@ TEST_CASE(
     room.add(Sphere{.center{1.5f, 0.5f, 1}, .radius = 0.5f}, matt);
     room.add(PointLight{.position{2, 5, 4}, .intensity = Rgb{60}});
     const auto camera = look_at({.position{1, 2, 6}, .target{0, 0.7f, 0}});
-    const Picture picture{.width = 24,
-                          .height = 16,
-                          .rays = 1,
-                          .threads = 1,
-                          .sampling = Sampling::random};
+    const RenderSettings picture{.width = 24,
+                                 .height = 16,
+                                 .samples = 1,
+                                 .threads = 1,
+                                 .sampling = Sampling::random};
     const auto blurred = render(make_distributed(room), camera, picture);
     const auto sharp = render(make_whitted(room), camera, picture);
     CHECK(blurred.image.pixels == sharp.image.pixels);
@@ -408,7 +408,7 @@ TEST_CASE("distributed rays: every path is L D? (S|G)* E") {
     const auto tracer = make_distributed(room, {.max_depth = 4});
     PathLog log;
     Counts counts;
-    const Picture picture{.width = 20, .height = 20, .rays = 4, .threads = 1};
+    const RenderSettings picture{.width = 20, .height = 20, .samples = 4, .threads = 1};
     for (int y = 0; y < 20; ++y)
         for (int x = 0; x < 20; ++x)
             for (int i = 0; i < 4; ++i)

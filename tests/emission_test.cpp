@@ -256,7 +256,7 @@ TEST_CASE("emission: directions go with the cosine, wherever on the lamp they st
     CHECK(result.sum < result.limit());
 }
 
-TEST_CASE("emission: a point light shines alike in all directions") {
+TEST_CASE("emission: a point light emits alike in all directions") {
     Stage stage;
     stage.scene.add(PointLight{.position{1, 2, 3}});
     const LightChoice choice = light_choice(stage.scene.lights);
@@ -276,7 +276,7 @@ TEST_CASE("emission: a point light shines alike in all directions") {
     CHECK(result.sum < result.limit());
 }
 
-TEST_CASE("emission: a room that is a lamp shines inwards") {
+TEST_CASE("emission: a room that is a lamp emits inwards") {
     Stage stage;
     stage.scene.add(Sphere{.center{0, 0, 0}, .radius = 2}, stage.matt, Rgb{1}, true);
     const LightChoice choice = light_choice(stage.scene.lights);

@@ -8,16 +8,16 @@
 #include <string>
 #include <utility>
 
-#include "ljus/render/explain.hpp"
+#include "ljus/inspect/explain.hpp"
 #include "ljus/render/photon_mapping.hpp"
-#include "ljus/scene/cornell_box.hpp"
+#include "ljus/scenes/cornell_box.hpp"
 
 using namespace ljus;
 
 namespace {
 
-constexpr Picture picture{
-    .width = 12, .height = 12, .rays = 8, .seed = 3, .threads = 1};
+constexpr RenderSettings picture{
+    .width = 12, .height = 12, .samples = 8, .seed = 3, .threads = 1};
 
 // Pixels of the box's walls, balls and lamp.
 constexpr std::pair<int, int> places[] = {{0, 0}, {6, 1},  {3, 9},
@@ -72,10 +72,10 @@ TEST_CASE("explain: the sums by path add up to the pixel as it is rendered") {
     }
     for (const auto indirect : {IndirectLight::rays, IndirectLight::map,
                                 IndirectLight::photons, IndirectLight::none}) {
-        const PhotonMapping settings{.max_depth = 6,
-                                     .indirect = indirect,
-                                     .caustics = {.photons = 2000},
-                                     .general = {.photons = 2000}};
+        const PhotonMappingSettings settings{.max_depth = 6,
+                                             .indirect = indirect,
+                                             .caustics = {.photons = 2000},
+                                             .general = {.photons = 2000}};
         const auto maps = make_photon_maps(room.scene, settings);
         check_sums(make_photon_mapper(room.scene, maps, settings), room.camera);
     }
@@ -89,7 +89,7 @@ TEST_CASE("explain: a floor below a point light has one path, of the known value
     const Camera camera = look_at(
         {.position{0, 5, 0}, .target{0, 0, 0}, .up{0, 0, -1}, .vfov_degrees = 0.01f});
     const auto apart = take_apart(make_path_tracer(scene), camera,
-                                  {.width = 1, .height = 1, .rays = 4}, 0, 0);
+                                  {.width = 1, .height = 1, .samples = 4}, 0, 0);
     REQUIRE(apart.sums.size() == 1);
     CHECK(apart.sums[0].path == "EDL");
     CHECK(apart.sums[0].owner == "shadow ray");
@@ -124,7 +124,7 @@ TEST_CASE("explain: the text has a line for each vertex, each term and each path
 }
 
 TEST_CASE("explain: long lists of paths end in one line for the rest") {
-    ExplainedPixelT<float> apart{.radiance = Rgb{5}, .rays = 5};
+    ExplainedPixelT<float> apart{.radiance = Rgb{5}, .samples = 5};
     for (int i = 0; i < 5; ++i)
         apart.sums.push_back({std::string("E").append(std::size_t(i), 'D') + "L",
                               "emission", glm::dvec3{1}, 1});
@@ -142,10 +142,10 @@ TEST_CASE("explain: a scene alone is explained by path tracing") {
 
 TEST_CASE("explain: rays that are not finite are left out and counted") {
     const Camera camera = look_at({.position{0, 0, 0}, .target{0, 0, -1}});
-    const Picture odd{.width = 3, .height = 3, .rays = 7};
+    const RenderSettings odd{.width = 3, .height = 3, .samples = 7};
     const auto apart = take_apart(HalfNan{}, camera, odd, 1, 1);
     const auto rendered =
-        render(HalfNan{}, camera, {.width = 1, .height = 1, .rays = 7});
+        render(HalfNan{}, camera, {.width = 1, .height = 1, .samples = 7});
     CHECK(apart.rejected == 3);
     CHECK(rendered.counts.rejected == 3);
     CHECK(apart.radiance == pixel(rendered.image, 0, 0));
@@ -165,7 +165,7 @@ TEST_CASE("explain: a pixel outside of the picture is refused") {
         "the pixel's column is 12; it must be at least 0 and below the "
         "picture's width.",
         std::invalid_argument);
-    CHECK_THROWS_AS(
-        (void)explain(tracer, room.camera, {.width = 4, .height = 4, .rays = 0}, 1, 1),
-        std::invalid_argument);
+    CHECK_THROWS_AS((void)explain(tracer, room.camera,
+                                  {.width = 4, .height = 4, .samples = 0}, 1, 1),
+                    std::invalid_argument);
 }

@@ -54,8 +54,9 @@ double largest_error(const Renderer& renderer, const ljus::RgbT<T>& reflectance)
 
 } // namespace
 
-TEST_CASE_TEMPLATE("facing_mirrors: n reflections leave R^n in both renderers", T,
-                   float, double) {
+TEST_CASE_TEMPLATE(
+    "facing_mirrors: n reflections offset_ray_origin R^n in both renderers", T, float,
+    double) {
     const ljus::RgbT<T> reflectance{T(0.95), T(0.9), T(0.8)};
     const auto scene = hall(reflectance);
     const double most = 45 * double(std::numeric_limits<T>::epsilon());
@@ -63,7 +64,7 @@ TEST_CASE_TEMPLATE("facing_mirrors: n reflections leave R^n in both renderers", 
         largest_error(make_path_tracer(scene, {.roulette_depth = 1000}), reflectance);
     MESSAGE("largest relative error ", found);
     CHECK(found <= most);
-    ljus::PhotonMapping settings{.roulette_depth = 1000};
+    ljus::PhotonMappingSettings settings{.roulette_depth = 1000};
     settings.caustics.photons = 100;
     const auto maps = make_photon_maps(scene, settings);
     CHECK(largest_error(make_photon_mapper(scene, maps, settings), reflectance) <=

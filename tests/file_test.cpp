@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "ljus/image/file.hpp"
+#include "ljus/io/file.hpp"
 #include "scratch_folder.hpp"
 
 #if __has_include(<sys/resource.h>)

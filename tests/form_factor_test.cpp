@@ -1,7 +1,7 @@
 /// \file form_factor_test.cpp
 /// \brief Form factors against tables, quadrature and closed rooms.
 
-#include "ljus/geometry/exchange_area.hpp"
+#include "ljus/radiosity/exchange_area.hpp"
 
 #include <doctest/doctest.h>
 

@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "ljus/photons/census.hpp"
+#include "ljus/inspect/census.hpp"
 #include "ljus/photons/photon_map.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "support/mean.hpp"
@@ -175,7 +175,7 @@ TEST_CASE("general map: direct and indirect photons of a box are its radiosity")
         std::array<Mean, 24> direct_seen, indirect_seen, total_seen;
         for (int seed = 1; seed <= seeds; ++seed) {
             const auto traced = trace_photons(
-                scene, PhotonLaw::general,
+                scene, MapType::general,
                 {.photons = 10000, .seed = std::uint64_t(100 + seed), .threads = 1});
             std::array<double, 24> d{}, i{};
             int shadows = 0; // nothing hides anything, but by rounding along an edge
@@ -309,7 +309,7 @@ TEST_CASE("general map: direct + shadow = the light that nothing hides, for each
         std::vector<std::array<std::array<Mean, 3>, 3>> seen(cells.size());
         for (int seed = 1; seed <= seeds; ++seed) {
             const auto traced = trace_photons(
-                scene, PhotonLaw::general,
+                scene, MapType::general,
                 {.photons = 10000, .seed = std::uint64_t(100 + seed), .threads = 1});
             std::vector<std::array<Arriving, 3>> sums(cells.size());
             for (const Photon& photon : traced.photons) {
@@ -370,7 +370,7 @@ TEST_CASE("general map: photons lie on matt surfaces only, and each knows its li
                           .edge_v{0, 0, 0.4f}},
                      black, lamp == 0 ? Rgb{5, 0, 0} : Rgb{0, 2, 0});
         const auto traced =
-            trace_photons(room, PhotonLaw::general, {.photons = 20000, .threads = 1});
+            trace_photons(room, MapType::general, {.photons = 20000, .threads = 1});
         const PhotonCensus found = census(traced.photons);
         CHECK(found[PhotonKind::caustic].photons == 0);
         std::array<int, 2> of_light{};
@@ -415,7 +415,7 @@ TEST_CASE(
     const auto walls = box_walls();
     for (const int bounces : {1, 2, 1000}) {
         const auto traced =
-            trace_photons(scene, PhotonLaw::general,
+            trace_photons(scene, MapType::general,
                           {.photons = 5000, .max_bounces = bounces, .threads = 1});
         double absorbed = 0;
         for (const Photon& photon : traced.photons)
@@ -493,7 +493,7 @@ TEST_CASE("general map: variance falls with 1/(N r^2), bias^2 grows with r^4, an
         std::vector<std::vector<Mean>> seen(radii.size(),
                                             std::vector<Mean>(places.size()));
         for (int seed = 1; seed <= 16; ++seed) {
-            const auto map = make_photon_map(trace_photons(scene, PhotonLaw::general,
+            const auto map = make_photon_map(trace_photons(scene, MapType::general,
                                                            {.photons = number,
                                                             .seed = std::uint64_t(seed),
                                                             .max_bounces = 1,
@@ -587,7 +587,7 @@ TEST_CASE("general map: no light, no photons, one photon, a scene of glass") {
     CHECK(make_photon_maps(dark, {.keep_general_map = true}).general.empty());
 
     const Room room = make_room<float>(Ball::lambertian, Lamp::quad, 2);
-    PhotonMapping settings{.keep_general_map = true};
+    PhotonMappingSettings settings{.keep_general_map = true};
     settings.general.photons = 0;
     CHECK(make_photon_maps(room, settings).general.empty());
     settings.general.photons = 1;
@@ -600,7 +600,7 @@ TEST_CASE("general map: no light, no photons, one photon, a scene of glass") {
     add_ball(glass, Ball::glass);
     add_lamps(glass, Lamp::point, 1); // no object of its own
     const auto none =
-        trace_photons(glass, PhotonLaw::general, {.photons = 3000, .threads = 1});
+        trace_photons(glass, MapType::general, {.photons = 3000, .threads = 1});
     CHECK(none.photons.empty());
     CHECK(none.audit.emitted.x > 0);
     CHECK_FALSE(survey(glass, {.keep_general_map = true}).general_map.on);
@@ -621,7 +621,7 @@ TEST_CASE("general map: a lamp in a closed box lights the box, and all else is i
         room.add(Quad{.corner = corner, .edge_u = u, .edge_v = v}, grey);
     room.add(PointLight{.position = low + 0.5f * (x + y + z), .intensity = Rgb{1}});
     const auto traced =
-        trace_photons(room, PhotonLaw::general, {.photons = 3000, .threads = 1});
+        trace_photons(room, MapType::general, {.photons = 3000, .threads = 1});
     int inside = 0;
     for (const Photon& photon : traced.photons) {
         const Vec3 p = glm::abs(photon.position - low - 0.5f * (x + y + z));
@@ -647,7 +647,7 @@ PhotonCensus census_of_box(double scale, double offset) {
                   scene.add(LambertianT<T>{.albedo = RgbT<T>{T(wall.albedo)}}),
                   RgbT<T>{T(wall.emitted)});
     return census(
-        trace_photons(scene, PhotonLaw::general, {.photons = 2000, .threads = 1})
+        trace_photons(scene, MapType::general, {.photons = 2000, .threads = 1})
             .photons);
 }
 

@@ -38,7 +38,7 @@ double reflected_share(const GlassT<double>& m, const Vec3T<double>& wo) {
 TEST_CASE_TEMPLATE("glass: both branches have the weight 1, radiance the square of the "
                    "index ratio on top, for index ratios 1e-3 to 1e3",
                    T, float, double) {
-    static_assert(ljus::Bsdf<GlassT<T>>);
+    static_assert(ljus::Material<GlassT<T>>);
     Draws draws;
     int reflected = 0, refracted = 0;
     for (int i = 0; i < 20000; ++i) {
@@ -234,12 +234,12 @@ TEST_CASE("glass: both ways at once are what one way is in the mean") {
             const auto& [reflected, refracted] = *both;
             CHECK(reflected.weight.x == doctest::Approx(share).epsilon(1e-9));
             CHECK(refracted.weight.x ==
-                  doctest::Approx((1 - share) * refracted.squeeze).epsilon(1e-9));
-            CHECK(refracted.squeeze ==
+                  doctest::Approx((1 - share) * refracted.eta_scale).epsilon(1e-9));
+            CHECK(refracted.eta_scale ==
                   doctest::Approx(cosine > 0 ? 1 / (index * index) : index * index));
             const auto down = sample(m, wo, {0.5, 0.5, 0.9999999}, Transport::radiance);
             REQUIRE(down);
             CHECK(glm::distance(down->wi, refracted.wi) < 1e-12);
-            CHECK(both_ways(m, wo, Transport::flux)->at(1).squeeze == 1);
+            CHECK(both_ways(m, wo, Transport::flux)->at(1).eta_scale == 1);
         }
 }

@@ -142,9 +142,10 @@ TEST_CASE("glossy: white returns no more than it gets, and both ways to count ag
     CHECK(least > 0.3);
 }
 
-TEST_CASE_TEMPLATE("glossy: from grazing to straight, from 0.01 to 1, no NaN and no "
-                   "weight above 1",
-                   T, float, double) {
+TEST_CASE_TEMPLATE(
+    "glossy: from grazing to pass_through, from 0.01 to 1, no NaN and no "
+    "weight above 1",
+    T, float, double) {
     for (const T roughness : {T(0.01), T(0.1), T(0.5), T(1)}) {
         check_extremes(
             GlossyT<T>{.reflectance = ljus::RgbT<T>{1}, .roughness = roughness},

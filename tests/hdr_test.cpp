@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "ljus/image/hdr.hpp"
+#include "ljus/io/hdr.hpp"
 #include "scratch_folder.hpp"
 
 // A second opinion: the reader and the writer of the stb collection.

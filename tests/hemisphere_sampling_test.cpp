@@ -1,7 +1,7 @@
 /// \file hemisphere_sampling_test.cpp
 /// \brief Naive directions, their density, and the variances of three estimators.
 
-#include "ljus/math/naive_hemisphere.hpp"
+#include "ljus/math/sampling.hpp"
 
 #include <doctest/doctest.h>
 
@@ -11,7 +11,6 @@
 #include <numbers>
 #include <vector>
 
-#include "ljus/math/sampling.hpp"
 #include "support/draws.hpp"
 #include "support/statistics.hpp"
 

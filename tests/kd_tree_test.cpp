@@ -1,7 +1,7 @@
 /// \file kd_tree_test.cpp
 /// \brief Every search against all points in turn, and what it costs in the worst case.
 
-#include "ljus/photons/kd_tree.hpp"
+#include "ljus/accel/kd_tree.hpp"
 
 #include <doctest/doctest.h>
 

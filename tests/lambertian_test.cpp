@@ -47,7 +47,7 @@ TEST_CASE_TEMPLATE("lambertian: samples, density and weight belong together", T,
 
 TEST_CASE("lambertian: nothing specular, nothing of black") {
     using ljus::Lambertian;
-    static_assert(ljus::Bsdf<Lambertian> && ljus::Bsdf<LambertianT<double>>);
+    static_assert(ljus::Material<Lambertian> && ljus::Material<LambertianT<double>>);
     const ljus::Vec3 up{0, 0, 1}, u{0.5f, 0.5f, 0.5f};
     CHECK(lobes(Lambertian{}) == Lobes::diffuse);
     CHECK(lobes(Lambertian{.albedo = {0, 0, 0}}) == Lobes::diffuse);

@@ -1,7 +1,7 @@
 /// \file lane_select_test.cpp
 /// \brief The k-th smallest by counting is the k-th smallest.
 
-#include "ljus/photons/lane_select.hpp"
+#include "ljus/accel/detail/lane_select.hpp"
 
 #include <doctest/doctest.h>
 

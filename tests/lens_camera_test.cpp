@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "ljus/scene/stratified_stream.hpp"
+#include "ljus/math/stratified_stream.hpp"
 #include "support/statistics.hpp"
 
 using namespace ljus;

@@ -18,10 +18,10 @@ namespace {
 double crossing(double height, double n) {
     const ljus::SphereT<double> ball{};
     const Ray before{.origin{-3, height, 0}, .direction{1, 0, 0}};
-    const Vec3 in = at(before, *intersect(before, ball));
+    const Vec3 in = point_at(before, *intersect(before, ball));
     const Vec3 inside = *ljus::refract(before.direction, normal(ball, in), 1 / n);
     const Ray within{.origin = in, .direction = inside, .t_min = 1e-9};
-    const Vec3 out = at(within, *intersect(within, ball));
+    const Vec3 out = point_at(within, *intersect(within, ball));
     const Vec3 beyond = *ljus::refract(inside, normal(ball, out), n);
     return out.x - out.y * beyond.x / beyond.y;
 }
@@ -46,10 +46,10 @@ TEST_CASE("lens: a ray leaves a ball at the angle at which it entered") {
     for (int i = 0; i < 99; ++i) {
         const double height = 0.01 * i;
         const Ray before{.origin{-3, height, 0}, .direction{1, 0, 0}};
-        const Vec3 in = at(before, *intersect(before, ball));
+        const Vec3 in = point_at(before, *intersect(before, ball));
         const Vec3 inside = *ljus::refract(before.direction, normal(ball, in), 1 / 1.5);
         const Ray within{.origin = in, .direction = inside, .t_min = 1e-9};
-        const Vec3 out = at(within, *intersect(within, ball));
+        const Vec3 out = point_at(within, *intersect(within, ball));
         const auto beyond = ljus::refract(inside, normal(ball, out), 1.5);
         REQUIRE(beyond); // so that there is no total reflection
         CHECK(glm::dot(*beyond, normal(ball, out)) ==

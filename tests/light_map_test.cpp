@@ -2,16 +2,16 @@
 /// \file light_map_test.cpp
 /// \brief Light maps: blended between vertices, saved and loaded bit by bit.
 
-#include "ljus/render/light_map_file.hpp"
+#include "ljus/io/light_map_file.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cstring>
 
-#include "ljus/render/radiosity.hpp"
+#include "ljus/radiosity/radiosity.hpp"
 #include "ljus/render/render.hpp"
-#include "ljus/scene/cornell_box.hpp"
+#include "ljus/scenes/cornell_box.hpp"
 #include "scratch_folder.hpp"
 
 using namespace ljus;
@@ -166,7 +166,7 @@ TEST_CASE("light_map: it comes back, bit by bit, and gives the same picture") {
     CHECK(same(all->map, back));
     CHECK(load_file(path, 1'000'000).size() ==
           40 + 20 * all->map.grids.size() + 24 * all->map.irradiance.size());
-    const Picture picture{.width = 24, .height = 24, .rays = 1};
+    const RenderSettings picture{.width = 24, .height = 24, .samples = 1};
     CHECK(render(make_light_map_view(room.scene, back), room.camera, picture)
               .image.pixels ==
           render(make_light_map_view(room.scene, all->map), room.camera, picture)

@@ -158,7 +158,7 @@ TEST_CASE("light: a spot light is a point light within its cone, fades and ends"
     }
 }
 
-TEST_CASE("light: a sun shines alike on all, from one side") {
+TEST_CASE("light: a sun emits alike on all, from one side") {
     const auto scene = make_scene(SunLight{.direction{0, -2, 0}, .irradiance = Rgb{3}},
                                   placed(Sphere{.radius = 5}, Lambertian{}));
     for (const Vec3 at : {Vec3{0}, Vec3{5, 0, 0}, Vec3{0, 5, 0}, Vec3{0, -5, 0}}) {

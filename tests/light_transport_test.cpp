@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "ljus/render/light_transport.hpp"
+#include "ljus/path/light_transport.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/render.hpp"
-#include "ljus/scene/cornell_box.hpp"
-#include "ljus/scene/furnaces.hpp"
+#include "ljus/scenes/cornell_box.hpp"
+#include "ljus/scenes/furnaces.hpp"
 #include "support/numbers.hpp"
 
 using namespace ljus;
@@ -36,8 +36,8 @@ std::string expression(ljus_test::Numbers& n, int depth) {
     return result;
 }
 
-Picture small() {
-    return {.width = 16, .height = 16, .rays = 4, .seed = 3, .threads = 1};
+RenderSettings small() {
+    return {.width = 16, .height = 16, .samples = 4, .seed = 3, .threads = 1};
 }
 
 template <typename Renderer>
@@ -59,17 +59,17 @@ double difference(const Image& a, const Image& b) {
 } // namespace
 
 TEST_CASE("light_transport: classes of paths, by hand") {
-    constexpr PathClass whitted = path_class("ES*D?L");
+    constexpr LightPathExpression whitted = light_path_expression("ES*D?L");
     CHECK((contains(whitted, "EL") && contains(whitted, "ESSDL")));
     CHECK_FALSE((contains(whitted, "EDSL") || contains(whitted, "EDDL")));
-    const PathClass caustic = path_class("E.*DS+L");
+    const LightPathExpression caustic = light_path_expression("E.*DS+L");
     for (const char* path : {"EDSL", "EDSSL", "ESDDSL"}) CHECK(contains(caustic, path));
     for (const char* path : {"EL", "EDL", "ESL", "EDS", "DSL", "EDSDL", "EDSLL", ""})
         CHECK_FALSE(contains(caustic, path));
-    CHECK(contains(path_class(""), ""));
-    CHECK(contains(path_class("((E)(S|D|)*)L"), "ESDSDL"));
+    CHECK(contains(light_path_expression(""), ""));
+    CHECK(contains(light_path_expression("((E)(S|D|)*)L"), "ESDSDL"));
     const std::string deep = "E" + std::string(100000, 'D') + "L";
-    CHECK(contains(path_class("E(D*S?)*L"), deep));
+    CHECK(contains(light_path_expression("E(D*S?)*L"), deep));
 }
 
 TEST_CASE("light_transport: classes of paths, 120 random ones beside std::regex") {
@@ -80,7 +80,7 @@ TEST_CASE("light_transport: classes of paths, 120 random ones beside std::regex"
         std::string other;
         for (const char c : words) other += c == '.' ? "[DS]" : std::string(1, c);
         const std::regex judge(other);
-        const PathClass paths = path_class(words);
+        const LightPathExpression paths = light_path_expression(words);
         for (int k = 0; k < 30; ++k) {
             std::string path;
             for (int length = n.below(6); length > 0; --length)
@@ -98,7 +98,7 @@ TEST_CASE("light_transport: classes of paths, 120 random ones beside std::regex"
 TEST_CASE("light_transport: an expression that is none is refused with its place") {
     const auto refusal = [](const char* words) -> std::string {
         try {
-            (void)path_class(words);
+            (void)light_path_expression(words);
         } catch (const std::invalid_argument& error) {
             return error.what();
         }

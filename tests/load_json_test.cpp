@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "ljus/scene/load_json.hpp"
+#include "ljus/io/load_json.hpp"
 #include "ljus/scene/query.hpp"
 #include "scratch_folder.hpp"
 
@@ -284,7 +284,9 @@ TEST_CASE("load_json: panes, soap and gloss that keeps its light") {
     const LoadedScene gloss = read_json_scene(
         with(R"({"type": "full-glossy", "reflectance": [1, 1, 1], "roughness": 0.5})"),
         "a.json");
-    CHECK(std::get<std::vector<FullGlossy>>(gloss.scene.materials).at(0).loss.mean > 0);
+    CHECK(std::get<std::vector<CompensatedGlossy>>(gloss.scene.materials)
+              .at(0)
+              .loss.mean > 0);
 
     CHECK(refusal(film(R"(, "scale": 2)")) == "a.json: materials.glass.up is missing.");
     CHECK(refusal(film(R"(, "scale": 2, "level": [0, 0, 0], "up": [0, 0, 0])")) ==

@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <fstream>
 
-#include "ljus/geometry/mesh_formulas.hpp"
+#include "ljus/io/load_json.hpp"
+#include "ljus/io/load_obj.hpp"
 #include "ljus/math/random.hpp"
-#include "ljus/scene/load_json.hpp"
-#include "ljus/scene/load_obj.hpp"
+#include "ljus/scenes/mesh_formulas.hpp"
 #include "scratch_folder.hpp"
 
 using namespace ljus;

@@ -28,7 +28,9 @@ std::uint32_t owen_by_definition(std::uint32_t bits, std::uint64_t seed) {
     for (int bit = 31; bit >= 0; --bit) {
         const std::uint64_t above = bit == 31 ? 0 : bits >> (bit + 1);
         const std::uint64_t coin =
-            mix(mix(mix(seed) + static_cast<std::uint64_t>(bit)) + above) >> 63;
+            mix_bits(mix_bits(mix_bits(seed) + static_cast<std::uint64_t>(bit)) +
+                     above) >>
+            63;
         result |= (((bits >> bit) & 1u) ^ static_cast<std::uint32_t>(coin)) << bit;
     }
     return result;
@@ -164,7 +166,7 @@ TEST_CASE("low_discrepancy: one point is uniform over the seeds, by cells and in
             for (std::uint64_t seed = 0; seed < seeds; ++seed) {
                 const auto scrambled = [&](std::uint32_t d) {
                     const std::uint32_t bits = sobol(index, d);
-                    const std::uint64_t key = mix(seed) + d;
+                    const std::uint64_t key = mix_bits(seed) + d;
                     return definition ? owen_by_definition(bits, key)
                                       : owen_scrambled(bits, key);
                 };

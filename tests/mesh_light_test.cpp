@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "ljus/geometry/mesh_formulas.hpp"
-#include "ljus/image/metrics.hpp"
+#include "ljus/inspect/metrics.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"
+#include "ljus/scenes/mesh_formulas.hpp"
 #include "support/mesh_rooms.hpp"
 
 using namespace ljus;
@@ -54,8 +54,8 @@ MeshRoom room_with(bool furnace, bool glass, bool triangles) {
 const Camera camera =
     look_at({.position{0, 0.2f, 0.97f}, .target{0, -0.3f, 0}, .vfov_degrees = 75});
 
-Picture picture(std::uint64_t seed) {
-    return {.width = size, .height = size, .rays = 4, .seed = seed, .threads = 1};
+RenderSettings picture(std::uint64_t seed) {
+    return {.width = size, .height = size, .samples = 4, .seed = seed, .threads = 1};
 }
 
 /// The mean of a picture, and those of its 36 blocks.
@@ -87,9 +87,9 @@ Blocks mapped(const MeshRoom& room, std::uint64_t first, int count) {
     Blocks blocks;
     for (int i = 0; i < count; ++i) {
         const std::uint64_t seed = first + static_cast<std::uint64_t>(i);
-        PhotonMapping settings;
+        PhotonMappingSettings settings;
         settings.caustics = {.photons = 20000, .seed = seed, .threads = 1};
-        settings.gather_caustics = {.radius = 0.03f};
+        settings.caustics_estimate = {.radius = 0.03f};
         const auto maps = make_photon_maps(room, settings);
         blocks.add(
             render(make_photon_mapper(room, maps, settings), camera, picture(seed))

@@ -2,12 +2,12 @@
 
 #include <cstring>
 
-#include "ljus/geometry/mesh_formulas.hpp"
 #include "ljus/geometry/solid_angle.hpp"
 #include "ljus/geometry/watertight.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"
 #include "ljus/scene/make_scene.hpp"
+#include "ljus/scenes/mesh_formulas.hpp"
 #include "support/mesh_rooms.hpp"
 
 using namespace ljus;
@@ -141,14 +141,14 @@ TEST_CASE("mesh: pictures and photons are those of its triangles, to the last bi
             room->add(triangle_of(ring, i), grey);
     }
     const Camera camera = look_at({.position{0, 1.5f, 3}, .target{0, 0.3f, 0}});
-    const Picture picture{.width = 40, .height = 30, .rays = 4};
+    const RenderSettings picture{.width = 40, .height = 30, .samples = 4};
     const auto a = render(make_path_tracer(whole), camera, picture).image;
     const auto b = render(make_path_tracer(parts), camera, picture).image;
     CHECK(std::memcmp(a.pixels.data(), b.pixels.data(),
                       a.pixels.size() * sizeof(a.pixels[0])) == 0);
-    const PhotonPass pass{.photons = 2000};
-    const auto p = trace_photons(whole, PhotonLaw::general, pass).photons;
-    const auto q = trace_photons(parts, PhotonLaw::general, pass).photons;
+    const PhotonPassSettings pass{.photons = 2000};
+    const auto p = trace_photons(whole, MapType::general, pass).photons;
+    const auto q = trace_photons(parts, MapType::general, pass).photons;
     REQUIRE(p.size() == q.size());
     int other = 0;
     for (std::size_t i = 0; i < p.size(); ++i)
@@ -264,7 +264,7 @@ TEST_CASE("mesh: a lamp of triangles lights as the sphere does") {
     const Mean alone = mean_radiance(no_shadow_rays, 40000, 2, down);
     CHECK(std::abs(apart(alone, right, 4e-3)) < 3);
     // Photons carry the same.
-    const auto traced = trace_photons(scene, PhotonLaw::general, {.photons = 40000});
+    const auto traced = trace_photons(scene, MapType::general, {.photons = 40000});
     double sum = 0;
     for (const Photon& photon : traced.photons) sum += double(photon.flux.x);
     CHECK(std::abs(double(traced.audit.emitted.x) - double(scene.lights[0].flux.x)) <
@@ -322,7 +322,8 @@ TEST_CASE("mesh: mirrors, glass and matt meshes in a furnace are as bright as it
                 room, {.roulette_depth = 1001, .sample_lights = false});
             const Camera camera = look_at({.position{0, 2, 3}, .target{0, 0, 0}});
             const auto image =
-                render(tracer, camera, {.width = 48, .height = 48, .rays = 16}).image;
+                render(tracer, camera, {.width = 48, .height = 48, .samples = 16})
+                    .image;
             double least = 9, most = 0, sum = 0;
             for (const Rgb& pixel : image.pixels) {
                 sum += double(pixel.x);
@@ -359,12 +360,12 @@ TEST_CASE("mesh: no light leaks through it") {
         const Camera camera = look_at({.position{0, 2, 3}, .target{0, 0, 0}});
         const IndexedScene<MeshRoom, double> exact(room);
         const auto image = render(make_path_tracer(exact), camera,
-                                  {.width = 40, .height = 40, .rays = 8})
+                                  {.width = 40, .height = 40, .samples = 8})
                                .image;
         double sum = 0;
         for (const Rgb& pixel : image.pixels) sum += double(pixel.x);
         CHECK(sum == 0);
-        const auto traced = trace_photons(exact, PhotonLaw::general,
+        const auto traced = trace_photons(exact, MapType::general,
                                           {.photons = 5000, .shadow_photons = false});
         int outside = 0;
         for (const Photon& photon : traced.photons)
@@ -406,7 +407,7 @@ TEST_CASE("mesh: photons land with the cosine of the shading normal") {
     const PointLight light{.position{0, 2, 0}, .intensity = Rgb{1}};
     const auto scene = make_scene(placed(mesh, Lambertian{}), light);
     constexpr int count = 20000;
-    const auto traced = trace_photons(scene, PhotonLaw::general,
+    const auto traced = trace_photons(scene, MapType::general,
                                       {.photons = count, .shadow_photons = false});
     CHECK(traced.photons.size() > 1000);
     const double left = 4 * std::numbers::pi / count;

@@ -249,7 +249,7 @@ TEST_CASE("metaballs: the bounding sphere holds every hit, and is tight for one 
             const Ray ray{.origin = Vec3(n.direction() * 6.0),
                           .direction = Vec3(n.point(3))};
             if (const auto t = intersect(ray, balls))
-                CHECK(glm::distance(at(ray, *t), bound.center) <=
+                CHECK(glm::distance(point_at(ray, *t), bound.center) <=
                       bound.radius * 1.0001f);
         }
     }
@@ -288,13 +288,13 @@ TEST_CASE_TEMPLATE("metaballs: a hit lies on the surface, its normal is the grad
                   1.01 * eps * glm::dot(glm::abs(Point(p.normal)), glm::abs(x)) + 2e-9);
             // A ray that leaves outwards is outside, one that enters is inside.
             const Vec3T<T> out = p.normal;
-            CHECK(field(balls, Point(leave(p, out))) < 0);
-            CHECK(field(balls, Point(leave(p, Vec3T<T>(-out)))) > 0);
+            CHECK(field(balls, Point(offset_ray_origin(p, out))) < 0);
+            CHECK(field(balls, Point(offset_ray_origin(p, Vec3T<T>(-out)))) > 0);
             // Outwards and aside: no hit where the ray starts.
             const Vec3T<T> aside =
                 glm::normalize(Vec3T<T>(glm::cross(p.normal, Vec3T<T>(n.direction()))));
             const auto again =
-                intersect(ray_from(p, Vec3T<T>(aside + T(0.02) * out)), balls);
+                intersect(spawn_ray(p, Vec3T<T>(aside + T(0.02) * out)), balls);
             if (again) CHECK(*again > T(1e-3));
         }
         CHECK(hits > 300);
@@ -363,7 +363,7 @@ TEST_CASE("isosurface: Blinn's blobs, which no formula solves, by both solvers")
                       .direction = Vec3(n.point(1.2))};
         const Ray aimed{.origin = ray.origin, .direction = ray.direction - ray.origin};
         const auto a = intersect(aimed, surface),
-                   b = intersect(aimed, surface, Bisection{.most_parts = 1 << 22});
+                   b = intersect(aimed, surface, Bisection{.max_parts = 1 << 22});
         // The truth by small steps.
         double truth = -1;
         const Point o(aimed.origin), d(aimed.direction);
@@ -386,10 +386,10 @@ TEST_CASE("isosurface: Blinn's blobs, which no formula solves, by both solvers")
 
 TEST_CASE("solvers: both give up where their limits say") {
     const Metaballs balls{.blobs{{.center{0, 0, -4}}}};
-    CHECK(intersect(Ray{}, balls, SphereTracing{.most_steps = 200}));
-    CHECK_FALSE(intersect(Ray{}, balls, SphereTracing{.most_steps = 3}));
+    CHECK(intersect(Ray{}, balls, SphereTracing{.max_steps = 200}));
+    CHECK_FALSE(intersect(Ray{}, balls, SphereTracing{.max_steps = 3}));
     CHECK(intersect(Ray{}, balls, Bisection{}));
-    CHECK_FALSE(intersect(Ray{}, balls, Bisection{.most_parts = 1}));
+    CHECK_FALSE(intersect(Ray{}, balls, Bisection{.max_parts = 1}));
 }
 
 TEST_CASE("metaballs: glass and grey ones in the path tracer and the photon mapper") {
@@ -401,12 +401,12 @@ TEST_CASE("metaballs: glass and grey ones in the path tracer and the photon mapp
     scene.add(left, grey);
     scene.add(Quad{.corner{-4, -1, 0}, .edge_u{8, 0, 0}, .edge_v{0, 0, -8}}, grey);
     scene.add(Sphere{.center{2, 4, -2}, .radius = 0.5f}, grey, Rgb{20});
-    const PhotonMapping settings{};
+    const PhotonMappingSettings settings{};
     const auto maps = make_photon_maps(scene, settings);
     CHECK(maps.caustics.records.size() > 1000); // aimed at the bounding sphere
     const auto mapper = make_photon_mapper(scene, maps, settings);
     const auto tracer = make_path_tracer(scene);
-    const Picture picture{32, 32, 64, 1};
+    const RenderSettings picture{32, 32, 64, 1};
     const auto a = render(mapper, Camera{}, picture),
                b = render(tracer, Camera{}, picture);
     double sum_a = 0, sum_b = 0;

@@ -1,7 +1,7 @@
 /// \file metal_test.cpp
 /// \brief A mirror whose reflectance is that of its index and angle.
 
-#include "ljus/materials/metal.hpp"
+#include "ljus/materials/mirror.hpp"
 
 #include <doctest/doctest.h>
 
@@ -42,7 +42,7 @@ TEST_CASE("metal: gold is yellow from above and white at the rim") {
 }
 
 TEST_CASE("metal: it is specular, and only that") {
-    static_assert(ljus::Bsdf<Metal>);
+    static_assert(ljus::Material<Metal>);
     const ljus::Vec3 up{0, 0, 1}, u{0.5f, 0.5f, 0.5f};
     CHECK(ljus::is_specular(Metal{}));
     CHECK(ljus::is_black(evaluate(Metal{}, up, up)));

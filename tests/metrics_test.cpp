@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "ljus/image/bias_variance.hpp"
-#include "ljus/image/metrics.hpp"
+#include "ljus/inspect/bias_variance.hpp"
+#include "ljus/inspect/metrics.hpp"
 
 namespace {
 

@@ -15,7 +15,7 @@ TEST_CASE("object: numbers are equal when type and index are") {
     CHECK(ObjectId{0, 3} != ObjectId{1, 3});
 }
 
-TEST_CASE("object: without more said it neither shines nor is inside out") {
+TEST_CASE("object: without more said it neither emits nor is inside out") {
     const ObjectT<float> object{.material = {1, 2}};
     CHECK(is_black(object.emission));
     CHECK_FALSE(object.inside_out);

@@ -164,7 +164,7 @@ TEST_CASE("oren_nayar: a ball lit from the eye is flatter than Lambert's") {
 
 TEST_CASE_TEMPLATE("oren_nayar: samples, density and weight belong together", T, float,
                    double) {
-    static_assert(ljus::Bsdf<OrenNayarT<T>>);
+    static_assert(ljus::Material<OrenNayarT<T>>);
     for (const double sigma : {0.0, 0.3, 100.0}) {
         const OrenNayarT<T> m{.albedo{T(0.3), T(0.6), T(1)}, .sigma = T(sigma)};
         check_reciprocity(m, 0);

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "ljus/geometry/pair_triangles.hpp"
+#include "ljus/accel/pair_triangles.hpp"
 
 using namespace ljus;
 

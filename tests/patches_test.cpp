@@ -4,9 +4,9 @@
 
 #include <doctest/doctest.h>
 
-#include "ljus/render/form_factors.hpp"
-#include "ljus/scene/cornell_box.hpp"
-#include "ljus/scene/furnaces.hpp"
+#include "ljus/radiosity/form_factor_matrix.hpp"
+#include "ljus/scenes/cornell_box.hpp"
+#include "ljus/scenes/furnaces.hpp"
 #include "support/refusal.hpp"
 
 using namespace ljus;

@@ -126,7 +126,7 @@ TEST_CASE("path log: each term of the photon mapper has the one owner of the tab
     const Room room = mixed_room();
     for (const IndirectLight indirect : {IndirectLight::rays, IndirectLight::map,
                                          IndirectLight::photons, IndirectLight::none}) {
-        PhotonMapping settings;
+        PhotonMappingSettings settings;
         settings.indirect = indirect;
         settings.split_glass = indirect != IndirectLight::map;
         settings.caustics = {.photons = 20000, .threads = 1};
@@ -187,8 +187,8 @@ TEST_CASE("path log: the two renderers bring the same light, class of paths by c
     // No class is missing, none is counted twice: E L, E S+ L, E D L, E D S+ L, E D D L,
     // E S+ D L, E D D S+ L, ... in one room with both maps' photons.
     const Room room = mixed_room();
-    PhotonMapping settings;
-    settings.gather_caustics.radius = 0.04f;
+    PhotonMappingSettings settings;
+    settings.caustics_estimate.radius = 0.04f;
     const std::uint64_t paths = 30000;
     const int seeds = 24;
     std::set<std::string> classes;
@@ -253,10 +253,10 @@ TEST_CASE("path log: a mirror and a ball of glass cast no shadow ray") {
     room.add(Sphere{.radius = 5}, mirror, Rgb{0}, true);
     room.add(Sphere{.center{0, 0, -2}, .radius = 1}, glass);
     room.add(PointLight{.position{0, 2, 0}, .intensity = Rgb{10}});
-    PhotonMapping settings;
+    PhotonMappingSettings settings;
     settings.caustics.photons = 1000;
     const auto maps = make_photon_maps(room, settings);
-    const Picture picture{.width = 16, .height = 16, .rays = 4, .threads = 1};
+    const RenderSettings picture{.width = 16, .height = 16, .samples = 4, .threads = 1};
     const Camera camera = look_at({.position{0, 0, 1}, .target{0, 0, -2}});
     for (const Counts& counts :
          {render(make_path_tracer(room), camera, picture).counts,
@@ -280,7 +280,7 @@ TEST_CASE("path log: a gather ray that reaches a lamp adds nothing") {
              Rgb{2});
     room.add(Quad{.corner{4, 0, -9}, .edge_u{0, 3, 0}, .edge_v{0, 0, 18}}, mirror);
     for (const IndirectLight indirect : {IndirectLight::rays, IndirectLight::map}) {
-        PhotonMapping settings;
+        PhotonMappingSettings settings;
         settings.indirect = indirect;
         settings.caustics.photons = 5000;
         settings.general.photons = 5000;

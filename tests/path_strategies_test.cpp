@@ -12,7 +12,7 @@
 
 #include "ljus/materials/glossy.hpp"
 #include "ljus/render/path_tracing.hpp"
-#include "ljus/scene/furnaces.hpp"
+#include "ljus/scenes/furnaces.hpp"
 #include "support/mean.hpp"
 #include "support/statistics.hpp"
 
@@ -66,14 +66,15 @@ Ray in_furnace(RandomStream& stream) {
 TEST_CASE("multiple importance: the shares of two strategies are the whole") {
     const float largest = std::numeric_limits<float>::max();
     const float infinity = std::numeric_limits<float>::infinity();
-    for (const LampShare share : {LampShare::balance, LampShare::power})
+    for (const MisHeuristic share : {MisHeuristic::balance, MisHeuristic::power})
         for (const float a : {1e-38f, 0.3f, 1.0f, 7.0f, largest})
             for (const float b : {1e-38f, 0.3f, 2.0f, 1e20f, largest}) {
-                const float of_a = share_of(share, a, b), of_b = share_of(share, b, a);
+                const float of_a = mis_weight(share, a, b),
+                            of_b = mis_weight(share, b, a);
                 CHECK(of_a + of_b == doctest::Approx(1));
                 CHECK((of_a >= 0 && of_b >= 0));
-                CHECK(share_of(share, a, infinity) == 0.0f);
-                CHECK(share_of(share, a, 0.0f) == 1.0f);
+                CHECK(mis_weight(share, a, infinity) == 0.0f);
+                CHECK(mis_weight(share, a, 0.0f) == 1.0f);
             }
     CHECK(balance(1.0, 3.0) == 0.25);
     CHECK(power_heuristic(1.0, 3.0) == doctest::Approx(0.1));
@@ -88,14 +89,14 @@ TEST_CASE("multiple importance: all ways to share a lamp's light have one mean")
     };
     for (const Case c : {Case{0.12f, 0.7f}, Case{0.5f, 0.05f}, Case{0.3f, 0.3f}}) {
         const auto scene = plate(c.roughness, c.radius);
-        const auto seen = [&](PathTracing settings, std::uint64_t seed) {
+        const auto seen = [&](PathTracingSettings settings, std::uint64_t seed) {
             settings.max_depth = 1;
             return mean_radiance(make_path_tracer(scene, settings), 60000, seed,
                                  to_plate);
         };
         const Mean both = seen({}, 1);
-        const Mean power = seen({.share = LampShare::power}, 2);
-        const Mean light = seen({.share = LampShare::shadow_rays}, 3);
+        const Mean power = seen({.share = MisHeuristic::power}, 2);
+        const Mean light = seen({.share = MisHeuristic::shadow_rays}, 3);
         const Mean gloss = seen({.sample_lights = false}, 4);
         CAPTURE(c.roughness);
         CAPTURE(both.mean);
@@ -124,7 +125,7 @@ TEST_CASE("multiple importance: in a box furnace no surface brings more than twi
         Mean mean{};
         double most = 0;
     };
-    const auto seen = [&](const PathTracing& settings) {
+    const auto seen = [&](const PathTracingSettings& settings) {
         const auto tracer = make_path_tracer(room.scene, settings);
         Seen all;
         Counts counts;
@@ -142,8 +143,8 @@ TEST_CASE("multiple importance: in a box furnace no surface brings more than twi
     CAPTURE(both.most);
     CHECK(std::abs(apart(both.mean, 2 - std::exp2(-12))) < 3.5);
     CHECK(both.most < 1 + 2 * 1.0001);
-    const Seen shadow =
-        seen({.max_depth = 12, .roulette_depth = 100, .share = LampShare::shadow_rays});
+    const Seen shadow = seen(
+        {.max_depth = 12, .roulette_depth = 100, .share = MisHeuristic::shadow_rays});
     CAPTURE(shadow.most);
     CHECK(shadow.most > 20);
 }
@@ -213,7 +214,8 @@ TEST_CASE("path tracing: the error falls with the root of the rays") {
 
 TEST_CASE("path tracing: settings that make no sense are refused by name") {
     const auto room = sphere_furnace(Rgb{1}, Rgb{0.5f});
-    const auto refused = [&](const PathTracing& settings, const std::string& name) {
+    const auto refused = [&](const PathTracingSettings& settings,
+                             const std::string& name) {
         try {
             (void)make_path_tracer(room.scene, settings);
         } catch (const std::invalid_argument& error) {

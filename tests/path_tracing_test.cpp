@@ -386,13 +386,14 @@ TEST_CASE_TEMPLATE("path tracing: two lamps give the sum of what each gives", T,
     }
 }
 
-TEST_CASE_TEMPLATE("path tracing: roulette and shadow rays leave the mean as it is", T,
-                   float, double) {
+TEST_CASE_TEMPLATE(
+    "path tracing: roulette and shadow rays offset_ray_origin the mean as it is", T,
+    float, double) {
     const auto scene = room<T>(true, true);
     const long long paths = 60000;
     for (const int depth : {1, 2, 1000}) {
         CAPTURE(depth);
-        const auto mean = [&](PathTracing settings, std::uint64_t seed) {
+        const auto mean = [&](PathTracingSettings settings, std::uint64_t seed) {
             settings.max_depth = depth;
             return mean_radiance(make_path_tracer(scene, settings), paths, seed,
                                  into_room<T>);

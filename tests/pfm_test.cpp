@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "ljus/image/pfm.hpp"
+#include "ljus/io/pfm.hpp"
 #include "scratch_folder.hpp"
 
 namespace {

@@ -1,7 +1,7 @@
 /// \file photon_dots_test.cpp
 /// \brief Which photons a camera sees, against rectangles and balls worked out by hand.
 
-#include "ljus/render/photon_dots.hpp"
+#include "ljus/inspect/photon_dots.hpp"
 
 #include <doctest/doctest.h>
 
@@ -116,7 +116,7 @@ TEST_CASE("photon dots: of a room's photons those are seen that a ray finds") {
 
 TEST_CASE("photon dots: a dot is a cone, and black ones are not drawn") {
     const Room room = wall(true);
-    const auto drawn = [&](float x, float y, const DotLook& look) {
+    const auto drawn = [&](float x, float y, const PhotonDotSettings& look) {
         Image image = make_image(40, 40);
         CHECK(add_photon_dots(image, room, front(), {photon_at({x, y, 0}, {0, 0, -1})},
                               look, [](const Photon& p) { return dot_color(p); }) == 1);

@@ -14,7 +14,7 @@
 #include "ljus/materials/lambertian.hpp"
 #include "support/photon_samples.hpp"
 
-using ljus::Gather;
+using ljus::DensityEstimateSettings;
 using ljus::Kernel;
 using ljus::Lambertian;
 using ljus::Photon;
@@ -58,7 +58,8 @@ std::vector<Photon> rain(int count, Numbers& numbers, float height = 0,
     return photons;
 }
 
-Rgb estimate(const PhotonMap& map, const Gather& gather, Vec3 at = Vec3{0}) {
+Rgb estimate(const PhotonMap& map, const DensityEstimateSettings& gather,
+             Vec3 at = Vec3{0}) {
     std::uint64_t gathered = 0;
     return ljus::estimate_radiance(map, floor_at(at), matt, Vec3{0.6f, 0, 0.8f}, gather,
                                    ljus::all_kinds, gathered);
@@ -71,7 +72,8 @@ double exact(int channel) {
 }
 
 /// Mean and variance of the first channel over maps, for several ways to gather.
-std::vector<Mean> over_maps(int maps, int count, const std::vector<Gather>& ways,
+std::vector<Mean> over_maps(int maps, int count,
+                            const std::vector<DensityEstimateSettings>& ways,
                             std::uint64_t seed, Vec3 at = Vec3{0}) {
     Numbers numbers{seed};
     std::vector<Mean> means(ways.size());
@@ -84,8 +86,9 @@ std::vector<Mean> over_maps(int maps, int count, const std::vector<Gather>& ways
 }
 
 /// One way to gather for each kernel.
-std::vector<Gather> each_kernel(float radius, std::size_t nearest = 0) {
-    std::vector<Gather> ways;
+std::vector<DensityEstimateSettings> each_kernel(float radius,
+                                                 std::size_t nearest = 0) {
+    std::vector<DensityEstimateSettings> ways;
     for (const Kernel kernel : kernels)
         ways.push_back({.radius = radius, .nearest = nearest, .kernel = kernel});
     return ways;
@@ -125,9 +128,10 @@ TEST_CASE("photon_map: eight at a time give what one by one give") {
             glm::normalize(surface.point.normal + numbers.point<float>(0.3)));
         const Vec3 wo = glm::normalize(numbers.point<float>(1));
         for (const Kernel kernel : kernels) {
-            const Gather gather{.radius = float(numbers.between(0.01, 1)),
-                                .kernel = kernel,
-                                .thickness = float(numbers.between(0.1, 1.2))};
+            const DensityEstimateSettings gather{
+                .radius = float(numbers.between(0.01, 1)),
+                .kernel = kernel,
+                .thickness = float(numbers.between(0.1, 1.2))};
             const ljus::PhotonKinds kinds{static_cast<std::uint8_t>(numbers.below(16))};
             std::uint64_t in_lanes = 0, one_by_one = 0;
             const Rgb a = ljus::estimate_radiance(map, surface, matt, wo, gather, kinds,
@@ -224,7 +228,7 @@ TEST_CASE(
 
 TEST_CASE("photon_map: at an edge the estimate reads one half, in a corner a quarter") {
     for (const Kernel kernel : {Kernel::box, Kernel::epanechnikov}) {
-        const Gather gather{.radius = 0.3f, .kernel = kernel};
+        const DensityEstimateSettings gather{.radius = 0.3f, .kernel = kernel};
         const Mean edge = over_maps(800, 500, {gather}, 21, {1, 0, 0})[0];
         const Mean corner = over_maps(800, 500, {gather}, 22, {1, 1, 0})[0];
         CHECK(std::abs(edge.sigmas(exact(0) / 2)) < 4.5);
@@ -269,7 +273,8 @@ TEST_CASE("photon_map: scenes of any size") {
     const auto photons = rain(2000, numbers);
     for (const Kernel kernel : kernels)
         for (const std::size_t k : {std::size_t(0), std::size_t(40)}) {
-            const Gather gather{.radius = 0.3f, .nearest = k, .kernel = kernel};
+            const DensityEstimateSettings gather{
+                .radius = 0.3f, .nearest = k, .kernel = kernel};
             const Rgb expected = estimate(ljus::make_photon_map(photons), gather);
             for (const float scale : {0x1p-50f, 0x1p-20f, 0x1p20f, 0x1p50f}) {
                 auto scaled = photons;
@@ -277,7 +282,7 @@ TEST_CASE("photon_map: scenes of any size") {
                     photon.position *= scale;
                     photon.flux *= scale * scale; // the same flux density
                 }
-                Gather same = gather;
+                DensityEstimateSettings same = gather;
                 same.radius *= scale;
                 const Rgb found = estimate(ljus::make_photon_map(scaled), same);
                 for (int c = 0; c < 3; ++c)
@@ -317,13 +322,13 @@ TEST_CASE("photon_map: photons of another wall are left out by the thickness") {
                                   float(numbers.between(0.0301, 1))},
                         .direction = glm::normalize(Vec3{1, 0, -1}),
                         .flux{1, 1, 1}});
-    const Gather gather{.radius = 0.3f, .thickness = 0.1f};
+    const DensityEstimateSettings gather{.radius = 0.3f, .thickness = 0.1f};
     const Rgb expected = estimate(ljus::make_photon_map(floor), gather);
     const Rgb found = estimate(ljus::make_photon_map(both), gather);
     for (int c = 0; c < 3; ++c)
         CHECK(found[c] == doctest::Approx(expected[c]).epsilon(1e-6));
     // A ball without a disc would count them.
-    Gather thick = gather;
+    DensityEstimateSettings thick = gather;
     thick.thickness = 1;
     CHECK(estimate(ljus::make_photon_map(both), thick).x > 2 * expected.x);
 }
@@ -409,7 +414,7 @@ TEST_CASE("photon_map: the other wall of a corner and the other side of a wall d
     auto both = floor;
     both.insert(both.end(), others.begin(), others.end());
     for (const std::size_t k : {std::size_t(0), std::size_t(50)}) {
-        const Gather gather{.radius = 0.3f, .nearest = k};
+        const DensityEstimateSettings gather{.radius = 0.3f, .nearest = k};
         const Rgb expected = estimate(ljus::make_photon_map(floor), gather);
         const Rgb found = estimate(ljus::make_photon_map(both), gather);
         for (int c = 0; c < 3; ++c)
@@ -452,7 +457,8 @@ TEST_CASE("photon_map: photons of other kinds do not disturb the k nearest") {
     const auto alone = ljus::make_photon_map(light);
     for (const Kernel kernel : kernels)
         for (const std::size_t k : {0u, 5u, 50u}) {
-            const Gather gather{.radius = 0.3f, .nearest = k, .kernel = kernel};
+            const DensityEstimateSettings gather{
+                .radius = 0.3f, .nearest = k, .kernel = kernel};
             for (int i = 0; i < 50; ++i) {
                 const Vec3 at{float(numbers.between(-0.7, 0.7)),
                               float(numbers.between(-0.7, 0.7)), 0};
@@ -554,21 +560,24 @@ TEST_CASE("photon_map: data that are not finite are refused with a sentence") {
 TEST_CASE("photon_map: a way to gather that gives no estimate is refused") {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     constexpr float inf = std::numeric_limits<float>::infinity();
-    CHECK_NOTHROW(ljus::check(Gather{}));
-    CHECK_NOTHROW(ljus::check(Gather{.nearest = 2}));
-    CHECK_NOTHROW(ljus::check(Gather{.nearest = 512}));
+    CHECK_NOTHROW(ljus::check(DensityEstimateSettings{}));
+    CHECK_NOTHROW(ljus::check(DensityEstimateSettings{.nearest = 2}));
+    CHECK_NOTHROW(ljus::check(DensityEstimateSettings{.nearest = 512}));
     for (const float bad : {0.0f, -1.0f, nan, inf}) {
-        CHECK_THROWS_AS(ljus::check(Gather{.radius = bad}), std::invalid_argument);
-        CHECK_THROWS_AS(ljus::check(Gather{.thickness = bad}), std::invalid_argument);
+        CHECK_THROWS_AS(ljus::check(DensityEstimateSettings{.radius = bad}),
+                        std::invalid_argument);
+        CHECK_THROWS_AS(ljus::check(DensityEstimateSettings{.thickness = bad}),
+                        std::invalid_argument);
     }
-    CHECK_THROWS_WITH(ljus::check(Gather{.radius = 0}),
+    CHECK_THROWS_WITH(ljus::check(DensityEstimateSettings{.radius = 0}),
                       "gather.radius is 0; it must be finite and above 0.");
-    CHECK_THROWS_WITH(ljus::check(Gather{.radius = nan}),
+    CHECK_THROWS_WITH(ljus::check(DensityEstimateSettings{.radius = nan}),
                       "gather.radius is NaN; it must be finite and above 0.");
     for (const std::size_t bad : {std::size_t(1), std::size_t(513)})
-        CHECK_THROWS_AS(ljus::check(Gather{.nearest = bad}), std::invalid_argument);
+        CHECK_THROWS_AS(ljus::check(DensityEstimateSettings{.nearest = bad}),
+                        std::invalid_argument);
     CHECK_THROWS_WITH(
-        ljus::check(Gather{.nearest = 513}),
+        ljus::check(DensityEstimateSettings{.nearest = 513}),
         "gather.nearest is 513; it must be 0 for all within the radius, or "
         "2 to 512 (one photon sets the radius).");
 }

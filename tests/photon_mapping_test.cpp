@@ -134,22 +134,22 @@ TEST_CASE("photon mapping: equals path tracing, material by material and light b
                         traced.add(render(make_path_tracer(room), camera,
                                           {.width = size,
                                            .height = size,
-                                           .rays = rays,
+                                           .samples = rays,
                                            .seed = s,
                                            .threads = 1})
                                        .image,
                                    mask);
                 }
                 for (std::uint64_t seed = first; seed < first + seeds; ++seed) {
-                    PhotonMapping settings;
+                    PhotonMappingSettings settings;
                     settings.caustics = {.photons = 30000, .seed = seed, .threads = 1};
-                    settings.gather_caustics = {.radius = 0.03f};
+                    settings.caustics_estimate = {.radius = 0.03f};
                     const auto maps = make_photon_maps(room, settings);
                     const PhotonMapper<Room> mapper{room, maps, settings};
                     mapped.add(render(mapper, camera,
                                       {.width = size,
                                        .height = size,
-                                       .rays = rays,
+                                       .samples = rays,
                                        .seed = seed,
                                        .threads = 1})
                                    .image,
@@ -229,7 +229,7 @@ TEST_CASE("photon mapping: away from edges the bias falls with the square of the
     Mean seen[4];
     for (std::uint64_t seed = 1; seed <= 32; ++seed) {
         const auto traced = trace_photons(
-            room, PhotonLaw::caustics, {.photons = 50000, .seed = seed, .threads = 1});
+            room, MapType::caustics, {.photons = 50000, .seed = seed, .threads = 1});
         const PhotonMap map = make_photon_map(traced.photons);
         std::uint64_t gathered = 0;
         for (std::size_t i = 0; i < 4; ++i)
@@ -270,26 +270,27 @@ TEST_CASE(
             traced.add(render(make_path_tracer(room), camera,
                               {.width = size,
                                .height = size,
-                               .rays = 4,
+                               .samples = 4,
                                .seed = 100 + seed,
                                .threads = 1})
                            .image,
                        all);
         double bias[2];
         for (const int i : {0, 1}) {
-            PhotonMapping settings;
+            PhotonMappingSettings settings;
             settings.indirect = IndirectLight::map;
             settings.caustics = {.photons = 100000, .threads = 1};
             settings.general = {.photons = 200000, .threads = 1};
-            settings.gather_caustics.radius = 0.03f;
-            settings.gather_general.radius = i == 0 ? 0.16f : 0.04f;
+            settings.caustics_estimate.radius = 0.03f;
+            settings.general_estimate.radius = i == 0 ? 0.16f : 0.04f;
             const auto maps = make_photon_maps(room, settings);
             Blocks mapped;
             const PhotonMapper<Room> mapper{room, maps, settings};
-            mapped.add(render(mapper, camera,
-                              {.width = size, .height = size, .rays = 4, .threads = 1})
-                           .image,
-                       all);
+            mapped.add(
+                render(mapper, camera,
+                       {.width = size, .height = size, .samples = 4, .threads = 1})
+                    .image,
+                all);
             bias[i] = mapped.of_channel[1].mean / traced.of_channel[1].mean - 1;
             if (std::getenv("SHOW"))
                 std::printf("map, %s: %+.4f+-%.4f\n", name(ball), bias[i],
@@ -326,7 +327,7 @@ TEST_CASE("photon mapping: a matt ball embedded in glass in a furnace") {
     struct Way {
         const char* name;
         bool rough;
-        Gather gather;
+        DensityEstimateSettings gather;
     };
     for (const Way& way : {Way{"in lanes", false, {.radius = 0.1f}},
                            Way{"one by one", true, {.radius = 0.1f}},
@@ -342,9 +343,9 @@ TEST_CASE("photon mapping: a matt ball embedded in glass in a furnace") {
         room.add(Sphere{.radius = float(a)}, matt);
         Mean seen;
         for (std::uint64_t seed = 1; seed <= 16; ++seed) {
-            PhotonMapping settings;
+            PhotonMappingSettings settings;
             settings.caustics = {.photons = 10000, .seed = seed, .threads = 1};
-            settings.gather_caustics = way.gather;
+            settings.caustics_estimate = way.gather;
             const auto maps = make_photon_maps(room, settings);
             const PhotonMapper<Room> mapper{room, maps, settings};
             // Towards the centre from all around.
@@ -404,9 +405,9 @@ TEST_CASE("photon mapping: lamps and matt balls within clear and coloured glass"
             const Mean traced = mean_radiance(make_path_tracer(room), 200000, 1, ray);
             Mean mapped;
             for (std::uint64_t seed = 1; seed <= 16; ++seed) {
-                PhotonMapping settings;
+                PhotonMappingSettings settings;
                 settings.caustics = {.photons = 10000, .seed = seed, .threads = 1};
-                settings.gather_caustics = {.radius = 0.1f};
+                settings.caustics_estimate = {.radius = 0.1f};
                 const auto maps = make_photon_maps(room, settings);
                 const PhotonMapper<Room> mapper{room, maps, settings};
                 mapped.add(mean_radiance(mapper, 6000, seed, ray).mean);

@@ -130,8 +130,8 @@ TEST_CASE("photon: roulette at its ends") {
 
 TEST_CASE("photon: a pass that cannot be made is refused with a sentence") {
     ljus::Scene<ljus::Shapes<ljus::Sphere>, ljus::Materials<ljus::Lambertian>> scene;
-    const auto trace = [&](const ljus::PhotonPass& pass) {
-        return ljus::trace_photons(scene, ljus::PhotonLaw::general, pass);
+    const auto trace = [&](const ljus::PhotonPassSettings& pass) {
+        return ljus::trace_photons(scene, ljus::MapType::general, pass);
     };
     CHECK_THROWS_WITH(
         (void)trace({}),

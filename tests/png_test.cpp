@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "ljus/image/png.hpp"
+#include "ljus/io/png.hpp"
 #include "scratch_folder.hpp"
 
 // The reader: another program part than the writer, from the same collection.

@@ -68,7 +68,7 @@ TEST_CASE("quad: it is hit where one of its two triangles is") {
         ++hits;
         REQUIRE(hit->t == doctest::Approx((a ? a : b)->t).epsilon(1e-4));
         const Vec3 on_quad = point_at(q, hit->u, hit->v).position;
-        REQUIRE(glm::distance(on_quad, at(ray, hit->t)) < 1e-3f);
+        REQUIRE(glm::distance(on_quad, point_at(ray, hit->t)) < 1e-3f);
     }
     CHECK(hits > 1000);
     CHECK(differ <= 1);

@@ -1,14 +1,14 @@
 /// \file radiosity_test.cpp
 /// \brief Radiosity: four solvers, the account of energy, furnaces, and path tracing.
 
-#include "ljus/render/radiosity.hpp"
+#include "ljus/radiosity/radiosity.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 
 #include "ljus/render/path_tracing.hpp"
-#include "ljus/scene/furnaces.hpp"
+#include "ljus/scenes/furnaces.hpp"
 #include "support/mean.hpp"
 #include "support/refusal.hpp"
 
@@ -90,7 +90,7 @@ TEST_CASE("radiosity: a solver that is stopped says so") {
     const auto box = colored_box();
     const auto all = make_radiosity(
         box, {.patches = {.size = 0.5},
-              .solve = {.solver = RadiositySolver::jacobi, .most_sweeps = 3}});
+              .solve = {.solver = RadiositySolver::jacobi, .max_sweeps = 3}});
     CHECK(!all->solution.converged);
     CHECK(all->solution.residual.size() == 4);
     CHECK(all->solution.residual[0] == 1);
@@ -262,7 +262,7 @@ TEST_CASE("radiosity: the same light as path tracing, as patches shrink") {
                 const auto at =
                     point_at(quad, (quarter % 2 + u.x) / 2, (quarter / 2 + u.y) / 2);
                 const auto v = next_2d<double>(stream);
-                return ray_from(
+                return spawn_ray(
                     at, to_world(frame_around(at.normal), sample_cosine_hemisphere(v)));
             };
             const auto traced = ljus_test::mean_radiance(

@@ -14,9 +14,9 @@ using namespace ljus;
 
 TEST_CASE("ray: the point at t is O + tD, whatever the length of D") {
     constexpr Ray ray{.origin = {1, 2, 3}, .direction = {0, 0, -2}};
-    static_assert(at(ray, 0.0f) == Vec3{1, 2, 3});
-    CHECK(at(ray, 1.5f) == Vec3{1, 2, 0});
-    CHECK(at(ray, -1.0f) == Vec3{1, 2, 5});
+    static_assert(point_at(ray, 0.0f) == Vec3{1, 2, 3});
+    CHECK(point_at(ray, 1.5f) == Vec3{1, 2, 0});
+    CHECK(point_at(ray, -1.0f) == Vec3{1, 2, 5});
 }
 
 TEST_CASE_TEMPLATE("ray: without more said, it starts at the origin and looks along -z",
@@ -28,8 +28,9 @@ TEST_CASE_TEMPLATE("ray: without more said, it starts at the origin and looks al
     CHECK(ray.t_max == std::numeric_limits<T>::infinity());
 }
 
-TEST_CASE_TEMPLATE("ray: t >= 0 hits the surface that it starts on, leave() does not",
-                   T, float, double) {
+TEST_CASE_TEMPLATE(
+    "ray: t >= 0 hits the surface that it starts on, offset_ray_origin() does not", T,
+    float, double) {
     const SphereT<T> ball{.center = {0, 1, 0}, .radius = 1};
     const QuadT<T> floor{{-1, 0, -1}, {0, 0, 2}, {2, 0, 0}};
     const TriangleT<T> triangle{{-1, 0, -1}, {0, 0, 2}, {2, 0, 0}};
@@ -44,7 +45,7 @@ TEST_CASE_TEMPLATE("ray: t >= 0 hits the surface that it starts on, leave() does
         const auto hit = intersect(above, shape);
         REQUIRE(hit);
         const auto point = surface_point(shape, above, as_hit(*hit));
-        return intersect(ray_from(point, direction), shape);
+        return intersect(spawn_ray(point, direction), shape);
     };
     for (const T side : {T(1), T(-1)}) {
         CHECK_FALSE(away(floor, side));

@@ -30,15 +30,16 @@ RgbT<T> radiance(const Probe& probe, const RayT<T>& ray, RandomStream& stream, C
 TEST_CASE("render: as many rays are traced as were asked for, from 1 to 1000") {
     const Camera camera;
     for (int rays = 1; rays <= 1000; ++rays) {
-        const auto seen = render(Probe{}, camera,
-                                 {.width = 2, .height = 1, .rays = rays, .threads = 1});
+        const auto seen = render(
+            Probe{}, camera, {.width = 2, .height = 1, .samples = rays, .threads = 1});
         CHECK(seen.counts.camera_rays == 2 * static_cast<std::uint64_t>(rays));
         CHECK(seen.counts.rejected == 0);
     }
     const Room room = make_room<float>(Ball::glass, Lamp::quad, 1);
     for (const int rays : {1, 2, 7, 8, 10, 64, 101}) {
-        const auto seen = render(make_path_tracer(room), camera,
-                                 {.width = 5, .height = 3, .rays = rays, .threads = 1});
+        const auto seen =
+            render(make_path_tracer(room), camera,
+                   {.width = 5, .height = 3, .samples = rays, .threads = 1});
         CHECK(seen.counts.camera_rays == 15 * static_cast<std::uint64_t>(rays));
     }
 }
@@ -49,7 +50,7 @@ TEST_CASE("render: the rays of a pixel are spread as the picture says") {
         const auto seen = render(Probe{}, look_at({.vfov_degrees = 90}),
                                  {.width = 20,
                                   .height = 20,
-                                  .rays = 61,
+                                  .samples = 61,
                                   .threads = 1,
                                   .sampling = sampling});
         double sum = 0;
@@ -68,7 +69,7 @@ TEST_CASE("render: the rays of a pixel are spread as the picture says") {
     CHECK(error(Sampling::jittered) < 0.05 * chance);
     CHECK(error(Sampling::multi_jittered) < 0.15 * chance);
     CHECK(error(Sampling::sobol) < 0.25 * chance);
-    CHECK(error(Picture{}.sampling) == error(Sampling::multi_jittered));
+    CHECK(error(RenderSettings{}.sampling) == error(Sampling::multi_jittered));
 }
 
 TEST_CASE("render: each pixel is the mean over its own square, from the upper left") {
@@ -76,9 +77,12 @@ TEST_CASE("render: each pixel is the mean over its own square, from the upper le
     const Camera camera = look_at({.vfov_degrees = 90}); // half a height is 1
     for (const int rays : {1, 9, 13, 400}) {
         CAPTURE(rays);
-        const auto seen = render(
-            Probe{}, camera,
-            {.width = width, .height = height, .rays = rays, .seed = 3, .threads = 1});
+        const auto seen = render(Probe{}, camera,
+                                 {.width = width,
+                                  .height = height,
+                                  .samples = rays,
+                                  .seed = 3,
+                                  .threads = 1});
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) {
                 const Rgb mean = pixel(seen.image, x, y);
@@ -103,7 +107,7 @@ TEST_CASE("render: pictures of one pixel, one row and one column, through any an
             const Camera camera = look_at({.vfov_degrees = angle});
             const auto seen =
                 render(Probe{}, camera,
-                       {.width = width, .height = height, .rays = 5, .threads = 1});
+                       {.width = width, .height = height, .samples = 5, .threads = 1});
             CHECK(seen.counts.camera_rays ==
                   5 * static_cast<std::uint64_t>(width) * std::uint64_t(height));
             CHECK(seen.counts.rejected == 0);
@@ -119,7 +123,7 @@ TEST_CASE("render: pictures of one pixel, one row and one column, through any an
 
 TEST_CASE("render: a sample that is not finite is left out and counted, never shown") {
     const auto seen = render(Probe{.bad = true}, Camera{},
-                             {.width = 20, .height = 20, .rays = 16, .threads = 1});
+                             {.width = 20, .height = 20, .samples = 16, .threads = 1});
     // 6400 paths, a quarter bad: 1600 with a standard deviation of 35.
     CHECK(seen.counts.rejected > 1600 - 5 * 35);
     CHECK(seen.counts.rejected < 1600 + 5 * 35);
@@ -130,9 +134,10 @@ TEST_CASE("render: refuses a picture without pixels or rays") {
     for (const auto& [width, height, rays] :
          {std::tuple{0, 4, 1}, std::tuple{4, 0, 1}, std::tuple{-3, 4, 1},
           std::tuple{4, 4, 0}, std::tuple{4, 4, -1}})
-        CHECK_THROWS_AS((void)render(Probe{}, Camera{},
-                                     {.width = width, .height = height, .rays = rays}),
-                        std::invalid_argument);
+        CHECK_THROWS_AS(
+            (void)render(Probe{}, Camera{},
+                         {.width = width, .height = height, .samples = rays}),
+            std::invalid_argument);
     CHECK_THROWS_AS((void)render(Probe{}, Camera{}, {.threads = -1}),
                     std::invalid_argument);
 }
@@ -144,16 +149,16 @@ TEST_CASE("render: progress is told, and can stop it") {
         total = all;
         return true;
     };
-    const auto seen =
-        render(Probe{}, Camera{},
-               {.width = 33, .height = 7, .rays = 1, .threads = 2, .progress = watch});
+    const auto seen = render(
+        Probe{}, Camera{},
+        {.width = 33, .height = 7, .samples = 1, .threads = 2, .progress = watch});
     CHECK(seen.complete);
     CHECK(last == total);
     CHECK(total == 3 * 7); // strips of 16 pixels
     const auto stop = [&](long long, long long) { return false; };
-    const auto stopped =
-        render(Probe{}, Camera{},
-               {.width = 64, .height = 64, .rays = 1, .threads = 1, .progress = stop});
+    const auto stopped = render(
+        Probe{}, Camera{},
+        {.width = 64, .height = 64, .samples = 1, .threads = 1, .progress = stop});
     CHECK_FALSE(stopped.complete);
     CHECK(stopped.counts.camera_rays < 64 * 64);
 }
@@ -162,17 +167,18 @@ TEST_CASE("render: one pixel's ray is the same alone as in the picture") {
     const Room room = make_room<float>(Ball::mixture, Lamp::quad, 1);
     const auto tracer = make_path_tracer(room);
     const Camera camera = room_camera<float>();
-    const Picture picture{.width = 24, .height = 9, .rays = 5, .seed = 8, .threads = 1};
+    const RenderSettings picture{
+        .width = 24, .height = 9, .samples = 5, .seed = 8, .threads = 1};
     const auto seen = render(tracer, camera, picture);
-    const Pattern pattern = make_pattern(picture.sampling, picture.rays);
+    const Pattern pattern = make_pattern(picture.sampling, picture.samples);
     for (const auto& [x, y] : {std::pair{0, 0}, std::pair{17, 4}, std::pair{23, 8}}) {
         RgbT<double> sum{0}; // as the pixel loop adds
         Counts counts;
         PathLog log;
-        for (int i = 0; i < picture.rays; ++i)
+        for (int i = 0; i < picture.samples; ++i)
             sum += RgbT<double>(
                 sample_pixel(tracer, camera, picture, pattern, x, y, i, counts, log));
-        CHECK(Rgb(sum / double(picture.rays)) == pixel(seen.image, x, y));
+        CHECK(Rgb(sum / double(picture.samples)) == pixel(seen.image, x, y));
         CHECK(counts.camera_rays == 5);
         CHECK_FALSE(log.lines.empty());
     }

@@ -8,10 +8,10 @@
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"
-#include "ljus/scene/cornell_box.hpp"
-#include "ljus/scene/furnaces.hpp"
-#include "ljus/scene/material_rows.hpp"
-#include "ljus/scene/report_rooms.hpp"
+#include "ljus/scenes/cornell_box.hpp"
+#include "ljus/scenes/furnaces.hpp"
+#include "ljus/scenes/material_rows.hpp"
+#include "ljus/scenes/report_rooms.hpp"
 
 using namespace ljus;
 
@@ -44,7 +44,7 @@ Means means(const Camera& camera, int rays, const MakeRenderer& with_renderer) {
         with_renderer(seed + 1, [&](const auto& renderer) {
             const auto rendered =
                 render(renderer, camera,
-                       {.width = 16, .height = 16, .rays = rays, .seed = seed + 1});
+                       {.width = 16, .height = 16, .samples = rays, .seed = seed + 1});
             CHECK(rendered.counts.rejected == 0);
             glm::dvec3 sum{0};
             for (const Rgb& c : rendered.image.pixels) {
@@ -66,8 +66,9 @@ Means path_means(const Room<Scene>& room, int rays) {
 template <typename Scene>
 Means photon_means(const Room<Scene>& room, int rays, float radius) {
     return means(room.camera, rays, [&](std::uint64_t seed, const auto& use) {
-        const PhotonMapping settings{.caustics = {.photons = 10'000, .seed = seed},
-                                     .gather_caustics = {.radius = radius}};
+        const PhotonMappingSettings settings{
+            .caustics = {.photons = 10'000, .seed = seed},
+            .caustics_estimate = {.radius = radius}};
         const auto maps = make_photon_maps(room.scene, settings);
         use(make_photon_mapper(room.scene, maps, settings));
     });
@@ -280,7 +281,7 @@ TEST_CASE("rooms: both renderers find the same light") {
     }
 }
 
-TEST_CASE("rooms: a furnace shines L / (1 - a) in every direction") {
+TEST_CASE("rooms: a furnace emits L / (1 - a) in every direction") {
     const auto check_furnace = [](const Means& found, const Rgb& exact) {
         Means expected;
         expected.of_seed.fill(glm::dvec3(exact));

@@ -5,7 +5,7 @@
 /// Statistical tests have a false-alarm rate of one in a million each, and are the same
 /// at every run.
 
-#include "ljus/scene/sampling_pattern.hpp"
+#include "ljus/math/sampling_pattern.hpp"
 
 #include <doctest/doctest.h>
 
@@ -227,15 +227,15 @@ TEST_CASE("sampling_pattern: the error falls as theory has it, where light is sm
     CHECK(near(sobol.edge, -0.75));
 }
 
-TEST_CASE("sampling_pattern: primes do as well as squares; rooks do not") {
+TEST_CASE("sampling_pattern: primes do as well as squares; n_rooks do not") {
     const Errors square = errors(Sampling::multi_jittered, 256);
     const Errors prime = errors(Sampling::multi_jittered, 257);
     CHECK(prime.smooth < 1.3 * square.smooth);
     CHECK(prime.edge < 1.15 * square.edge);
     CHECK(errors(Sampling::sobol, 257).edge < 1.3 * square.edge);
-    const Errors rooks = errors(Sampling::jittered, 257);
-    CHECK(rooks.smooth > 2 * prime.smooth);
-    CHECK(rooks.edge > 2 * prime.edge);
+    const Errors n_rooks = errors(Sampling::jittered, 257);
+    CHECK(n_rooks.smooth > 2 * prime.smooth);
+    CHECK(n_rooks.edge > 2 * prime.edge);
 }
 
 TEST_CASE("sampling_pattern: at an edge the default is the best of the four") {

@@ -80,7 +80,7 @@ TEST_CASE("scene: what is added is found again, as its own type") {
     CHECK(kind_of(clear) == Lobes::specular);
     room.visit_material(grey, [](const auto& m) {
         using M = std::remove_cvref_t<decltype(m)>;
-        static_assert(Bsdf<M>);
+        static_assert(Material<M>);
         if constexpr (std::is_same_v<M, Lambertian>)
             CHECK(m.albedo == Rgb{0.25f});
         else

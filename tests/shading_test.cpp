@@ -1,13 +1,13 @@
 #include <doctest/doctest.h>
 
-#include "ljus/render/shading.hpp"
+#include "ljus/path/shading.hpp"
 #include "support/mean.hpp"
 #include "support/rooms.hpp"
 
 using namespace ljus;
 using namespace ljus_test;
 
-TEST_CASE("shading: a lamp shines along its normal, and to no other side") {
+TEST_CASE("shading: a lamp emits along its normal, and to no other side") {
     Room room;
     const auto black = room.add(Lambertian{.albedo = Rgb{0}});
     room.add(Quad{.corner{-1, -1, 0}, .edge_u{2, 0, 0}, .edge_v{0, 2, 0}}, black,
@@ -19,11 +19,11 @@ TEST_CASE("shading: a lamp shines along its normal, and to no other side") {
         REQUIRE(hit);
         return shading(room, ray, *hit, Rgb{0});
     };
-    CHECK(seen({0, 0, 1}, {0, 0, -1}).shines());
+    CHECK(seen({0, 0, 1}, {0, 0, -1}).emits());
     CHECK(seen({0, 0, 1}, {0, 0, -1}).wo.z == doctest::Approx(1));
-    CHECK_FALSE(seen({0, 0, -1}, {0, 0, 1}).shines());
-    CHECK_FALSE(seen({10, 0, 5}, {0, 0, -1}).shines());
-    CHECK(seen({10, 0, 0}, {0, 0, -1}).shines());
+    CHECK_FALSE(seen({0, 0, -1}, {0, 0, 1}).emits());
+    CHECK_FALSE(seen({10, 0, 5}, {0, 0, -1}).emits());
+    CHECK(seen({10, 0, 0}, {0, 0, -1}).emits());
     const Vec3 slanted = glm::normalize(Vec3{1, 0, -1});
     const auto at = seen({-0.5f, 0.2f, 0.5f}, slanted);
     CHECK(at.wo.z == doctest::Approx(std::sqrt(0.5)));

@@ -82,7 +82,7 @@ TEST_CASE("shape: a sphere too small for its distance still has a normal") {
             const SurfacePoint p = surface_point(grain, ray, hit);
             CHECK(is_finite(p.position));
             CHECK(glm::length(p.normal) == doctest::Approx(1).epsilon(1e-5));
-            CHECK(is_finite(leave(p, -ray.direction)));
+            CHECK(is_finite(offset_ray_origin(p, -ray.direction)));
         }
     // The sum is exactly the centre: the normal faces the ray.
     const Sphere grain{{4, 0, 0}, 1e-9f};

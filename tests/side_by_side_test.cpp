@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "common/convergence.hpp"
-#include "ljus/render/class_means.hpp"
+#include "ljus/inspect/class_means.hpp"
+#include "ljus/radiosity/radiosity.hpp"
 #include "ljus/render/distributed.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping.hpp"
-#include "ljus/render/radiosity.hpp"
 #include "ljus/render/whitted.hpp"
-#include "ljus/scene/cornell_box.hpp"
+#include "ljus/scenes/cornell_box.hpp"
 #include "support/mean.hpp"
 
 using namespace ljus;
@@ -26,10 +26,10 @@ namespace {
 
 constexpr int blocks_a_side = 2;
 
-Picture picture(std::uint64_t seed, int rays) {
+RenderSettings picture(std::uint64_t seed, int rays) {
     return {.width = 10 * blocks_a_side,
             .height = 10 * blocks_a_side,
-            .rays = rays,
+            .samples = rays,
             .seed = seed,
             .threads = 1};
 }
@@ -75,12 +75,13 @@ Cornell small_lamp_box() {
     return scene;
 }
 
-PhotonMapping mapping(IndirectLight indirect, std::uint64_t seed, float radius) {
-    PhotonMapping settings{.indirect = indirect};
+PhotonMappingSettings mapping(IndirectLight indirect, std::uint64_t seed,
+                              float radius) {
+    PhotonMappingSettings settings{.indirect = indirect};
     settings.general = {.photons = 20000, .seed = seed, .threads = 1};
     settings.caustics = {.photons = 20000, .seed = seed, .threads = 1};
-    settings.gather_general.radius = radius;
-    settings.gather_caustics.radius = 0.08f;
+    settings.general_estimate.radius = radius;
+    settings.caustics_estimate.radius = 0.08f;
     return settings;
 }
 
@@ -89,7 +90,7 @@ PhotonMapping mapping(IndirectLight indirect, std::uint64_t seed, float radius) 
 TEST_CASE("side_by_side: direct light of a small lamp, by all renderers") {
     const Cornell scene = small_lamp_box();
     const Camera camera = cornell_camera();
-    constexpr std::array direct{path_class("EDL")};
+    constexpr std::array direct{light_path_expression("EDL")};
     const auto of = [&](const auto& renderer, std::uint64_t seed) {
         return class_means(renderer, camera, picture(seed, 4), direct)[0].y;
     };
@@ -108,7 +109,7 @@ TEST_CASE("side_by_side: direct light of a small lamp, by all renderers") {
         CHECK(std::abs(mean.mean - truth.mean) < 4 * error + bias * truth.mean);
     };
     // The middle of a lamp of size 0.04 at distance 1 or so: (0.04)^2 is what it misses.
-    close("Whitted", mean_of(make_whitted(scene)), 0.002);
+    close("WhittedSettings", mean_of(make_whitted(scene)), 0.002);
     close("distributed rays", mean_of(make_distributed(scene)), 0);
     for (const auto indirect :
          {IndirectLight::rays, IndirectLight::map, IndirectLight::photons}) {
@@ -165,7 +166,7 @@ TEST_CASE("side_by_side: the matt room, by all renderers that carry its light") 
         const auto view = make_light_map_view(room.scene, all->map, {.smooth = false});
         same(blocks(4, [&](auto seed) { return image(view, seed, 16); }), truth, 0.02);
     }
-    SUBCASE("what Whitted and distributed rays leave out") {
+    SUBCASE("what WhittedSettings and distributed rays offset_ray_origin out") {
         for (const auto& seen :
              {blocks(2, [&](auto s) { return image(make_whitted(room.scene), s, 8); }),
               blocks(2, [&](auto s) {
@@ -178,10 +179,11 @@ TEST_CASE("side_by_side: the matt room, by all renderers that carry its light") 
 
 TEST_CASE("side_by_side: classes are measured, and add up to the picture") {
     const auto room = cornell_box();
-    constexpr std::array classes{path_class("ES*L"),       path_class("EDL"),
-                                 path_class("ES+DL"),      path_class("ES*DS+L"),
-                                 path_class("E.*D.*D.*L"), path_class("E.*L")};
-    const Picture one = picture(5, 4);
+    constexpr std::array classes{
+        light_path_expression("ES*L"),       light_path_expression("EDL"),
+        light_path_expression("ES+DL"),      light_path_expression("ES*DS+L"),
+        light_path_expression("E.*D.*D.*L"), light_path_expression("E.*L")};
+    const RenderSettings one = picture(5, 4);
     const auto means = [&](const auto& renderer) {
         const auto sums = class_means(renderer, room.camera, one, classes);
         RgbT<double> parts(0);
@@ -216,12 +218,12 @@ TEST_CASE("side_by_side: classes are measured, and add up to the picture") {
     CHECK(carries(means(make_light_map_view(room.scene, all->map))) == "11000");
 
     // The same for any number of threads; and a picture that cannot be is refused.
-    Picture threads = one;
+    RenderSettings threads = one;
     threads.threads = 3;
     const auto tracer = make_path_tracer(room.scene);
     CHECK(class_means(tracer, room.camera, one, classes) ==
           class_means(tracer, room.camera, threads, classes));
-    threads.rays = 0;
+    threads.samples = 0;
     CHECK_THROWS_AS((void)class_means(tracer, room.camera, threads, classes),
                     std::invalid_argument);
 }

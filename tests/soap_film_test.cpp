@@ -10,9 +10,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "ljus/inspect/explain.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
-#include "ljus/render/explain.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"
@@ -79,7 +79,7 @@ std::string refusal(const SoapFilm& film) {
 
 } // namespace
 
-TEST_CASE_TEMPLATE("soap film: what is not reflected goes straight on, to 1e-12", T,
+TEST_CASE_TEMPLATE("soap film: what is not reflected goes pass_through on, to 1e-12", T,
                    float, double) {
     Draws draws;
     for (const FilmColor color : all_colors) {
@@ -90,7 +90,7 @@ TEST_CASE_TEMPLATE("soap film: what is not reflected goes straight on, to 1e-12"
             REQUIRE(next);
             REQUIRE(next->specular);
             REQUIRE(next->wi == reflect(wo));
-            const auto t = straight(film, Vec3T<T>{T(0)}, wo);
+            const auto t = pass_through(film, Vec3T<T>{T(0)}, wo);
             for (int k = 0; k < 3; ++k) {
                 REQUIRE(next->weight[k] >= 0);
                 REQUIRE(t[k] >= 0);
@@ -103,11 +103,12 @@ TEST_CASE_TEMPLATE("soap film: what is not reflected goes straight on, to 1e-12"
             sample(film, Vec3T<T>{0, 0, 1}, {}, Transport::radiance, Lobes::diffuse));
         // The film that broke: nothing.
         const auto none = film_of<T>(color, T(0));
-        const auto gone = straight(none, Vec3T<T>{T(0)}, Vec3T<T>{0, 0, 1});
+        const auto gone = pass_through(none, Vec3T<T>{T(0)}, Vec3T<T>{0, 0, 1});
         for (int k = 0; k < 3; ++k) CHECK(gone[k] == doctest::Approx(1).epsilon(1e-6));
         // A millimetre, seen by an eye: the mean, without colours.
         if (color == FilmColor::three_wavelengths) continue;
-        const auto thick = straight(film_of<T>(color, T(1e6)), {}, Vec3T<T>{0, 0, 1});
+        const auto thick =
+            pass_through(film_of<T>(color, T(1e6)), {}, Vec3T<T>{0, 0, 1});
         for (int k = 0; k < 3; ++k) CHECK(thick[k] == doctest::Approx(1 - 0.03933));
     }
 }
@@ -148,13 +149,13 @@ TEST_CASE("soap film: one that cannot be is refused in a sentence") {
 
 TEST_CASE("thin sheets: the survey says whether there are any") {
     const SoapFilm film;
-    const auto with = survey(room_with(&film), PhotonMapping{});
+    const auto with = survey(room_with(&film), PhotonMappingSettings{});
     CHECK(with.thin_film.on);
     CHECK(with.caustics_map.on); // its reflection
-    const auto without = survey(room_with(nullptr), PhotonMapping{});
+    const auto without = survey(room_with(nullptr), PhotonMappingSettings{});
     CHECK_FALSE(without.thin_film.on);
     CHECK(without.thin_film.why == "no material is one");
-    CHECK_FALSE(lists_thin_sheets<Scene<Shapes<Sphere>, Materials<Lambertian>>>);
+    CHECK_FALSE(lists_thin_surfaces<Scene<Shapes<Sphere>, Materials<Lambertian>>>);
 }
 
 TEST_CASE("thin sheets: a lamp is seen through a bubble by T of each wall") {
@@ -177,7 +178,7 @@ TEST_CASE("thin sheets: a lamp is seen through a bubble by T of each wall") {
             if (!(root2 > 0 && t > 0 && t < l)) continue;
             const glm::dvec3 p = from + way / l * t;
             const SoapFilmT<double> same{.thickness = 300, .scale = double(0.7f)};
-            right *= straight(same, p, glm::dvec3{0, 0, std::sqrt(root2) / 0.6});
+            right *= pass_through(same, p, glm::dvec3{0, 0, std::sqrt(root2) / 0.6});
             ++hits;
         }
         const auto seen = visibility(
@@ -216,7 +217,7 @@ TEST_CASE("thin sheets: what a path meets, by chance, is in the mean what light 
         }
     }
     const float cosine = std::sqrt(0.36f - 0.04f) / 0.6f;
-    const Rgb t = straight(film, {}, Vec3{0, 0, cosine});
+    const Rgb t = pass_through(film, {}, Vec3{0, 0, cosine});
     for (int k = 0; k < 3; ++k) {
         // Divided by the chance: 1, of which sample() then reflects R.
         CHECK(std::abs(apart(stopped[k], 1.0)) < 4);
@@ -233,9 +234,9 @@ TEST_CASE("thin sheets: a bubble in a furnace cannot be seen") {
         film.scale = 1;
         room.add(Sphere{}, room.add(film));
         const auto tracer = make_path_tracer(room);
-        PhotonMapping settings;
+        PhotonMappingSettings settings;
         settings.caustics.photons = 20000;
-        settings.gather_caustics.radius = 0.8f;
+        settings.caustics_estimate.radius = 0.8f;
         const auto maps = make_photon_maps(room, settings);
         const auto mapper = make_photon_mapper(room, maps, settings);
         const auto ray = [](RandomStream& stream) {
@@ -258,11 +259,11 @@ TEST_CASE("thin sheets: who owns which path") {
     const SoapFilm film = strong();
     const Room room = room_with(&film, true);
     const auto camera = camera_of_room();
-    const Picture picture{
-        .width = 24, .height = 24, .rays = 32, .seed = 3, .threads = 1};
-    PhotonMapping settings;
+    const RenderSettings picture{
+        .width = 24, .height = 24, .samples = 32, .seed = 3, .threads = 1};
+    PhotonMappingSettings settings;
     settings.caustics = {.photons = 20000, .threads = 1};
-    settings.gather_caustics.radius = 0.1f;
+    settings.caustics_estimate.radius = 0.1f;
     settings.max_depth = 4;
     const auto maps = make_photon_maps(room, settings);
     const auto mapper = make_photon_mapper(room, maps, settings);
@@ -287,7 +288,7 @@ TEST_CASE("thin sheets: who owns which path") {
     // A photon that went straight on is no caustic one.
     const Room without = room_with(&film);
     const auto general =
-        trace_photons(without, PhotonLaw::general, {.photons = 20000, .threads = 1});
+        trace_photons(without, MapType::general, {.photons = 20000, .threads = 1});
     double direct = 0, emitted = 0;
     for (const auto& photon : general.photons)
         if (photon.kind == PhotonKind::direct) direct += double(photon.flux.y);
@@ -295,7 +296,7 @@ TEST_CASE("thin sheets: who owns which path") {
     CHECK(direct / emitted > 0.7); // the rest was reflected by the bubble
     CHECK(direct / emitted < 0.999);
     const auto caustics =
-        trace_photons(without, PhotonLaw::caustics, {.photons = 20000, .threads = 1});
+        trace_photons(without, MapType::caustics, {.photons = 20000, .threads = 1});
     for (const auto& photon : caustics.photons)
         REQUIRE(photon.kind == PhotonKind::caustic);
     CHECK(caustics.photons.size() > 100);
@@ -320,15 +321,15 @@ TEST_CASE("thin sheets: photon mapping equals path tracing in a room with a bubb
         }
     };
     for (std::uint64_t seed = 1; seed <= 16; ++seed) {
-        Picture picture{
-            .width = size, .height = size, .rays = 25, .seed = seed, .threads = 1};
+        RenderSettings picture{
+            .width = size, .height = size, .samples = 25, .seed = seed, .threads = 1};
         take(render(make_path_tracer(room), camera, picture).image, traced);
-        PhotonMapping settings;
+        PhotonMappingSettings settings;
         settings.caustics = {.photons = 20000, .seed = seed, .threads = 1};
-        settings.gather_caustics.radius = 0.03f;
+        settings.caustics_estimate.radius = 0.03f;
         const auto maps = make_photon_maps(room, settings);
         picture.seed = seed + 100;
-        picture.rays = 9;
+        picture.samples = 9;
         take(render(make_photon_mapper(room, maps, settings), camera, picture).image,
              mapped);
     }

@@ -63,7 +63,7 @@ TEST_CASE("sphere: a hit lies on the surface, for rays from outside and from wit
         if (!t) continue;
         ++hits;
         REQUIRE(*t >= 0);
-        const float distance = glm::distance(ljus::at(ray, *t), ball.center);
+        const float distance = glm::distance(ljus::point_at(ray, *t), ball.center);
         REQUIRE(std::abs(distance - ball.radius) < 1e-5f);
     }
     CHECK(hits > 10000);
@@ -76,7 +76,8 @@ TEST_CASE("sphere: a miss stays outside at every t") {
         const Ray ray{.origin = numbers.point(9), .direction = numbers.point(2)};
         if (ljus::intersect(ray, ball)) continue;
         for (float t = 0; t < 20; t += 0.25f)
-            REQUIRE(glm::distance(ljus::at(ray, t), ball.center) > ball.radius - 1e-5f);
+            REQUIRE(glm::distance(ljus::point_at(ray, t), ball.center) >
+                    ball.radius - 1e-5f);
     }
 }
 
@@ -116,12 +117,12 @@ TEST_CASE("sphere: the chord has both ends, in order, also behind the origin") {
         const auto ends = ljus::chord(Ray{.origin = {0, 0, z}}, ball);
         REQUIRE(ends);
         CHECK(ends->enter == z + 4);
-        CHECK(ends->leave == z + 6);
+        CHECK(ends->offset_ray_origin == z + 6);
     }
     const auto touch = ljus::chord(Ray{.origin = {1, 0, 0}}, Sphere{});
     REQUIRE(touch);
     CHECK(touch->enter == 0.0f);
-    CHECK(touch->leave == 0.0f);
+    CHECK(touch->offset_ray_origin == 0.0f);
 }
 
 TEST_CASE("sphere: far away it is neither lost nor found where it is not") {

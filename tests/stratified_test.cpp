@@ -1,7 +1,7 @@
 /// \file stratified_test.cpp
 /// \brief Primary rays: as many as asked for, spread evenly, whatever the number.
 
-#include "ljus/scene/stratified.hpp"
+#include "ljus/math/sampling_pattern.hpp"
 
 #include <doctest/doctest.h>
 
@@ -18,9 +18,9 @@ using ljus_test::chi_square;
 using ljus_test::chi_square_limit;
 
 TEST_CASE("stratified: as many cells as rays, as square as the number allows") {
-    const auto is = [](int rays, int columns, int rows, bool rooks) {
+    const auto is = [](int rays, int columns, int rows, bool n_rooks) {
         const Strata s = strata_for(rays);
-        return s.columns == columns && s.rows == rows && s.rooks == rooks;
+        return s.columns == columns && s.rows == rows && s.n_rooks == n_rooks;
     };
     CHECK(is(1, 1, 1, false));
     CHECK(is(2, 1, 2, false));
@@ -37,7 +37,7 @@ TEST_CASE("stratified: as many cells as rays, as square as the number allows") {
     CHECK(is(2147483647, 2147483647, 2147483647, true)); // a prime; no overflow
 }
 
-TEST_CASE("stratified: rooks stand only where no grid is square enough") {
+TEST_CASE("stratified: n_rooks stand only where no grid is square enough") {
     for (int rays = 1; rays <= 1000; ++rays) {
         bool grid = false; // some division with sides of 1 : 4 at most
         for (int columns = 1; columns <= rays; ++columns)
@@ -45,8 +45,8 @@ TEST_CASE("stratified: rooks stand only where no grid is square enough") {
                             rays / columns <= 4 * columns);
         const Strata s = strata_for(rays);
         CAPTURE(rays);
-        REQUIRE(s.rooks == !grid);
-        if (s.rooks)
+        REQUIRE(s.n_rooks == !grid);
+        if (s.n_rooks)
             REQUIRE((s.columns == rays && s.rows == rays));
         else
             REQUIRE(s.columns * s.rows == rays);
@@ -119,7 +119,7 @@ TEST_CASE("stratified: keys give different orders") {
     CHECK(orders.size() > 500);
 }
 
-TEST_CASE_TEMPLATE("stratified: uniform over the pixel, in a grid and with rooks", T,
+TEST_CASE_TEMPLATE("stratified: uniform over the pixel, in a grid and with n_rooks", T,
                    float, double) {
     // 60 x 60 cells fall across the strata. Stratified counts scatter less than
     // independent ones, so the limit is generous.

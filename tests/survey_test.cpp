@@ -29,7 +29,7 @@ TEST_CASE("survey: each pass is on or off for a reason that is printed") {
     add_walls(dark);
     add_ball(dark, Ball::mirror);
 
-    PhotonMapping settings;
+    PhotonMappingSettings settings;
     Plan plan = survey(glass, settings);
     CHECK(plan.shadow_rays.on);
     CHECK(plan.shadow_rays.why ==
@@ -91,13 +91,13 @@ TEST_CASE("survey: each pass is on or off for a reason that is printed") {
     CHECK_FALSE(plan.indirect_rays.on);
     CHECK(plan.indirect_rays.why == "not asked for");
 
-    plan = survey(dark, PhotonMapping{});
+    plan = survey(dark, PhotonMappingSettings{});
     CHECK_FALSE(plan.shadow_rays.on);
     CHECK(plan.shadow_rays.why == "the scene has no light");
     CHECK_FALSE(plan.indirect_rays.on);
     CHECK_FALSE(plan.caustics_map.on);
     CHECK(plan.caustics_map.why == "nothing is lit");
-    CHECK(make_photon_maps(dark, PhotonMapping{}).caustics.empty());
+    CHECK(make_photon_maps(dark, PhotonMappingSettings{}).caustics.empty());
 
     for (const PlanItem* item : plan.items()) {
         CHECK(std::string(item->pass).size() > 0);
@@ -107,20 +107,21 @@ TEST_CASE("survey: each pass is on or off for a reason that is printed") {
 
 TEST_CASE("survey: settings that give no picture are refused") {
     const auto refused = [](auto change) {
-        PhotonMapping settings;
+        PhotonMappingSettings settings;
         change(settings);
         CHECK_THROWS_AS(check(settings), std::invalid_argument);
         CHECK_THROWS_AS((void)make_photon_maps(Room{}, settings),
                         std::invalid_argument);
     };
-    CHECK_NOTHROW(check(PhotonMapping{}));
-    refused([](PhotonMapping& s) { s.max_depth = 0; });
-    refused([](PhotonMapping& s) { s.caustics.photons = -1; });
-    refused([](PhotonMapping& s) { s.general.photons = -1; });
-    refused([](PhotonMapping& s) { s.gather_caustics.radius = 0; });
-    refused([](PhotonMapping& s) {
-        s.gather_general.radius = std::numeric_limits<float>::quiet_NaN();
+    CHECK_NOTHROW(check(PhotonMappingSettings{}));
+    refused([](PhotonMappingSettings& s) { s.max_depth = 0; });
+    refused([](PhotonMappingSettings& s) { s.caustics.photons = -1; });
+    refused([](PhotonMappingSettings& s) { s.general.photons = -1; });
+    refused([](PhotonMappingSettings& s) { s.caustics_estimate.radius = 0; });
+    refused([](PhotonMappingSettings& s) {
+        s.general_estimate.radius = std::numeric_limits<float>::quiet_NaN();
     });
-    refused([](PhotonMapping& s) { s.gather_general.nearest = max_gathered + 1; });
-    refused([](PhotonMapping& s) { s.gather_caustics.thickness = -1; });
+    refused(
+        [](PhotonMappingSettings& s) { s.general_estimate.nearest = max_nearest + 1; });
+    refused([](PhotonMappingSettings& s) { s.caustics_estimate.thickness = -1; });
 }

@@ -1,7 +1,7 @@
 /// \file texture_test.cpp
 /// \brief The right colour in the right place, and nothing else changed by it.
 
-#include "ljus/materials/texture.hpp"
+#include "ljus/image/texture.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,12 +9,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "ljus/image/png.hpp"
+#include "ljus/io/png.hpp"
+#include "ljus/materials/glass.hpp"
 #include "ljus/materials/glossy.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
 #include "ljus/materials/textured.hpp"
-#include "ljus/materials/thin_glass.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/render.hpp"
 #include "ljus/scene/make_scene.hpp"
@@ -22,7 +22,7 @@
 #include "support/bsdf_checks.hpp"
 
 #if __has_include(<stb/stb_image.h>)
-#include "ljus/image/load_image.hpp"
+#include "ljus/io/load_image.hpp"
 #endif
 
 using namespace ljus;
@@ -119,7 +119,7 @@ TEST_CASE(
     CHECK(&material_at(plain, here) == &plain); // not even copied
 }
 
-TEST_CASE("texture: in a white furnace a textured floor shines as its fields do") {
+TEST_CASE("texture: in a white furnace a textured floor emits as its fields do") {
     // Open to a sky of radiance 1: what comes back is the albedo of the place.
     const auto scene = make_scene(
         placed(Sphere{.radius = 50}, Lambertian{.albedo = Rgb{0}}, Rgb{1}, true),
@@ -131,7 +131,7 @@ TEST_CASE("texture: in a white furnace a textured floor shines as its fields do"
     const auto camera = look_at(
         {.position{0, 0, 5}, .target{0, 0, 0}, .up{0, 1, 0}, .vfov_degrees = 15});
     const auto image = render(make_path_tracer(scene), camera,
-                              {.width = 32, .height = 32, .rays = 64, .threads = 1})
+                              {.width = 32, .height = 32, .samples = 64, .threads = 1})
                            .image;
     // Columns and rows 8 and 24 see the middles of the pixels, nearly.
     const auto near = [&](int x, int y, const Rgb& right) {

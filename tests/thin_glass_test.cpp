@@ -1,7 +1,7 @@
 /// \file thin_glass_test.cpp
 /// \brief A pane against the sum of its reflections, one by one.
 
-#include "ljus/materials/thin_glass.hpp"
+#include "ljus/materials/glass.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,8 +10,8 @@
 
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/textured.hpp"
+#include "ljus/path/thin_surfaces.hpp"
 #include "ljus/scene/make_scene.hpp"
-#include "ljus/scene/thin_sheets.hpp"
 #include "support/bsdf_checks.hpp"
 
 using ljus::Lobes, ljus::ThinGlass, ljus::ThinGlassT, ljus::Transport, ljus::Vec3T;
@@ -64,8 +64,8 @@ TEST_CASE_TEMPLATE("thin glass: the sum of all bounces, for any index, angle and
 }
 
 TEST_CASE("thin glass: what textbooks say of a pane") {
-    const auto straight = ljus::pane_shares(ThinGlassT<double>{}, 1.0);
-    CHECK(straight.transmitted.x == doctest::Approx(2 * 1.5 / (1.5 * 1.5 + 1)));
+    const auto pass_through = ljus::pane_shares(ThinGlassT<double>{}, 1.0);
+    CHECK(pass_through.transmitted.x == doctest::Approx(2 * 1.5 / (1.5 * 1.5 + 1)));
     const auto slanted = ljus::pane_shares(ThinGlassT<double>{}, 0.5);
     CHECK(slanted.transmitted.x == doctest::Approx(0.836).epsilon(0.01));
     // No light is lost in clear glass, at any angle.
@@ -86,8 +86,8 @@ TEST_CASE("thin glass: what textbooks say of a pane") {
           0.9 * ljus::pane_shares(green, 1.0).transmitted.z);
 }
 
-TEST_CASE_TEMPLATE("thin glass: samples are reflected, the rest goes straight on", T,
-                   float, double) {
+TEST_CASE_TEMPLATE("thin glass: samples are reflected, the rest goes pass_through on",
+                   T, float, double) {
     const ThinGlassT<T> pane{T(1.5), {T(0.9), T(0.7), T(0.3)}};
     for (const double degrees : {0.0, 45.0, 80.0, 89.0, 120.0, 179.0}) {
         const auto wo = at_degrees<T>(degrees);
@@ -99,12 +99,12 @@ TEST_CASE_TEMPLATE("thin glass: samples are reflected, the rest goes straight on
             CHECK(s->wi == ljus::reflect(wo));
             CHECK(s->weight == shares.reflected);
         }
-        CHECK(straight(pane, Vec3T<T>{0}, wo) == shares.transmitted);
+        CHECK(pass_through(pane, Vec3T<T>{0}, wo) == shares.transmitted);
     }
     check_extremes(pane, 1 + 1e-6);
     check_sampling(pane, at_degrees<T>(40));
     CHECK(ljus::is_specular(pane));
-    static_assert(ljus::ThinSheet<ThinGlassT<T>>);
+    static_assert(ljus::ThinSurface<ThinGlassT<T>>);
 }
 
 TEST_CASE("thin glass: a lamp is seen through it, and its shadow has its colour") {

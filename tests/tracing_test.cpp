@@ -20,11 +20,11 @@ constexpr double pi = std::numbers::pi;
 /// Where photons of a pass lie on one object's plane: sums of flux, over blocks of paths
 /// so that there is an error.
 template <typename Scene, typename Where>
-Mean stored_flux(const Scene& scene, PhotonLaw law, const PhotonPass& pass, int seeds,
-                 Where where) {
+Mean stored_flux(const Scene& scene, MapType law, const PhotonPassSettings& pass,
+                 int seeds, Where where) {
     Mean mean;
     for (int seed = 1; seed <= seeds; ++seed) {
-        PhotonPass one = pass;
+        PhotonPassSettings one = pass;
         one.seed = static_cast<std::uint64_t>(seed);
         const auto traced = trace_photons(scene, law, one);
         double sum = 0;
@@ -75,7 +75,7 @@ TEST_CASE("tracing: absorbed + escaped + cut + roulette = emitted") {
     for (const Ball ball : {Ball::oren_nayar, Ball::mirror, Ball::glass, Ball::mixture})
         for (const Lamp lamp : {Lamp::quad, Lamp::sphere, Lamp::point})
             for (const int bounces : {1, 3, 1000})
-                for (const PhotonLaw law : {PhotonLaw::general, PhotonLaw::caustics}) {
+                for (const MapType law : {MapType::general, MapType::caustics}) {
                     const Room room = make_room<float>(ball, lamp, 2);
                     const auto traced = trace_photons(
                         room, law,
@@ -88,7 +88,7 @@ TEST_CASE("tracing: absorbed + escaped + cut + roulette = emitted") {
     add_ball(open, Ball::mixture);
     add_lamps(open, Lamp::quad, 2);
     const auto traced =
-        trace_photons(open, PhotonLaw::general, {.photons = 3000, .threads = 1});
+        trace_photons(open, MapType::general, {.photons = 3000, .threads = 1});
     check_balance(traced.audit);
     CHECK(traced.audit.escaped.x > 0.1 * traced.audit.emitted.x);
 }
@@ -101,9 +101,8 @@ TEST_CASE("tracing: all the lights' flux is emitted, and roulette moves none of 
         for (const auto& light : room.lights) flux += glm::dvec3(light.flux);
         Mean emitted[3], roulette[3];
         for (std::uint64_t seed = 1; seed <= 64; ++seed) {
-            const auto traced =
-                trace_photons(room, PhotonLaw::general,
-                              {.photons = 2000, .seed = seed, .threads = 1});
+            const auto traced = trace_photons(
+                room, MapType::general, {.photons = 2000, .seed = seed, .threads = 1});
             for (int c = 0; c < 3; ++c) {
                 emitted[c].add(traced.audit.emitted[c]);
                 roulette[c].add(traced.audit.roulette[c]);
@@ -141,8 +140,8 @@ TEST_CASE("tracing: the first hits of a lamp's photons share its flux by the for
     box.add(Quad{.corner{0, 0, 0}, .edge_u = z, .edge_v = y}, black);
     box.add(Quad{.corner{float(a), 0, 0}, .edge_u = z, .edge_v = y}, black);
     const double flux = pi * a * b;
-    const auto share_of = [&](auto where) {
-        return stored_flux(box, PhotonLaw::general,
+    const auto mis_weight = [&](auto where) {
+        return stored_flux(box, MapType::general,
                            {.photons = 20000, .shadow_photons = false, .threads = 1},
                            16, where);
     };
@@ -157,15 +156,15 @@ TEST_CASE("tracing: the first hits of a lamp's photons share its flux by the for
     CHECK(perpendicular_form_factor(1, 1, 1) ==
           doctest::Approx(0.2000438).epsilon(1e-6));
     const Mean on_floor =
-        share_of([&](const Photon& p) { return near(p.position.y, 0); });
+        mis_weight([&](const Photon& p) { return near(p.position.y, 0); });
     const Mean on_back =
-        share_of([&](const Photon& p) { return near(p.position.z, 0); });
+        mis_weight([&](const Photon& p) { return near(p.position.z, 0); });
     const Mean on_front =
-        share_of([&](const Photon& p) { return near(p.position.z, b); });
+        mis_weight([&](const Photon& p) { return near(p.position.z, b); });
     const Mean on_left =
-        share_of([&](const Photon& p) { return near(p.position.x, 0); });
+        mis_weight([&](const Photon& p) { return near(p.position.x, 0); });
     const Mean on_right =
-        share_of([&](const Photon& p) { return near(p.position.x, a); });
+        mis_weight([&](const Photon& p) { return near(p.position.x, a); });
     CHECK(std::abs(apart(on_floor, flux * floor)) < 3);
     CHECK(std::abs(apart(on_back, flux * long_wall)) < 3);
     CHECK(std::abs(apart(on_front, flux * long_wall)) < 3);
@@ -220,9 +219,9 @@ TEST_CASE("tracing: a caustic has the power that the glass was given") {
         // second order in the lamp's radius they agree, and here within 1e-4.
         const double solid = 2 * pi * (1 - std::sqrt(1 - 0.25 / 9));
         const auto everywhere = [](const Photon&) { return true; };
-        const PhotonPass pass{.photons = 20000, .threads = 1};
+        const PhotonPassSettings pass{.photons = 20000, .threads = 1};
         const Mean caustic =
-            stored_flux(scene, PhotonLaw::caustics, pass, 16, everywhere);
+            stored_flux(scene, MapType::caustics, pass, 16, everywhere);
         CAPTURE(point_light);
         CAPTURE(caustic.mean);
         CAPTURE(2 * solid);
@@ -234,7 +233,7 @@ TEST_CASE("tracing: a caustic has the power that the glass was given") {
         }
         // The same photons found blindly: emitted anywhere, kept if they went through
         // glass first.
-        PhotonPass blind = pass;
+        PhotonPassSettings blind = pass;
         blind.photons = 200000;
         Mean found;
         for (std::uint64_t seed = 1; seed <= 16; ++seed) {
@@ -247,7 +246,7 @@ TEST_CASE("tracing: a caustic has the power that the glass was given") {
                 auto stream = random_stream(seed, Pass::user, 0, path);
                 auto flight = emit(scene, choice, stream);
                 flight.flux /= 100000.0f;
-                trace(scene, PhotonLaw::caustics, flight, std::nullopt, blind, stream,
+                trace(scene, MapType::caustics, flight, std::nullopt, blind, stream,
                       out, audit);
             }
             for (const Photon& photon : out) sum += double(photon.flux.x);
@@ -267,7 +266,7 @@ TEST_CASE("tracing: a caustic has the power that the glass was given") {
     scene.add(PointLight{.position{0, 2000, 0}, .intensity = Rgb{4e6f}}); // E = 1
     for (const double radius : {0.1, 0.4, 0.9}) {
         const Mean through = stored_flux(
-            scene, PhotonLaw::caustics, {.photons = 20000, .threads = 1}, 16,
+            scene, MapType::caustics, {.photons = 20000, .threads = 1}, 16,
             [&](const Photon& p) {
                 return double(p.position.x * p.position.x +
                               p.position.z * p.position.z) < radius * radius;
@@ -315,7 +314,7 @@ TEST_CASE("tracing: aimed photons equal blind ones, whatever their targets") {
                 mean[0].add(sum);
                 mean[1].add(floor);
             };
-            add(aimed, trace_photons(scene, PhotonLaw::caustics,
+            add(aimed, trace_photons(scene, MapType::caustics,
                                      {.photons = 6000, .seed = seed, .threads = 1})
                            .photons);
             const LightChoice choice = light_choice(scene.lights);
@@ -326,8 +325,8 @@ TEST_CASE("tracing: aimed photons equal blind ones, whatever their targets") {
                 auto stream = random_stream(seed, Pass::user, 0, path);
                 auto flight = emit(scene, choice, stream);
                 flight.flux /= float(paths);
-                trace(scene, PhotonLaw::caustics, flight, std::nullopt, PhotonPass{},
-                      stream, out, audit);
+                trace(scene, MapType::caustics, flight, std::nullopt,
+                      PhotonPassSettings{}, stream, out, audit);
             }
             add(blind, out);
         }
@@ -349,7 +348,7 @@ TEST_CASE("tracing: the kinds of photons are those of their paths") {
     const LightChoice choice = light_choice(room.lights);
     int seen[3] = {};
     for (std::uint64_t path = 0; path < 4000; ++path) {
-        for (const PhotonLaw law : {PhotonLaw::general, PhotonLaw::caustics}) {
+        for (const MapType law : {MapType::general, MapType::caustics}) {
             auto stream = random_stream(5, Pass::user, 0, path);
             const auto flight = emit(room, choice, stream);
             std::vector<Photon> out;
@@ -373,10 +372,10 @@ TEST_CASE("tracing: the kinds of photons are those of their paths") {
                         const auto next = sample(
                             material, to_local(at.frame, -walk.ray.direction),
                             next_3d<float>(again), Transport::flux,
-                            law == PhotonLaw::caustics ? Lobes::specular : Lobes::all);
+                            law == MapType::caustics ? Lobes::specular : Lobes::all);
                         if (!next) return false;
                         letters += next->specular ? 'S' : 'D';
-                        walk.ray = ray_from(at.point, to_world(at.frame, next->wi));
+                        walk.ray = spawn_ray(at.point, to_world(at.frame, next->wi));
                         return true;
                     });
                 if (!alive) break;
@@ -397,7 +396,7 @@ TEST_CASE("tracing: the kinds of photons are those of their paths") {
                                         : indirect ? PhotonKind::indirect
                                                    : PhotonKind::caustic;
                 CHECK(photon.kind == kind);
-                CHECK((law == PhotonLaw::caustics) == (kind == PhotonKind::caustic));
+                CHECK((law == MapType::caustics) == (kind == PhotonKind::caustic));
                 ++seen[direct ? 0 : indirect ? 1 : 2];
             }
             // And none is missing: what lies before the last one and is owned is there.
@@ -405,7 +404,7 @@ TEST_CASE("tracing: the kinds of photons are those of their paths") {
             for (std::size_t i = 0; i < std::min(place + 1, expected.size()); ++i) {
                 const std::string& s = expected[i].first;
                 const bool caustic = s.size() > 2 && s.find('D') == s.size() - 1;
-                owned += caustic == (law == PhotonLaw::caustics) ? 1 : 0;
+                owned += caustic == (law == MapType::caustics) ? 1 : 0;
             }
             if (!out.empty()) CHECK(owned == out.size());
         }
@@ -418,7 +417,7 @@ TEST_CASE("tracing: the kinds of photons are those of their paths") {
 TEST_CASE("tracing: shadow photons lie behind the first surface") {
     const Room room = make_room<float>(Ball::glass, Lamp::sphere, 2);
     const auto traced =
-        trace_photons(room, PhotonLaw::general, {.photons = 2000, .threads = 1});
+        trace_photons(room, MapType::general, {.photons = 2000, .threads = 1});
     std::size_t shadows = 0;
     for (const Photon& photon : traced.photons) {
         if (photon.kind != PhotonKind::shadow) continue;
@@ -432,22 +431,22 @@ TEST_CASE("tracing: shadow photons lie behind the first surface") {
     }
     CHECK(shadows > 100);
     const auto without =
-        trace_photons(room, PhotonLaw::general,
+        trace_photons(room, MapType::general,
                       {.photons = 2000, .shadow_photons = false, .threads = 1});
     CHECK(without.photons.size() + shadows == traced.photons.size());
 }
 
 TEST_CASE("tracing: no photons, no light, no target") {
     const Room room = make_room<float>(Ball::glass, Lamp::quad, 1);
-    for (const PhotonLaw law : {PhotonLaw::general, PhotonLaw::caustics})
+    for (const MapType law : {MapType::general, MapType::caustics})
         CHECK(trace_photons(room, law, {.photons = 0}).photons.empty());
-    CHECK_THROWS_AS((void)trace_photons(room, PhotonLaw::general, {.photons = -1}),
+    CHECK_THROWS_AS((void)trace_photons(room, MapType::general, {.photons = -1}),
                     std::invalid_argument);
     const Room matt = make_room<float>(Ball::lambertian, Lamp::quad, 1);
-    CHECK(trace_photons(matt, PhotonLaw::caustics, {.photons = 1000}).photons.empty());
+    CHECK(trace_photons(matt, MapType::caustics, {.photons = 1000}).photons.empty());
     Room dark;
     add_walls(dark);
-    CHECK_THROWS_AS((void)trace_photons(dark, PhotonLaw::general, {}),
+    CHECK_THROWS_AS((void)trace_photons(dark, MapType::general, {}),
                     std::invalid_argument);
 }
 
@@ -470,10 +469,10 @@ bool same(const TracedPhotonsT<float>& a, const TracedPhotonsT<float>& b) {
 
 TEST_CASE("tracing: the same photons for 1 to 4 threads, by chance and evenly spread") {
     const Room room = make_room<float>(Ball::glass, Lamp::quad, 2);
-    for (const PhotonLaw law : {PhotonLaw::general, PhotonLaw::caustics})
-        for (const PhotonNumbers numbers :
-             {PhotonNumbers::random, PhotonNumbers::sobol}) {
-            PhotonPass pass{.photons = 5000, .numbers = numbers, .threads = 1};
+    for (const MapType law : {MapType::general, MapType::caustics})
+        for (const PhotonSampling numbers :
+             {PhotonSampling::random, PhotonSampling::sobol}) {
+            PhotonPassSettings pass{.photons = 5000, .numbers = numbers, .threads = 1};
             const auto one = trace_photons(room, law, pass);
             check_balance(one.audit);
             CHECK(one.photons.size() > 1000);
@@ -502,10 +501,11 @@ TEST_CASE("tracing: spots and suns balance, and their photons are what paths fin
     const auto on_patch = [](const Vec3& p) {
         return p.y < 1e-3f && p.x > -1 && p.x < 0 && p.z > -1 && p.z < 0;
     };
-    for (const PhotonNumbers numbers : {PhotonNumbers::random, PhotonNumbers::sobol}) {
+    for (const PhotonSampling numbers :
+         {PhotonSampling::random, PhotonSampling::sobol}) {
         Mean photons[2]; // direct and indirect
         for (std::uint64_t seed = 1; seed <= 16; ++seed) {
-            const auto traced = trace_photons(open, PhotonLaw::general,
+            const auto traced = trace_photons(open, MapType::general,
                                               {.photons = 20000,
                                                .seed = seed,
                                                .shadow_photons = false,
@@ -536,7 +536,7 @@ TEST_CASE("tracing: spots and suns balance, and their photons are what paths fin
                     const auto s =
                         sample_light(open, light, at.point.position, Vec2{0.5f});
                     if (!s || !(glm::dot(s->wi, n) > 0)) continue;
-                    if (occluded(open, ray_between(at.point, s->point))) continue;
+                    if (occluded(open, spawn_ray_to(at.point, s->point))) continue;
                     found[depth > 1] +=
                         weight * double(s->weight.y * glm::dot(s->wi, n));
                 }
@@ -544,7 +544,7 @@ TEST_CASE("tracing: spots and suns balance, and their photons are what paths fin
                 weight *= 0.6;
                 const Vec3 way = to_world(
                     frame_around(n), sample_cosine_hemisphere(next_2d<float>(stream)));
-                ray = ray_from(at.point, way);
+                ray = spawn_ray(at.point, way);
             }
             for (const int i : {0, 1}) paths[i].add(found[i]);
         }
@@ -567,9 +567,10 @@ TEST_CASE("tracing: through a ball of glass a sun sends what parallel light does
         Quad{.corner{-1.2f, -1.5f, -1.2f}, .edge_u{0, 0, 2.4f}, .edge_v{2.4f, 0, 0}},
         black);
     scene.add(SunLight{.direction{0, -1, 0}, .irradiance = Rgb{1}});
-    for (const PhotonNumbers numbers : {PhotonNumbers::random, PhotonNumbers::sobol}) {
+    for (const PhotonSampling numbers :
+         {PhotonSampling::random, PhotonSampling::sobol}) {
         const Mean through =
-            stored_flux(scene, PhotonLaw::caustics,
+            stored_flux(scene, MapType::caustics,
                         {.photons = 20000, .numbers = numbers, .threads = 1}, 16,
                         [&](const Photon& p) {
                             return double(p.position.x * p.position.x +
@@ -595,7 +596,7 @@ TEST_CASE("tracing: roulette leaves the flux in a furnace as it is, over 100 see
         Mean arrived;
         for (std::uint64_t seed = 1; seed <= 100; ++seed) {
             const auto traced = trace_photons(
-                room, PhotonLaw::general,
+                room, MapType::general,
                 {.photons = 1000, .seed = seed, .shadow_photons = false, .threads = 1});
             double sum = 0;
             for (const Photon& photon : traced.photons) sum += double(photon.flux.x);
@@ -612,30 +613,30 @@ TEST_CASE("tracing: roulette leaves the flux in a furnace as it is, over 100 see
 
 TEST_CASE("tracing: memory is foretold, and refused in a sentence before it is taken") {
     const Room room = make_room<float>(Ball::glass, Lamp::quad, 1);
-    for (const PhotonLaw law : {PhotonLaw::general, PhotonLaw::caustics})
-        for (const PhotonNumbers numbers :
-             {PhotonNumbers::random, PhotonNumbers::sobol})
+    for (const MapType law : {MapType::general, MapType::caustics})
+        for (const PhotonSampling numbers :
+             {PhotonSampling::random, PhotonSampling::sobol})
             for (const long long photons : {1000000000000LL, 9223372036854775807LL})
                 CHECK_THROWS_WITH_AS(
                     (void)trace_photons(room, law,
                                         {.photons = photons, .numbers = numbers}),
                     doctest::Contains("max_memory allows 4 GB"), std::invalid_argument);
     // What the pilot stored tells what all of them will: both sides of the limit.
-    const auto few = trace_photons(room, PhotonLaw::general, {.photons = pilot_paths});
+    const auto few = trace_photons(room, MapType::general, {.photons = pilot_paths});
     const double mean = double(few.photons.size()) / double(pilot_paths);
     const double bytes = expected_bytes<float>(20000, mean);
-    PhotonPass pass{.photons = 20000, .max_memory = 1.05 * bytes};
-    const auto all = trace_photons(room, PhotonLaw::general, pass);
+    PhotonPassSettings pass{.photons = 20000, .max_memory = 1.05 * bytes};
+    const auto all = trace_photons(room, MapType::general, pass);
     CHECK(double(all.photons.size()) * 2 * sizeof(Photon) ==
           doctest::Approx(bytes).epsilon(0.05));
     pass.max_memory = 0.95 * bytes;
-    CHECK_THROWS_AS((void)trace_photons(room, PhotonLaw::general, pass),
+    CHECK_THROWS_AS((void)trace_photons(room, MapType::general, pass),
                     std::invalid_argument);
 }
 
 TEST_CASE("tracing: a pass that stores nothing gives up and says why") {
-    const auto sentence = [](const Room& room, PhotonLaw law) {
-        const PhotonPass pass{.photons = 1000000, .give_up = 4096};
+    const auto sentence = [](const Room& room, MapType law) {
+        const PhotonPassSettings pass{.photons = 1000000, .give_up = 4096};
         const auto traced = trace_photons(room, law, pass);
         CHECK(traced.photons.empty());
         CHECK(traced.complete);
@@ -648,28 +649,28 @@ TEST_CASE("tracing: a pass that stores nothing gives up and says why") {
     hidden.add(Sphere{.center{0, 0, 0}, .radius = 0.2f}, hidden.add(Glass{}));
     hidden.add(Quad{.corner{-2, 1, -2}, .edge_u{4, 0, 0}, .edge_v{0, 0, 4}}, grey);
     hidden.add(PointLight{.position{0, 2, 0}});
-    CHECK(sentence(hidden, PhotonLaw::caustics).find("100 % met something else") !=
+    CHECK(sentence(hidden, MapType::caustics).find("100 % met something else") !=
           std::string::npos);
 
     Room away; // a lamp that turns its back to the glass
     away.add(Sphere{.center{0, 0, 0}, .radius = 0.2f}, away.add(Glass{}));
     away.add(Quad{.corner{-2, 1, -2}, .edge_u{0, 0, 4}, .edge_v{4, 0, 0}},
              away.add(Lambertian{}), Rgb{1});
-    CHECK(sentence(away, PhotonLaw::caustics).find("100 % could not be sent") !=
+    CHECK(sentence(away, MapType::caustics).find("100 % could not be sent") !=
           std::string::npos);
 
     Room nowhere; // a lamp that looks at nothing
     nowhere.add(Quad{.corner{-2, 1, -2}, .edge_u{0, 0, 4}, .edge_v{4, 0, 0}},
                 nowhere.add(Lambertian{}), Rgb{1});
-    CHECK(sentence(nowhere, PhotonLaw::general).find("100 % left the scene") !=
+    CHECK(sentence(nowhere, MapType::general).find("100 % left the scene") !=
           std::string::npos);
     // A pass that has stored one photon goes on; one that ends before it says nothing.
     const Room room = make_room<float>(Ball::glass, Lamp::quad, 1);
     const auto all =
-        trace_photons(room, PhotonLaw::general, {.photons = 6000, .give_up = 1});
+        trace_photons(room, MapType::general, {.photons = 6000, .give_up = 1});
     CHECK(all.emitted == 6000);
     CHECK(all.remark.empty());
-    CHECK(trace_photons(nowhere, PhotonLaw::general, {.photons = 4000}).remark.empty());
+    CHECK(trace_photons(nowhere, MapType::general, {.photons = 4000}).remark.empty());
 }
 
 TEST_CASE("tracing: lamps and scenes of any size") {
@@ -686,7 +687,7 @@ TEST_CASE("tracing: lamps and scenes of any size") {
             room.add(Sphere{.center = s * Vec3{0, 1.2f, 0}, .radius = s * r}, grey,
                      Rgb{1});
             const auto traced = trace_photons(
-                room, PhotonLaw::general,
+                room, MapType::general,
                 {.photons = 20000, .shadow_photons = false, .threads = 1});
             check_balance(traced.audit);
             double direct = 0;
@@ -704,18 +705,19 @@ TEST_CASE("tracing: lamps and scenes of any size") {
 
 TEST_CASE("tracing: one photon, and numbers that make no sense") {
     const Room room = make_room<float>(Ball::lambertian, Lamp::quad, 1);
-    const auto one = trace_photons(room, PhotonLaw::general, {.photons = 1});
+    const auto one = trace_photons(room, MapType::general, {.photons = 1});
     REQUIRE(!one.photons.empty());
     CHECK(one.photons[0].flux == room.lights[0].flux);
-    for (const PhotonPass& pass :
-         {PhotonPass{.photons = -1}, PhotonPass{.max_bounces = 0},
-          PhotonPass{.max_memory = 0}, PhotonPass{.max_memory = std::nan("")},
-          PhotonPass{.give_up = 0}})
-        CHECK_THROWS_AS((void)trace_photons(room, PhotonLaw::general, pass),
+    for (const PhotonPassSettings& pass :
+         {PhotonPassSettings{.photons = -1}, PhotonPassSettings{.max_bounces = 0},
+          PhotonPassSettings{.max_memory = 0},
+          PhotonPassSettings{.max_memory = std::nan("")},
+          PhotonPassSettings{.give_up = 0}})
+        CHECK_THROWS_AS((void)trace_photons(room, MapType::general, pass),
                         std::invalid_argument);
     Scene<Shapes<Sphere>, Materials<Lambertian>> empty;
     empty.add(SunLight{});
-    CHECK_THROWS_WITH_AS((void)trace_photons(empty, PhotonLaw::general, {}),
+    CHECK_THROWS_WITH_AS((void)trace_photons(empty, MapType::general, {}),
                          doctest::Contains("power of all lights"),
                          std::invalid_argument);
 }

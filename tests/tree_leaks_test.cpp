@@ -4,7 +4,7 @@
 /// \brief Half a million rays at edges, at vertices and along the axes of a closed mesh,
 /// through the whole tree: none slips through.
 
-#include "ljus/geometry/mesh.hpp"
+#include "ljus/accel/mesh.hpp"
 
 #include <doctest/doctest.h>
 
@@ -13,7 +13,7 @@
 #include "ljus/geometry/shape.hpp"
 #include "ljus/geometry/watertight.hpp"
 #include "ljus/materials/lambertian.hpp"
-#include "ljus/scene/indexed_scene.hpp"
+#include "ljus/scene/index.hpp"
 #include "support/leaks.hpp"
 
 using namespace ljus;

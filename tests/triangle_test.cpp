@@ -72,7 +72,7 @@ TEST_CASE("triangle: a hit point is where its coordinates say, and on the ray") 
         REQUIRE(hit->v >= 0);
         REQUIRE(hit->u + hit->v <= 1 + 1e-6f);
         const Vec3 on_triangle = point_at(triangle, hit->u, hit->v).position;
-        REQUIRE(glm::distance(on_triangle, at(ray, hit->t)) < 1e-3f);
+        REQUIRE(glm::distance(on_triangle, point_at(ray, hit->t)) < 1e-3f);
     }
     CHECK(hits > 1000);
 }

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "ljus/image/texture.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
-#include "ljus/materials/texture.hpp"
 #include "ljus/materials/textured.hpp"
 #include "ljus/render/render.hpp"
 #include "ljus/render/whitted.hpp"
@@ -358,7 +358,7 @@ TEST_CASE("whitted: a lamp with a size lights from its middle, or is only seen")
     using Room =
         Scene<Shapes<QuadT<double>, SphereT<double>>, Materials<LambertianT<double>>>;
     const RayT<double> ray{.origin{0, 1, 0}, .direction{0, -1, 0}};
-    const auto seen = [&](const Room& room, const Whitted& settings) {
+    const auto seen = [&](const Room& room, const WhittedSettings& settings) {
         RandomStream stream;
         Counts counts;
         return radiance(make_whitted(room, settings), ray, stream, counts).x;
@@ -418,8 +418,9 @@ TEST_CASE("whitted: at the extremes") {
          {Vec3{0.5f, 0, 1.5f}, Vec3(ball_center), Vec3{1, 2.6f, 6}}) {
         auto scene = ball_scene<float>(Glass{float(glass_index)});
         scene.add(PointLight{.position = place, .intensity = Rgb{5}});
-        const auto seen = render(make_whitted(scene, {.max_depth = 8}), camera<float>(),
-                                 {.width = 16, .height = 16, .rays = 2, .threads = 1});
+        const auto seen =
+            render(make_whitted(scene, {.max_depth = 8}), camera<float>(),
+                   {.width = 16, .height = 16, .samples = 2, .threads = 1});
         CHECK(seen.counts.rejected == 0);
     }
     // Facing mirrors without a light between them end at the depth, not before.

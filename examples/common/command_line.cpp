@@ -17,7 +17,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "ljus/image/file.hpp"
+#include "ljus/io/file.hpp"
 #include "ljus/parallel.hpp"
 
 namespace examples {
@@ -126,7 +126,7 @@ CommandLine::CommandLine(std::vector<std::string> arguments)
     app.add_option("--height", options.height, "Height of the picture in pixels")
         ->check(CLI::Range(1, 65536).description(""))
         ->option_text("N");
-    app.add_option("--rays,--spp", options.rays, "Rays per pixel")
+    app.add_option("--rays,--spp", options.samples, "Rays per pixel")
         ->check(CLI::Range(1, 100'000'000).description(""))
         ->option_text("N");
     app.add_flag("--quiet", options.quiet, "No progress bar and no text");
@@ -217,7 +217,7 @@ Options CommandLine::parse(const Presets& presets) {
     const Frame frame = options.pick(presets.draft, presets.report, presets.reference);
     if (!given("--width")) options.width = frame.width;
     if (!given("--height")) options.height = frame.height;
-    if (!given("--rays")) options.rays = frame.rays;
+    if (!given("--rays")) options.samples = frame.samples;
     const std::vector<std::string>& types = parser_->file_types;
     const std::filesystem::path out = options.out;
     if (std::find(types.begin(), types.end(), out.extension()) != types.end() &&

@@ -27,14 +27,15 @@ enum class Quality {
 struct Frame {
     int width = 400;  ///< In pixels.
     int height = 400; ///< In pixels.
-    int rays = 64;    ///< Rays per pixel.
+    int samples = 64; ///< Rays per pixel.
 };
 
 /// What each quality stands for in a program; what is given by name comes before it.
 struct Presets {
-    Frame draft{.width = 100, .height = 100, .rays = 4};        ///< --quality draft
-    Frame report{.width = 400, .height = 400, .rays = 64};      ///< --quality report
-    Frame reference{.width = 400, .height = 400, .rays = 1024}; ///< --quality reference
+    Frame draft{.width = 100, .height = 100, .samples = 4};   ///< --quality draft
+    Frame report{.width = 400, .height = 400, .samples = 64}; ///< --quality report
+    Frame reference{
+        .width = 400, .height = 400, .samples = 1024}; ///< --quality reference
 };
 
 /// What the user asked for.
@@ -46,7 +47,7 @@ struct Options {
     int threads = 0;                   ///< --threads: 0 for all processors.
     int width = 0;                     ///< --width, in pixels.
     int height = 0;                    ///< --height, in pixels.
-    int rays = 0;                      ///< --rays, per pixel.
+    int samples = 0;                   ///< --rays, per pixel.
     bool quiet = false;                ///< --quiet: no progress bar, no text.
 
     /// The path of a file in the folder.

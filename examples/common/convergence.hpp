@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "ljus/image/bias_variance.hpp"
+#include "ljus/inspect/bias_variance.hpp"
 
 namespace examples {
 

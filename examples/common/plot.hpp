@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "ljus/image/file.hpp"
+#include "ljus/io/file.hpp"
 
 namespace examples {
 
@@ -35,8 +35,8 @@ struct Plot {
 
 /// A table: text or numbers, shown as they are given.
 struct Table {
-    std::string name;                           ///< Of the files.
-    std::vector<std::string> columns;           ///< Headings.
+    std::string name;                             ///< Of the files.
+    std::vector<std::string> columns;             ///< Headings.
     std::vector<std::vector<std::string>> rows{}; ///< Cells.
 };
 

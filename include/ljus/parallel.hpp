@@ -41,7 +41,7 @@ inline constexpr int max_threads_allowed = 1024;
 }
 
 /// How a parallel loop runs.
-struct ParallelOptions {
+struct ParallelSettings {
     int threads = 0;        ///< 1 to max_threads_allowed; 0: max_threads().
     Progress progress = {}; ///< Called after a block, by one thread at a time.
 };
@@ -74,13 +74,13 @@ namespace detail {
 
 // What several threads change, they change in turn. A lock of OpenMP's, which costs
 // no header, in place of atomics, whose header costs an eighth of one of ours.
-class Turns {
+class Mutex {
 public:
 #ifdef _OPENMP
-    Turns() noexcept {
+    Mutex() noexcept {
         omp_init_lock(&lock_);
     }
-    ~Turns() {
+    ~Mutex() {
         omp_destroy_lock(&lock_);
     }
     void take() noexcept {
@@ -90,12 +90,12 @@ public:
         omp_unset_lock(&lock_);
     }
 #else
-    Turns() noexcept = default;
+    Mutex() noexcept = default;
     void take() noexcept {}
     void give() noexcept {}
 #endif
-    Turns(const Turns&) = delete;
-    Turns& operator=(const Turns&) = delete;
+    Mutex(const Mutex&) = delete;
+    Mutex& operator=(const Mutex&) = delete;
 
 private:
 #ifdef _OPENMP
@@ -104,15 +104,15 @@ private:
 };
 
 // A thread's turn, from here to the end of the block.
-class Turn {
+class LockGuard {
 public:
-    explicit Turn(Turns& turns) noexcept : turns_(turns) { turns_.take(); }
-    ~Turn() { turns_.give(); }
-    Turn(const Turn&) = delete;
-    Turn& operator=(const Turn&) = delete;
+    explicit LockGuard(Mutex& turns) noexcept : turns_(turns) { turns_.take(); }
+    ~LockGuard() { turns_.give(); }
+    LockGuard(const LockGuard&) = delete;
+    LockGuard& operator=(const LockGuard&) = delete;
 
 private:
-    Turns& turns_;
+    Mutex& turns_;
 };
 
 } // namespace detail
@@ -137,13 +137,13 @@ private:
 // [parallel_blocks]
 template <std::invocable<long long> Body>
 bool parallel_blocks(long long count, Body&& body,
-                     const ParallelOptions& options = {}) {
+                     const ParallelSettings& options = {}) {
     if (options.threads < 0 || options.threads > max_threads_allowed)
         throw std::invalid_argument(
             "The number of threads is " + std::to_string(options.threads) +
             "; it must be within [0, " + std::to_string(max_threads_allowed) + "].");
 
-    detail::Turns turns;            // what follows is changed in turn
+    detail::Mutex turns;            // what follows is changed in turn
     long long next = 0;             // the block to begin next
     long long done = 0;             // blocks that have run to their end
     bool stop = false;              // no further block shall begin
@@ -157,13 +157,13 @@ bool parallel_blocks(long long count, Body&& body,
     const auto report = [&] {
         long long now = 0;
         {
-            const detail::Turn turn(turns);
+            const detail::LockGuard turn(turns);
             if (reporting || stopped || done <= reported) return;
             reporting = true;
             now = reported = done;
         }
         const bool go_on = options.progress(now, count);
-        const detail::Turn turn(turns);
+        const detail::LockGuard turn(turns);
         reporting = false;
         stopped = !go_on;
         stop = stop || stopped;
@@ -172,19 +172,19 @@ bool parallel_blocks(long long count, Body&& body,
         for (;;) {
             long long block = 0;
             {
-                const detail::Turn turn(turns);
+                const detail::LockGuard turn(turns);
                 if (stop || next >= count) return;
                 block = next++;
             }
             try {
                 body(block);
                 {
-                    const detail::Turn turn(turns);
+                    const detail::LockGuard turn(turns);
                     ++done;
                 }
                 report();
             } catch (...) {
-                const detail::Turn turn(turns);
+                const detail::LockGuard turn(turns);
                 stop = true;
                 // Every block before this one has begun and runs to its end, so that
                 // the first one that throws is the same for any number of threads.
@@ -218,7 +218,7 @@ bool parallel_blocks(long long count, Body&& body,
 /// The sum of `body(block)` over all blocks, added in the order of the blocks.
 /// \param count    The number of blocks, at least 0.
 /// \param body     Called as body(long long); returns the sum of its block.
-/// \param threads  As in ParallelOptions.
+/// \param threads  As in ParallelSettings.
 /// \return The sum, the same for any number of threads; R() for no block.
 /// \throws As parallel_blocks().
 // [parallel_sum]

@@ -17,61 +17,61 @@ ljus_break_it(NAME box-quad HEADER geometry/box.hpp TEST box
     CASES "box: no point of a shape*")
 
 # On a tie whichever comes first wins.
-ljus_break_it(NAME bvh-tie HEADER geometry/bvh.hpp TEST bvh
+ljus_break_it(NAME bvh-tie HEADER accel/bvh.hpp TEST bvh
     FROM "(hit.t == at.t && of < number)"
     TO   "false"
     CASES "bvh: huge and tiny*")
 
 # The farther child first: right, and slow.
-ljus_break_it(NAME bvh-order HEADER geometry/bvh.hpp TEST bvh
+ljus_break_it(NAME bvh-order HEADER accel/bvh.hpp TEST bvh
     FROM "*two < *one"
     TO   "*one < *two"
     CASES "bvh: the nearer child first*")
 
 # Half of what waits is forgotten.
-ljus_break_it(NAME bvh-later HEADER geometry/bvh.hpp TEST bvh
+ljus_break_it(NAME bvh-later HEADER accel/bvh.hpp TEST bvh
     FROM "if (one && two)"
     TO   "if (one && two && waiting < 3)"
     CASES "bvh: the same answers*")
 
 # The costs of the lower halves are left out.
-ljus_break_it(NAME bvh-cost HEADER geometry/bvh_bins.hpp TEST bvh
+ljus_break_it(NAME bvh-cost HEADER accel/detail/bvh_bins.hpp TEST bvh
     FROM "lower.sides.half_area() * tests_of(lower.count, at_a_time) + above[i]"
     TO   "above[i]"
     CASES "bvh: the nearer child first*")
 
 # Wide boxes without slack.
-ljus_break_it(NAME wide-bvh-slack HEADER geometry/wide_ray.hpp TEST wide_bvh
+ljus_break_it(NAME wide-bvh-slack HEADER accel/detail/bvh8_ray.hpp TEST bvh8
     FROM "8 * std::numeric_limits<float>::epsilon() * reach"
     TO   "0 * reach"
     CASES "wide bvh: no ray slips*,wide bvh: huge and tiny*")
 
 # The first look at triangles trusts its rounding.
-ljus_break_it(NAME triangle-bvh-border HEADER geometry/triangle_bvh.hpp TEST wide_bvh
+ljus_break_it(NAME triangle-bvh-border HEADER accel/detail/triangle_bvh.hpp TEST bvh8
     FROM "const float wide = across * scale + min;"
     TO   "const float wide = 0 * across * scale;"
     CASES "wide bvh: no ray slips*")
 
 # It trusts it about where a ray starts, too.
-ljus_break_it(NAME triangle-bvh-start HEADER geometry/triangle_bvh.hpp TEST wide_bvh
+ljus_break_it(NAME triangle-bvh-start HEADER accel/detail/triangle_bvh.hpp TEST bvh8
     FROM "(before > near)"
     TO   "(before > -near)"
     CASES "wide bvh: rays from the surfaces*")
 
 # Of two types of shapes the second is numbered as the first.
-ljus_break_it(NAME indexed-scene-type HEADER scene/indexed_scene.hpp TEST indexed_scene
+ljus_break_it(NAME indexed-scene-type HEADER scene/index.hpp TEST index
     FROM "++type;"
     TO   "type += 0;"
     CASES "indexed scene: in double*")
 
 # The first child of a wide node's two gets all places but one, whatever they cost.
-ljus_break_it(NAME bvh-collapse HEADER geometry/bvh_collapse.hpp TEST wide_bvh
+ljus_break_it(NAME bvh-collapse HEADER accel/detail/bvh_collapse.hpp TEST bvh8
     FROM "if (low == 1 || sum < best.cost) best = {low, sum};"
     TO   "best = {low, sum};"
     CASES "wide bvh: few nodes*")
 
 # A search for any forgets the lanes of a node that it has entered a child of.
-ljus_break_it(NAME wide-bvh-any HEADER geometry/wide_walk.hpp TEST wide_bvh
+ljus_break_it(NAME wide-bvh-any HEADER accel/detail/bvh8_traverse.hpp TEST bvh8
     FROM "waiting += entered != 0 ? 1 : 0;"
     TO   "waiting += 0;"
     CASES "wide bvh: the same answers*")

@@ -54,9 +54,9 @@ ljus_break_it(NAME caustics-reflect HEADER materials/glass.hpp TEST caustics
 
 # The report's program: a photon starts a tenth of a unit inside the glass, which is then
 # a lens of another shape.
-ljus_break_it(NAME caustics-start HEADER geometry/surface.hpp TEST caustics
-    FROM "return {.origin = leave(point, direction), .direction = direction};"
-    TO   "return {.origin = leave(point, direction) - (glm::dot(direction, point.normal) < T(0) ? T(0.1) : T(0)) * point.normal, .direction = direction};"
+ljus_break_it(NAME caustics-start HEADER geometry/surface_point.hpp TEST caustics
+    FROM "return {.origin = offset_ray_origin(point, direction), .direction = direction};"
+    TO   "return {.origin = offset_ray_origin(point, direction) - (glm::dot(direction, point.normal) < T(0) ? T(0.1) : T(0)) * point.normal, .direction = direction};"
     CASES "caustics: the light of a point light*")
 
 # Coloured glass that absorbs nothing.

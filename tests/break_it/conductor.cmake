@@ -16,6 +16,6 @@ ljus_break_it(NAME conductor-extinction HEADER optics/conductor.hpp TEST conduct
     CASES "conductor: what is known*")
 
 # A metal that forgets at which angle it is seen.
-ljus_break_it(NAME metal-angle HEADER materials/metal.hpp TEST metal
+ljus_break_it(NAME metal-angle HEADER materials/mirror.hpp TEST metal
     FROM "std::min(std::abs(wo.z), T(1))"
     TO   "T(1)")

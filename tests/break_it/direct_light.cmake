@@ -1,5 +1,5 @@
 # The cosine of the angle at which light arrives.
-ljus_break_it(NAME direct-light-cosine HEADER render/direct_light.hpp TEST direct_light
+ljus_break_it(NAME direct-light-cosine HEADER path/direct_light.hpp TEST direct_light
     FROM "std::abs(wi.z) * weigh"
     TO   "weigh"
     CASES "direct light: a point light*")
@@ -23,7 +23,7 @@ ljus_break_it(NAME direct-light-side HEADER scene/light.hpp TEST direct_light
     CASES "direct light: no ray*")
 
 # Nothing hides anything.
-ljus_break_it(NAME direct-light-shadow HEADER render/direct_light.hpp TEST direct_light
+ljus_break_it(NAME direct-light-shadow HEADER path/direct_light.hpp TEST direct_light
     FROM "const RgbT<T> visible = visibility(scene, point, sampled->point);"
     TO   "const RgbT<T> visible{T(1)};"
     CASES "direct light: what stands between*")

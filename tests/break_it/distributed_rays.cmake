@@ -8,7 +8,7 @@ ljus_break_it(NAME distributed-rays-hard-shadow HEADER render/distributed.hpp
 # A lamp in gloss has two owners: the shadow ray and the reflected one.
 ljus_break_it(NAME distributed-rays-two-owners HEADER render/distributed.hpp
     TEST distributed_rays
-    FROM "if (BlurredMirror<Material> && light.object) continue;"
+    FROM "if (Glossy_<Material> && light.object) continue;"
     TO   ""
     CASES "distributed rays: gloss sees*")
 
@@ -36,12 +36,12 @@ ljus_break_it(NAME distributed-rays-frozen HEADER geometry/moving.hpp
 # The tree knows what moves where it starts, and loses it on its way.
 ljus_break_it(NAME distributed-rays-bounds HEADER geometry/moving.hpp
     TEST distributed_rays
-    FROM "join(first, last)"
+    FROM "box_union(first, last)"
     TO   "first"
     CASES "distributed rays: at each time*")
 
 # Shadow rays run through the scene as it was when the shutter opened.
-ljus_break_it(NAME distributed-rays-shadow-time HEADER scene/shutter.hpp
+ljus_break_it(NAME distributed-rays-shadow-time HEADER path/shutter.hpp
     TEST distributed_rays
     FROM "if (at.scene.ids.empty()) return closest_hit(at, ray).has_value();"
     TO   "if (true) return occluded(at.scene, ray);"
@@ -66,14 +66,14 @@ ljus_break_it(NAME lens-camera-confusion HEADER scene/lens_camera.hpp TEST lens_
     CASES "lens: the circle*")
 
 # The same order in all draws: the time of a ray tells its place on the lens.
-ljus_break_it(NAME stratified-stream-order HEADER scene/stratified_stream.hpp
+ljus_break_it(NAME stratified-stream-order HEADER math/stratified_stream.hpp
     TEST lens_camera
     FROM "static_cast<std::uint32_t>(stream.pattern.points), key);"
     TO   "static_cast<std::uint32_t>(stream.pattern.points), stream.key);"
     CASES "stratified stream: *")
 
 # Cells that are not divided by their number.
-ljus_break_it(NAME stratified-stream-random HEADER scene/stratified_stream.hpp
+ljus_break_it(NAME stratified-stream-random HEADER math/stratified_stream.hpp
     TEST lens_camera
     FROM "spread(stream.pattern, cell, ~key, next_2d<T>(stream.rest));"
     TO   "next_2d<T>(stream.rest); (void)cell;"

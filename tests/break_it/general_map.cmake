@@ -19,7 +19,7 @@ ljus_break_it(NAME general-map-shadow-one HEADER photons/photon_path.hpp TEST ge
 
 # The surface that hides counts itself among the hidden.
 ljus_break_it(NAME general-map-shadow-first HEADER photons/photon_path.hpp TEST general_map
-    FROM [[RayT<T> ray = ray_from(first, flight.ray.direction);]]
+    FROM [[RayT<T> ray = spawn_ray(first, flight.ray.direction);]]
     TO   [[(void)first; RayT<T> ray = flight.ray;]]
     CASES "general map: direct + shadow*")
 
@@ -66,7 +66,7 @@ ljus_break_it(NAME general-map-area HEADER photons/photon_map.hpp TEST general_m
     CASES "general map: a flat estimate*")
 
 # Photons of the other side count too.
-ljus_break_it(NAME general-map-other-side HEADER photons/lane_estimate.hpp TEST general_map
+ljus_break_it(NAME general-map-other-side HEADER photons/detail/flux_in_disc.hpp TEST general_map
     FROM "(inside[i] != 0) & (towards < T(0))"
     TO   "(inside[i] != 0)"
     CASES "general map: a flat estimate*")

@@ -1,29 +1,29 @@
 # The number of a vertex, from the end, off by one.
-ljus_break_it(NAME load-obj-from-the-end HEADER scene/obj_reader.hpp TEST load_obj
+ljus_break_it(NAME load-obj-from-the-end HEADER io/detail/obj_reader.hpp TEST load_obj
     FROM "number > 0 ? number - 1LL"
     TO   "number > 1 ? number - 1LL"
     CASES "load_obj: a cube*")
 
 # tinyobjloader's own numbers: what it cannot read is 0.
-ljus_break_it(NAME load-obj-bad-number HEADER scene/obj_text.hpp TEST load_obj
+ljus_break_it(NAME load-obj-bad-number HEADER io/detail/obj_text.hpp TEST load_obj
     FROM "if (stop == end && error == std::errc{})"
     TO   ""
     CASES "load_obj: each trouble*")
 
 # 4294967297 is 1 to an int.
-ljus_break_it(NAME load-obj-overflow HEADER scene/obj_reader.hpp TEST load_obj
+ljus_break_it(NAME load-obj-overflow HEADER io/detail/obj_reader.hpp TEST load_obj
     FROM "digits < 10 && "
     TO   ""
     CASES "load_obj: each trouble*")
 
 # Both ends of a line count as lines.
-ljus_break_it(NAME load-obj-line HEADER scene/obj_text.hpp TEST load_obj
+ljus_break_it(NAME load-obj-line HEADER io/detail/obj_text.hpp TEST load_obj
     FROM "? 2 : 1);"
     TO   "? 1 : 1);"
     CASES "load_obj: line ends*")
 
 # A fan instead of ears.
-ljus_break_it(NAME polygon-fan HEADER geometry/polygon.hpp TEST load_obj
+ljus_break_it(NAME polygon-fan HEADER io/detail/polygon.hpp TEST load_obj
     FROM "if (!free) continue;"
     TO   ""
     CASES "load_obj: polygons*")

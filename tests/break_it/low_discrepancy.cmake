@@ -20,6 +20,6 @@ ljus_break_it(NAME owen-direction HEADER math/low_discrepancy.hpp TEST low_discr
 
 # One scrambling for all dimensions: x and y move together.
 ljus_break_it(NAME owen-seed HEADER math/low_discrepancy.hpp TEST low_discrepancy
-    FROM "const std::uint64_t key = mix(seed);"
-    TO   "const std::uint64_t key = mix(seed & ~std::uint64_t(1));"
+    FROM "const std::uint64_t key = mix_bits(seed);"
+    TO   "const std::uint64_t key = mix_bits(seed & ~std::uint64_t(1));"
     CASES "low_discrepancy: one point is uniform*")

@@ -1,47 +1,47 @@
 # Each ray would ask its triangles, and all hits would be the first one's.
-ljus_break_it(NAME mesh-part HEADER geometry/mesh.hpp TEST mesh
+ljus_break_it(NAME mesh-part HEADER accel/mesh.hpp TEST mesh
     FROM "nearest.at.part = nearest.number;"
     TO   ""
     CASES "mesh: hits are those*")
 
 # The corners the other way round: inside is outside.
-ljus_break_it(NAME mesh-winding HEADER geometry/mesh_data.hpp TEST mesh
+ljus_break_it(NAME mesh-winding HEADER accel/mesh_data.hpp TEST mesh
     FROM "return {data.positions[corner[0]], data.positions[corner[1]],"
     TO   "return {data.positions[corner[1]], data.positions[corner[0]],"
     CASES "mesh: finer triangles*")
 
 # The second and the third corner change places in the normal only.
-ljus_break_it(NAME mesh-normal-corners HEADER geometry/mesh.hpp TEST mesh
+ljus_break_it(NAME mesh-normal-corners HEADER accel/mesh.hpp TEST mesh
     FROM "hit.u * normals[corner[1]] + hit.v * normals[corner[2]]"
     TO   "hit.v * normals[corner[1]] + hit.u * normals[corner[2]]"
     CASES "mesh: finer triangles*")
 
 # A normal against the winding is a frame that looks into the surface.
-ljus_break_it(NAME mesh-normal-side HEADER geometry/mesh.hpp TEST mesh
+ljus_break_it(NAME mesh-normal-side HEADER accel/mesh.hpp TEST mesh
     FROM "if (!(glm::dot(n, geometric) > T(0))) return geometric;"
     TO   ""
     CASES "mesh: triangles without*")
 
 # Each triangle as often as any other, whatever its size.
-ljus_break_it(NAME mesh-area HEADER geometry/mesh.hpp TEST mesh
+ljus_break_it(NAME mesh-area HEADER accel/mesh.hpp TEST mesh
     FROM "area_up_to_.push_back(area)"
     TO   "area_up_to_.push_back(double(i + 1))"
     CASES "mesh: points are uniform*")
 
 # What the choice of the triangle left of u is not stretched again.
-ljus_break_it(NAME mesh-left-of-u HEADER geometry/mesh.hpp TEST mesh
+ljus_break_it(NAME mesh-left-of-u HEADER accel/mesh.hpp TEST mesh
     FROM "glm::min(T(left), T(1))"
     TO   "u.x"
     CASES "mesh: points are uniform*")
 
 # Every triangle of a corner has the same say, however it was cut.
-ljus_break_it(NAME mesh-angle HEADER geometry/mesh_data.hpp TEST mesh
+ljus_break_it(NAME mesh-angle HEADER accel/mesh_data.hpp TEST mesh
     FROM "angle * normal"
     TO   "normal"
     CASES "mesh: smooth() finds*")
 
 # A shadow ray asks the first triangle of the tree, whichever it may hit.
-ljus_break_it(NAME mesh-meets HEADER geometry/mesh.hpp TEST mesh
+ljus_break_it(NAME mesh-meets HEADER accel/mesh.hpp TEST mesh
     FROM "mesh.triangle_at(place), prepared).has_value()"
     TO   "mesh.triangle_at(0 * place), prepared).has_value()"
     CASES "mesh: hits are those*")

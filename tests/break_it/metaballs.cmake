@@ -10,30 +10,30 @@ ljus_break_it(NAME metaballs-gradient HEADER geometry/metaballs.hpp TEST metabal
     CASES "metaballs: the gradient agrees*")
 
 # A bound of the slope that is too low lets steps jump over the surface.
-ljus_break_it(NAME metaballs-lipschitz HEADER geometry/metaball_line.hpp TEST metaballs
+ljus_break_it(NAME metaballs-lipschitz HEADER geometry/detail/metaball_line.hpp TEST metaballs
     FROM "steepest_blob = T(8) / (T(3) * std::numbers::sqrt3_v<T>);"
     TO   "steepest_blob = T(1);"
     CASES "metaballs: the gradient agrees*")
 
 # The middle coefficient of s^2 is not the square of the middle one of s.
-ljus_break_it(NAME metaballs-blossom HEADER geometry/metaball_quartic.hpp TEST metaballs
+ljus_break_it(NAME metaballs-blossom HEADER geometry/detail/metaball_quartic.hpp TEST metaballs
     FROM "(s0 * s2 + C(2) * s1 * s1) / C(3)"
     TO   "s1 * s1"
     CASES "metaballs: one blob is a sphere*")
 
 # From within, the hit is where the ray leaves.
-ljus_break_it(NAME metaballs-inside HEADER geometry/metaball_quartic.hpp TEST metaballs
+ljus_break_it(NAME metaballs-inside HEADER geometry/detail/metaball_quartic.hpp TEST metaballs
     FROM "const bool inside = line.value(a) >= C(0);"
     TO   "const bool inside = false;"
     CASES "metaballs: the first hit*")
 
-ljus_break_it(NAME metaballs-range HEADER geometry/metaball_quartic.hpp TEST metaballs
-    FROM "const C end = glm::min(t_max, line.leave);"
-    TO   "const C end = line.leave;"
+ljus_break_it(NAME metaballs-range HEADER geometry/detail/metaball_quartic.hpp TEST metaballs
+    FROM "const C end = glm::min(t_max, line.offset_ray_origin);"
+    TO   "const C end = line.offset_ray_origin;"
     CASES "metaballs: the first hit*")
 
 # A seventeenth blob that forgets the sixteen before it.
-ljus_break_it(NAME metaballs-heap HEADER geometry/metaball_line.hpp TEST metaballs
+ljus_break_it(NAME metaballs-heap HEADER geometry/detail/metaball_line.hpp TEST metaballs
     FROM "if (many.empty()) many.assign(few.begin(), few.end());"
     TO   ""
     CASES "metaballs: more than 16*")
@@ -55,13 +55,13 @@ ljus_break_it(NAME metaballs-normal HEADER geometry/isosurface.hpp TEST metaball
     CASES "metaballs: a hit lies*")
 
 # A part whose slope has both signs may hold two crossings.
-ljus_break_it(NAME metaballs-monotone HEADER geometry/field_on_ray.hpp TEST metaballs_exact
+ljus_break_it(NAME metaballs-monotone HEADER geometry/detail/field_on_ray.hpp TEST metaballs_exact
     FROM "if (slope.low > T(0) || slope.high < T(0)) {"
     TO   "{"
     CASES "metaballs exact: interval*")
 
 # Steps of twice the safe length.
-ljus_break_it(NAME metaballs-overstep HEADER geometry/field_on_ray.hpp TEST metaballs
+ljus_break_it(NAME metaballs-overstep HEADER geometry/detail/field_on_ray.hpp TEST metaballs
     FROM "t += distance / steepest;"
     TO   "t += T(4) * distance / steepest;"
     CASES "metaballs: *")

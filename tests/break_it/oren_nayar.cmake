@@ -23,31 +23,31 @@ ljus_break_it(NAME oren_nayar-tangent HEADER materials/oren_nayar.hpp TEST oren_
     CASES "oren_nayar: within 64*")
 
 # The full model without the cube: too bright where the azimuths are opposed.
-ljus_break_it(NAME rough_matt-cube HEADER materials/rough_matt.hpp TEST rough_matt
+ljus_break_it(NAME rough_diffuse-cube HEADER materials/rough_diffuse.hpp TEST rough_diffuse
     FROM "cos_phi >= T(0) ? T(0) : steep * steep * steep"
     TO   "T(0)"
-    CASES "rough_matt: within 64*")
+    CASES "rough_diffuse: within 64*")
 
 # Fujii's term divided behind the normal too: the loss at the far side is too deep.
-ljus_break_it(NAME rough_matt-fujii HEADER materials/rough_matt.hpp TEST rough_matt
+ljus_break_it(NAME rough_diffuse-fujii HEADER materials/rough_diffuse.hpp TEST rough_diffuse
     FROM "return s > T(0) ? s / std::max(std::abs(wi.z), std::abs(wo.z)) : s;"
     TO   "return s / std::max(std::abs(wi.z), std::abs(wo.z));"
-    CASES "rough_matt: within 64*")
+    CASES "rough_diffuse: within 64*")
 
 # EON without what it gives back: Fujii's second model, and darker than white.
 ljus_break_it(NAME eon-nothing-back HEADER materials/eon.hpp TEST eon
-    FROM "both * light_again(surface.albedo, ar * eon_mean_loss<T>);"
-    TO   "T(0) * both * light_again(surface.albedo, ar * eon_mean_loss<T>);"
+    FROM "both * multiple_scattering(surface.albedo, ar * eon_mean_loss<T>);"
+    TO   "T(0) * both * multiple_scattering(surface.albedo, ar * eon_mean_loss<T>);"
     CASES "eon: white returns*")
 
 # The cut at the horizon forgotten in the density.
-ljus_break_it(NAME eon-horizon HEADER materials/eon_lobe.hpp TEST eon
+ljus_break_it(NAME eon-horizon HEADER materials/detail/eon_lobe.hpp TEST eon
     FROM "std::numbers::inv_pi_v<T> / lobe.kept;"
     TO   "std::numbers::inv_pi_v<T>;"
     CASES "eon: the density integrates*")
 
 # A Jacobian of lengths for one of solid angles.
-ljus_break_it(NAME eon-jacobian HEADER materials/eon_lobe.hpp TEST eon
+ljus_break_it(NAME eon-jacobian HEADER materials/detail/eon_lobe.hpp TEST eon
     FROM "std::max(T(0), v.z) * jacobian * jacobian"
     TO   "std::max(T(0), v.z) * jacobian"
     CASES "eon: directions agree*")

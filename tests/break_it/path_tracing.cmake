@@ -8,12 +8,12 @@ ljus_break_it(NAME path-tracing-light-choice HEADER render/path_tracing.hpp
 # A lamp that is met counts in full, though shadow rays have counted it.
 ljus_break_it(NAME path-tracing-emission-weight HEADER render/path_tracing.hpp
     TEST path_tracing
-    FROM "return share_of(settings.share, path.bsdf_pdf, other) * all;"
+    FROM "return mis_weight(settings.share, path.bsdf_pdf, other) * all;"
     TO   "return T(other > T(0) ? 1 : 0) * all;"
     CASES "path tracing: in a furnace every*")
 
 # The last surface's lamp, seen by nobody but its shadow ray, which is weighed down.
-ljus_break_it(NAME path-tracing-last-surface HEADER render/camera_path.hpp
+ljus_break_it(NAME path-tracing-last-surface HEADER path/camera_path.hpp
     TEST path_tracing
     FROM "!scattered || (last && scattered->sample.specular)"
     TO   "!scattered || last"
@@ -41,8 +41,8 @@ ljus_break_it(NAME path-tracing-light-density HEADER render/path_tracing.hpp
 # Shadow rays are believed, and the lamp that a path meets is counted as well.
 ljus_break_it(NAME path-tracing-shadow-rays-alone HEADER render/path_tracing.hpp
     TEST path_strategies
-    FROM "if (settings.share == LampShare::shadow_rays) return RgbT<T>{T(0)};"
-    TO   "if (settings.share == LampShare::shadow_rays) return all;"
+    FROM "if (settings.share == MisHeuristic::shadow_rays) return RgbT<T>{T(0)};"
+    TO   "if (settings.share == MisHeuristic::shadow_rays) return all;"
     CASES "multiple importance: all ways*")
 
 # Squares on one side only.
@@ -53,7 +53,7 @@ ljus_break_it(NAME path-tracing-power HEADER render/path_tracing.hpp
     CASES "multiple importance: the shares*")
 
 # A survivor is paid for as if the most likely outcome had been certain.
-ljus_break_it(NAME path-tracing-roulette-most HEADER render/shading.hpp
+ljus_break_it(NAME path-tracing-roulette-most HEADER path/shading.hpp
     TEST path_strategies
     FROM "throughput /= probability;"
     TO   "throughput /= std::min(T(1), share / threshold);"

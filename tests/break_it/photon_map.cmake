@@ -58,25 +58,25 @@ ljus_break_it(NAME photon-map-one-point HEADER photons/photon_map.hpp TEST photo
     CASES "photon_map: photons that all*")
 
 # Eight at a time, what decides on a photon must be as it is one by one.
-ljus_break_it(NAME lane-estimate-side HEADER photons/lane_estimate.hpp TEST photon_map
+ljus_break_it(NAME lane-estimate-side HEADER photons/detail/flux_in_disc.hpp TEST photon_map
     FROM "(inside[i] != 0) & (towards < T(0))"
     TO   "(inside[i] != 0)"
     CASES "photon_map: eight*")
-ljus_break_it(NAME lane-estimate-height HEADER photons/lane_estimate.hpp TEST photon_map
+ljus_break_it(NAME lane-estimate-height HEADER photons/detail/flux_in_disc.hpp TEST photon_map
     FROM "(-h <= height)"
     TO   "true"
     CASES "photon_map: eight*")
-ljus_break_it(NAME lane-estimate-turned HEADER photons/lane_estimate.hpp TEST photon_map
+ljus_break_it(NAME lane-estimate-turned HEADER photons/detail/flux_in_disc.hpp TEST photon_map
     FROM "T(2) * T(127) * along"
     TO   "T(127) * along"
     CASES "photon_map: eight*")
-ljus_break_it(NAME lane-estimate-kinds HEADER photons/lane_estimate.hpp TEST photon_map
+ljus_break_it(NAME lane-estimate-kinds HEADER photons/detail/flux_in_disc.hpp TEST photon_map
     FROM "kinds >> kind[i] & 1"
     TO   "kinds | 1"
     CASES "photon_map: eight*")
 
 # A sum in float alone.
-ljus_break_it(NAME lane-estimate-float HEADER photons/lane_estimate.hpp TEST photon_map
+ljus_break_it(NAME lane-estimate-float HEADER photons/detail/flux_in_disc.hpp TEST photon_map
     FROM "if (++parts == 16) add_part();"
     TO   ""
     CASES "photon_map: two million*")

@@ -16,7 +16,7 @@ ljus_break_it(NAME photon-mapping-cosine HEADER photons/photon_map.hpp TEST phot
     FROM "weight * evaluate(material, wo, wi)"
     TO   "weight * std::abs(wi.z) * evaluate(material, wo, wi)"
     CASES "photon mapping: a matt ball embedded*")
-ljus_break_it(NAME photon-mapping-lane-cosine HEADER photons/lane_estimate.hpp
+ljus_break_it(NAME photon-mapping-lane-cosine HEADER photons/detail/flux_in_disc.hpp
     TEST photon_mapping
     FROM "lit ? weight.lane[i] : T(0)"
     TO   "lit ? -towards * weight.lane[i] : T(0)"

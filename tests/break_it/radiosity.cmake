@@ -1,113 +1,113 @@
 # A polygon that is not cut at the plane of the other: light from behind a wall.
-ljus_break_it(NAME exchange-area-clip HEADER geometry/exchange_area.hpp TEST form_factor
+ljus_break_it(NAME exchange-area-clip HEADER radiosity/exchange_area.hpp TEST form_factor
     FROM "const Facet a = clipped(one, two.corners[0], n2, 1e-13 * unit);"
     TO   "const Facet a = one;"
     CASES "exchange_area: what lies behind*")
 
 # The constant that is the same for all edges but not for those that are parallel.
-ljus_break_it(NAME exchange-area-constant HEADER geometry/exchange_area.hpp TEST form_factor
+ljus_break_it(NAME exchange-area-constant HEADER radiosity/exchange_area.hpp TEST form_factor
     FROM " - 1.5 * length_v * back"
     TO   ""
     CASES "exchange_area: quads anywhere*")
 
 # Edges that touch in between are left to a rule that can cope with ends only.
-ljus_break_it(NAME exchange-area-ends HEADER geometry/exchange_area.hpp TEST form_factor
+ljus_break_it(NAME exchange-area-ends HEADER radiosity/exchange_area.hpp TEST form_factor
     FROM "ends[i] = glm::clamp(ends[i], 0.0, 1.0);"
     TO   "ends[i] = 1;"
     CASES "exchange_area: reciprocity*")
 
 # Far away the closed form is a small difference of large numbers.
-ljus_break_it(NAME exchange-area-far HEADER geometry/exchange_area.hpp TEST form_factor
+ljus_break_it(NAME exchange-area-far HEADER radiosity/exchange_area.hpp TEST form_factor
     FROM "> 8 * longer"
     TO   "> 1e9 * longer"
     CASES "exchange_area: sizes*")
 
 # What lies below the horizon counts against what lies above.
-ljus_break_it(NAME form-factor-horizon HEADER geometry/form_factor.hpp TEST form_factor
+ljus_break_it(NAME form-factor-horizon HEADER radiosity/form_factor.hpp TEST form_factor
     FROM "const Facet seen = clipped(facet, point, normal);"
     TO   "const Facet seen = facet;"
     CASES "form_factor: from a point*")
 
 # Emission on both sides.
-ljus_break_it(NAME patches-emission HEADER render/patches.hpp TEST radiosity
+ljus_break_it(NAME patches-emission HEADER radiosity/patches.hpp TEST radiosity
     FROM "back ? 0 : std::numbers::pi"
     TO   "std::numbers::pi"
     CASES "radiosity: the light of one lamp*")
 
 # Radiance for radiosity: pi is missing.
-ljus_break_it(NAME patches-pi HEADER render/patches.hpp TEST radiosity
+ljus_break_it(NAME patches-pi HEADER radiosity/patches.hpp TEST radiosity
     FROM "back ? 0 : std::numbers::pi"
     TO   "back ? 0 : 1"
     CASES "radiosity: furnaces")
 
 # The upper triangle of a cell taken for the lower one.
-ljus_break_it(NAME patches-upper HEADER render/patch_grid.hpp TEST patches
+ljus_break_it(NAME patches-upper HEADER radiosity/patch_grid.hpp TEST patches
     FROM "+ (upper ? 1 : 0)"
     TO   ""
     CASES "patches: each place*")
 
 # Nothing ever stands between two patches.
-ljus_break_it(NAME form-factors-visible HEADER render/patch_rays.hpp TEST patches
-    FROM "if (!occluded(scene, ray_between(a, b))) visible += weight;"
+ljus_break_it(NAME form-factors-visible HEADER radiosity/patch_rays.hpp TEST patches
+    FROM "if (!occluded(scene, spawn_ray_to(a, b))) visible += weight;"
     TO   "visible += weight;"
     CASES "form_factors: what stands between")
 
 # Directions uniform over the hemisphere: the cosine is forgotten.
-ljus_break_it(NAME form-factors-cosine HEADER render/patch_rays.hpp TEST patches
+ljus_break_it(NAME form-factors-cosine HEADER radiosity/patch_rays.hpp TEST patches
     FROM "sample_cosine_hemisphere(u)"
     TO   "sample_uniform_hemisphere(u)"
     CASES "form_factors: rays agree*")
 
 # Each row as its rays found it: what one patch sends is not what the others get.
-ljus_break_it(NAME form-factors-symmetry HEADER render/form_factors.hpp TEST patches
+ljus_break_it(NAME form-factors-symmetry HEADER radiosity/form_factor_matrix.hpp TEST patches
     FROM "            back = there;"
     TO   ""
     CASES "form_factors: the closed form*")
 
 # Rows are closed by rows alone: symmetry, and with it the columns, are lost.
-ljus_break_it(NAME form-factors-closed HEADER render/form_factors.hpp TEST radiosity
+ljus_break_it(NAME form-factors-closed HEADER radiosity/form_factor_matrix.hpp TEST radiosity
     FROM "factors.exchange[i * n + j] *= scale[i] * scale[j];"
     TO   "factors.exchange[i * n + j] *= scale[i] * scale[i];"
     CASES "radiosity: furnaces")
 
 # The transpose: light goes by the form factor of the other direction.
-ljus_break_it(NAME solve-transpose HEADER render/radiosity_solve.hpp TEST radiosity
+ljus_break_it(NAME solve-transpose HEADER radiosity/radiosity_solve.hpp TEST radiosity
     FROM "unsent[j] += row[j] / factors.area[j] * patches[j].albedo * sent;"
     TO   "unsent[j] += row[j] / factors.area[i] * patches[j].albedo * sent;"
     CASES "radiosity: a ball within a ball*")
 
 # A hollow patch sends nothing to itself.
-ljus_break_it(NAME solve-hollow HEADER render/radiosity_solve.hpp TEST radiosity
+ljus_break_it(NAME solve-hollow HEADER radiosity/radiosity_solve.hpp TEST radiosity
     FROM "unsent[i] / (1.0 - factors(i, i) * patches[i].albedo)"
     TO   "unsent[i]"
     CASES "radiosity: furnaces")
 
 # Rows that sum to more than 1 make light out of nothing.
-ljus_break_it(NAME solve-endless HEADER render/radiosity_solve.hpp TEST radiosity
+ljus_break_it(NAME solve-endless HEADER radiosity/radiosity_solve.hpp TEST radiosity
     FROM "require(most < 1 - 1e-12,"
     TO   "require(most > -1,"
     CASES "radiosity: extremes")
 
 # What escapes is forgotten.
-ljus_break_it(NAME radiosity-escaped HEADER render/radiosity.hpp TEST radiosity
+ljus_break_it(NAME radiosity-escaped HEADER radiosity/radiosity.hpp TEST radiosity
     FROM "(1 - factors.row_sum(i))"
     TO   "(0 * factors.row_sum(i))"
     CASES "radiosity: the light of one lamp*")
 
 # Irradiance shown as if it were radiance.
-ljus_break_it(NAME light-map-pi HEADER render/light_map.hpp TEST light_map
-    FROM "matt_albedo(m) * std::numbers::inv_pi * irradiance"
-    TO   "matt_albedo(m) * irradiance"
+ljus_break_it(NAME light-map-pi HEADER radiosity/light_map.hpp TEST light_map
+    FROM "diffuse_albedo(m) * std::numbers::inv_pi * irradiance"
+    TO   "diffuse_albedo(m) * irradiance"
     CASES "light_map: what a ray finds")
 
 # A wall shows its front's light on its back.
-ljus_break_it(NAME light-map-side HEADER render/light_map.hpp TEST light_map
+ljus_break_it(NAME light-map-side HEADER radiosity/light_map.hpp TEST light_map
     FROM "view.grid_of[hit->object.type][hit->object.index][back];"
     TO   "view.grid_of[hit->object.type][hit->object.index][0];"
     CASES "light_map: what a ray finds")
 
 # A file that was cut short or damaged is taken for a light map.
-ljus_break_it(NAME light-map-checksum HEADER render/light_map_file.hpp TEST light_map
+ljus_break_it(NAME light-map-checksum HEADER io/light_map_file.hpp TEST light_map
     FROM "checksum != detail::map_checksum(bytes)"
     TO   "false"
     CASES "light_map: a file cut short*")

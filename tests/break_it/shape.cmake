@@ -1,7 +1,7 @@
 # The place of the centre rounds the way from it.
 ljus_break_it(NAME shape-far-sphere HEADER geometry/shape.hpp TEST shape
     FROM "(ray.origin - sphere.center) + hit.t * ray.direction"
-    TO   "at(ray, hit.t) - sphere.center"
+    TO   "point_at(ray, hit.t) - sphere.center"
     CASES "shape: a hit point of a sphere*")
 
 ljus_break_it(NAME shape-grain HEADER geometry/shape.hpp TEST shape

@@ -1,12 +1,12 @@
 # Only the first class is told where a path begins.
-ljus_break_it(NAME class-means-begin HEADER render/class_means.hpp TEST side_by_side
+ljus_break_it(NAME class-means-begin HEADER inspect/class_means.hpp TEST side_by_side
     FROM "for (auto& log : logs) log.begin();"
     TO   "if (!logs.empty()) logs.front().begin();"
     CASES "side_by_side: classes*")
 
 # The mean over pixels instead of over rays: a picture with four rays is four times bright.
-ljus_break_it(NAME class-means-rays HEADER render/class_means.hpp TEST side_by_side
-    FROM "double(picture.width) * picture.height * picture.rays;"
+ljus_break_it(NAME class-means-rays HEADER inspect/class_means.hpp TEST side_by_side
+    FROM "double(picture.width) * picture.height * picture.samples;"
     TO   "double(picture.width) * picture.height;"
     CASES "side_by_side: classes*")
 

@@ -1,11 +1,11 @@
 # The report's program: a square of cells, the remainder dropped.
-ljus_break_it(NAME stratified-remainder HEADER scene/stratified.hpp TEST stratified
+ljus_break_it(NAME stratified-remainder HEADER math/sampling_pattern.hpp TEST stratified
     FROM "if (rays % i == 0) columns = i;"
     TO   "columns = i;"
-    CASES "stratified: rooks stand*")
+    CASES "stratified: n_rooks stand*")
 
 # The scramble alone favours some places.
-ljus_break_it(NAME stratified-step HEADER scene/stratified.hpp TEST stratified
+ljus_break_it(NAME stratified-step HEADER math/sampling_pattern.hpp TEST stratified
     FROM "(i + step) % count"
     TO   "i"
     CASES "stratified: over the keys*")

@@ -1,17 +1,17 @@
 # An image upside down.
-ljus_break_it(NAME texture-upside-down HEADER materials/texture.hpp TEST texture
+ljus_break_it(NAME texture-upside-down HEADER image/texture.hpp TEST texture
     FROM "(T(1) - repeat(uv.y)) * T(image.height)"
     TO   "repeat(uv.y) * T(image.height)"
     CASES "texture: an image*")
 
 # Pixels by their corners in place of their middles.
-ljus_break_it(NAME texture-half-pixel HEADER materials/texture.hpp TEST texture
+ljus_break_it(NAME texture-half-pixel HEADER image/texture.hpp TEST texture
     FROM "const T x = repeat(uv.x) * T(image.width) - T(0.5);"
     TO   "const T x = repeat(uv.x) * T(image.width);"
     CASES "texture: an image*")
 
 # Rounded towards zero: the fields around the origin are twice as wide.
-ljus_break_it(NAME texture-towards-zero HEADER materials/texture.hpp TEST texture
+ljus_break_it(NAME texture-towards-zero HEADER image/texture.hpp TEST texture
     FROM "std::floor(uv.x * T(checker.columns))"
     TO   "std::trunc(uv.x * T(checker.columns))"
     CASES "texture: a chessboard*")
@@ -26,6 +26,6 @@ ljus_break_it(NAME textured-product HEADER materials/textured.hpp TEST texture
 
 # The hook forgotten: every place looks like the base.
 ljus_break_it(NAME textured-hook HEADER scene/query.hpp TEST texture
-    FROM "if constexpr (Bsdf<std::remove_cvref_t<Here>>)"
-    TO   "if constexpr (!Bsdf<std::remove_cvref_t<Here>>)"
+    FROM "if constexpr (Material<std::remove_cvref_t<Here>>)"
+    TO   "if constexpr (!Material<std::remove_cvref_t<Here>>)"
     CASES "texture: in a white furnace*")

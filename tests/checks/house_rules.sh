@@ -6,22 +6,28 @@ include=${1:-$include}
 problems=0
 problem() { echo "$*"; problems=$((problems + 1)); }
 
-# Includes point one way only: math < image, parallel < geometry < ... < render.
+# Includes point one way only: a header may name what stands below its own floor, and its
+# own room. Rooms on one floor do not know each other.
 floor() {
     case $1 in
         ljus/version.hpp | ljus/progress.hpp) echo 0 ;;
         ljus/math/*) echo 1 ;;
         ljus/image/* | ljus/parallel.hpp) echo 2 ;;
         ljus/geometry/*) echo 3 ;;
-        ljus/optics/*) echo 4 ;;
+        ljus/accel/* | ljus/optics/*) echo 4 ;;
         ljus/materials/*) echo 5 ;;
         ljus/scene/*) echo 6 ;;
-        ljus/photons/*) echo 7 ;;
-        ljus/render/*) echo 8 ;;
-        ljus/ljus.hpp) echo 9 ;;
+        ljus/path/*) echo 7 ;;
+        ljus/photons/* | ljus/radiosity/*) echo 8 ;;
+        ljus/render/*) echo 9 ;;
+        ljus/inspect/* | ljus/scenes/* | ljus/io/*) echo 10 ;;
+        ljus/ljus.hpp) echo 11 ;;
         *) echo none ;;
     esac
 }
+
+# The room of a header: its folder; machinery in detail/ belongs to the room around it.
+room() { local folder=${1%/*}; echo "${folder%/detail}"; }
 
 # nothing PATTERN SENTENCE: no line of $code, the header without comments, may match.
 nothing() {
@@ -78,7 +84,7 @@ for name in $(cd "$include" && find ljus -type f | sort); do
         fi
         there=$(floor "$used")
         if [ "$there" -gt "$here" ] ||
-            { [ "$there" -eq "$here" ] && [ "${used%/*}" != "${name%/*}" ]; }; then
+            { [ "$there" -eq "$here" ] && [ "$(room "$used")" != "$(room "$name")" ]; }; then
             problem "$name: it includes \"$used\"; includes point one way only."
         fi
         # Only an optional header may include an optional one.

@@ -15,7 +15,7 @@
 
 #include <doctest/doctest.h>
 
-#include "ljus/materials/bsdf.hpp"
+#include "ljus/materials/material.hpp"
 #include "support/draws.hpp"
 #include "support/statistics.hpp"
 
@@ -23,7 +23,7 @@ namespace ljus_test {
 
 /// The share of light from everywhere that the parts with an f send to `wo`, by the
 /// midpoint rule in sin^2(theta) and phi: exact for a constant f.
-template <ljus::Bsdf M>
+template <ljus::Material M>
 ljus::RgbT<double> albedo_by_quadrature(const M& m,
                                         const ljus::Vec3T<typename M::Scalar>& wo,
                                         int n = 400) {
@@ -46,7 +46,7 @@ ljus::RgbT<double> albedo_by_quadrature(const M& m,
 
 /// The share that the deltas send to `wo`: the mean of their weights over a grid of u.z,
 /// which alone decides. Within a few 1/steps.
-template <ljus::Bsdf M>
+template <ljus::Material M>
 ljus::RgbT<double> specular_albedo(const M& m,
                                    const ljus::Vec3T<typename M::Scalar>& wo,
                                    ljus::Transport transport, int steps = 20000) {
@@ -61,7 +61,7 @@ ljus::RgbT<double> specular_albedo(const M& m,
 }
 
 /// Helmholtz: f does not change when its directions are exchanged.
-template <ljus::Bsdf M>
+template <ljus::Material M>
 void check_reciprocity(const M& m, double roundoffs = 4) {
     using T = typename M::Scalar;
     Draws draws{17};
@@ -80,7 +80,7 @@ void check_reciprocity(const M& m, double roundoffs = 4) {
 /// For one wo: sample() and pdf() tell the same story under `which` (chi-square, false
 /// alarm 3 in 10 million for each call), weight = f |cos|/pdf, directions are unit
 /// vectors, and no lobe appears that was not asked for.
-template <ljus::Bsdf M>
+template <ljus::Material M>
 void check_sampling(const M& m, const ljus::Vec3T<typename M::Scalar>& wo,
                     ljus::Lobes which = ljus::Lobes::all, std::uint64_t seed = 1) {
     using T = typename M::Scalar;
@@ -142,7 +142,7 @@ void check_sampling(const M& m, const ljus::Vec3T<typename M::Scalar>& wo,
 
 /// At every corner of the unit cube and for steep, flat and grazing wo: no NaN, no
 /// infinity, no negative number, unit vectors only, and nothing for wo on the surface.
-template <ljus::Bsdf M>
+template <ljus::Material M>
 void check_extremes(const M& m, double most_weight) {
     using T = typename M::Scalar;
     const T last = std::nextafter(T(1), T(0)), tiny = std::numeric_limits<T>::min();
@@ -184,7 +184,7 @@ void check_extremes(const M& m, double most_weight) {
 }
 
 /// The sentence with which check() refuses a material; empty if it does not.
-template <ljus::Bsdf M>
+template <ljus::Material M>
 std::string refusal(const M& m) {
     try {
         check(m);

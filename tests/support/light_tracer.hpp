@@ -91,7 +91,7 @@ ljus::ImageT<double> trace_light(const Scene& scene, const ljus::CameraT<T>& cam
                 *light.object, [&](const auto& shape) { return double(area(shape)); });
             if (scene.object(*light.object).inside_out) point.normal = -point.normal;
             flux = pi * size * share * glm::dvec3(light.emission);
-            ray = ray_from(point, direction_around(point.normal, true));
+            ray = spawn_ray(point, direction_around(point.normal, true));
         } else {
             flux = 4 * pi * share * glm::dvec3(light.emission);
             ray = {.origin = light.position,
@@ -125,7 +125,7 @@ ljus::ImageT<double> trace_light(const Scene& scene, const ljus::CameraT<T>& cam
                 const glm::dvec3 f(evaluate(material, to_camera, from));
                 if (on_film && f != glm::dvec3(0)) {
                     const SurfacePointT<T> pinhole{.position = camera.position};
-                    const Vec3T<T> start = leave(at.point, Vec3T<T>(way));
+                    const Vec3T<T> start = offset_ray_origin(at.point, Vec3T<T>(way));
                     const RayT<T> shadow{.origin = start,
                                          .direction = pinhole.position - start,
                                          .t_max = T(1)};
@@ -140,7 +140,7 @@ ljus::ImageT<double> trace_light(const Scene& scene, const ljus::CameraT<T>& cam
                 if (from.z * next->wi.z < T(0))
                     medium = next->wi.z < T(0) ? RgbT<T>(absorption(material))
                                                : RgbT<T>{T(0)};
-                ray = ray_from(at.point, to_world(at.frame, next->wi));
+                ray = spawn_ray(at.point, to_world(at.frame, next->wi));
                 goes_on = true;
             });
             if (!goes_on) break;

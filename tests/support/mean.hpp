@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "ljus/math/random.hpp"
-#include "ljus/render/counts.hpp"
+#include "ljus/path/counts.hpp"
 
 namespace ljus_test {
 

@@ -5,7 +5,7 @@
 
 #include <tuple>
 
-#include "ljus/geometry/mesh.hpp"
+#include "ljus/accel/mesh.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
@@ -38,14 +38,14 @@ inline Mean flux_by_photons(const MeshRoom& room, int photons, std::uint64_t see
     using namespace ljus;
     Mean mean;
     const LightChoice choice = light_choice(room.lights);
-    const PhotonPass pass{.max_bounces = 100, .shadow_photons = false};
+    const PhotonPassSettings pass{.max_bounces = 100, .shadow_photons = false};
     for (int i = 0; i < photons; ++i) {
         auto stream = random_stream(seed, Pass::general_photons, 0,
                                     static_cast<std::uint64_t>(i));
         std::vector<Photon> marks;
         FluxAudit audit;
         // The general law leaves out what only mirrors and glass have sent there.
-        for (const PhotonLaw law : {PhotonLaw::general, PhotonLaw::caustics})
+        for (const MapType law : {MapType::general, MapType::caustics})
             trace(room, law, emit(room, choice, stream), std::nullopt, pass, stream,
                   marks, audit);
         double sum = 0;

@@ -10,7 +10,7 @@
 
 #include <doctest/doctest.h>
 
-#include "ljus/photons/neighbor.hpp"
+#include "ljus/accel/neighbor.hpp"
 #include "support/photon_samples.hpp"
 
 namespace photon_test {

@@ -30,13 +30,14 @@ using Box = BoxT<float>; ///< BoxT in float.
 
 /// The box around two boxes.
 template <std::floating_point T>
-[[nodiscard]] constexpr BoxT<T> join(const BoxT<T>& a, const BoxT<T>& b) noexcept {
+[[nodiscard]] constexpr BoxT<T> box_union(const BoxT<T>& a, const BoxT<T>& b) noexcept {
     return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
 }
 
 /// The box around a box and a point.
 template <std::floating_point T>
-[[nodiscard]] constexpr BoxT<T> join(const BoxT<T>& a, const Vec3T<T>& point) noexcept {
+[[nodiscard]] constexpr BoxT<T> box_union(const BoxT<T>& a,
+                                          const Vec3T<T>& point) noexcept {
     return {glm::min(a.low, point), glm::max(a.high, point)};
 }
 // [box]
@@ -62,7 +63,7 @@ template <std::floating_point T>
 [[nodiscard]] BoxT<T> bounds(const QuadT<T>& quad) noexcept {
     BoxT<T> box{quad.corner, quad.corner};
     for (const Vec3T<T>& way : {quad.edge_u, quad.edge_v, quad.edge_u + quad.edge_v})
-        box = join(box, quad.corner + way);
+        box = box_union(box, quad.corner + way);
     const Vec3T<T> size =
         rounding_bound<T>(4) *
             (sizes(quad.corner) + sizes(quad.edge_u) + sizes(quad.edge_v)) +

@@ -8,9 +8,9 @@
 #include <limits>
 #include <optional>
 
-#include "ljus/geometry/field_on_ray.hpp"
+#include "ljus/geometry/detail/field_on_ray.hpp"
 #include "ljus/geometry/sphere.hpp"
-#include "ljus/geometry/surface.hpp"
+#include "ljus/geometry/surface_point.hpp"
 #include "ljus/geometry/triangle.hpp"
 #include "ljus/math/require.hpp"
 
@@ -41,14 +41,14 @@ using Isosurface = IsosurfaceT<float, Field>; ///< IsosurfaceT in float.
 /// The field of an isosurface on a ray; its range comes from the Lipschitz bound.
 template <LipschitzField Field>
 struct LipschitzLine {
-    const Field& field; ///< The field.
-    RayT<double> ray{}; ///< The ray.
-    double length = 0;  ///< Of its direction.
-    double enter = 0;   ///< Where it comes into the bounds.
-    double leave = 0;   ///< Where it goes out of them.
+    const Field& field;           ///< The field.
+    RayT<double> ray{};           ///< The ray.
+    double length = 0;            ///< Of its direction.
+    double enter = 0;             ///< Where it comes into the bounds.
+    double offset_ray_origin = 0; ///< Where it goes out of them.
 
     /// f(O + tD).
-    [[nodiscard]] double value(double t) const { return field.value(at(ray, t)); }
+    [[nodiscard]] double value(double t) const { return field.value(point_at(ray, t)); }
     /// The largest |df/dt|.
     [[nodiscard]] double steepest() const { return field.lipschitz() * length; }
     /// All values in [a, b], and more.
@@ -72,7 +72,7 @@ template <typename Solver = SphereTracing, std::floating_point T, LipschitzField
     if (!inside) return std::nullopt;
     const RayT<double> wide{Vec3T<double>(ray.origin), Vec3T<double>(ray.direction)};
     const LipschitzLine<Field> line{surface.field, wide, glm::length(wide.direction),
-                                    inside->enter, inside->leave};
+                                    inside->enter, inside->offset_ray_origin};
     const auto t = first_meeting(solver, line, double(ray.t_min), double(ray.t_max));
     if (!t || !(*t <= std::numeric_limits<T>::max())) return std::nullopt;
     return static_cast<T>(*t);

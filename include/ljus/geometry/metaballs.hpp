@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
+#include "ljus/geometry/detail/metaball_quartic.hpp"
 #include "ljus/geometry/isosurface.hpp"
-#include "ljus/geometry/metaball_quartic.hpp"
 #include "ljus/math/require.hpp"
 
 namespace ljus {
@@ -84,7 +84,7 @@ template <std::floating_point T>
 /// The distance at which a ray first meets metaballs, from outside or from within.
 ///
 /// \tparam Solver  QuarticPieces, the default, for it was the fastest and the most
-///                 exact of chapter 7's four; or Bisection, SphereTracing, Radicals.
+///                 exact of chapter 9's four; or Bisection, SphereTracing, Radicals.
 /// \param ray      Hits count within its [t_min, t_max].
 /// \param balls    The metaballs.
 /// \param solver   The limits of the solver.

@@ -151,7 +151,7 @@ template <typename S>
     const Vec3T<T> rounding =
         rounding_bound<T>(4) *
         (glm::max(glm::abs(first.low), glm::abs(first.high)) + glm::abs(moving.way));
-    const BoxT<T> both = join(first, last);
+    const BoxT<T> both = box_union(first, last);
     return BoxT<T>{both.low - rounding, both.high + rounding};
 }
 // [bounds]

@@ -16,7 +16,7 @@ namespace ljus {
 /// The part of a line from `t_min` to `t_max`.
 ///
 /// The report allows every t >= 0, so that a ray which leaves a surface may hit that
-/// surface again at t = 0: see leave() for the origin that avoids it.
+/// surface again at t = 0: see offset_ray_origin() for the origin that avoids it.
 /// A NaN or an infinity in a ray, a direction of zero, a t_min beyond t_max: such a ray
 /// meets nothing.
 /// \report{Definition 3.1}
@@ -38,7 +38,7 @@ using Ray = RayT<float>; ///< RayT in float.
 /// \report{Definition 3.1}
 // [at]
 template <std::floating_point T>
-[[nodiscard]] constexpr Vec3T<T> at(const RayT<T>& ray, T t) noexcept {
+[[nodiscard]] constexpr Vec3T<T> point_at(const RayT<T>& ray, T t) noexcept {
     return ray.origin + t * ray.direction;
 }
 // [at]

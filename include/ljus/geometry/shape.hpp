@@ -47,8 +47,7 @@ template <std::floating_point T>
     const Vec3T<T> n{glm::normalize(way)};
     const Vec3T<T> offset = sphere.radius * n;
     return {.position = sphere.center + offset,
-            .error =
-                rounding_bound<T>(5) * (sizes(sphere.center) + sizes(offset)),
+            .error = rounding_bound<T>(5) * (sizes(sphere.center) + sizes(offset)),
             .normal = n};
 }
 // [surface_point]

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "ljus/geometry/ray.hpp"
-#include "ljus/geometry/surface.hpp"
+#include "ljus/geometry/surface_point.hpp"
 
 namespace ljus {
 

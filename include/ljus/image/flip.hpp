@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "ljus/image/flip_color.hpp"
-#include "ljus/image/flip_filter.hpp"
+#include "ljus/image/detail/flip_color.hpp"
+#include "ljus/image/detail/flip_filter.hpp"
 #include "ljus/math/require.hpp"
 #include "ljus/math/sum.hpp"
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ljus/materials/eon_lobe.hpp"
-#include "ljus/materials/light_again.hpp"
-#include "ljus/materials/rough_matt.hpp"
+#include "ljus/materials/detail/eon_lobe.hpp"
+#include "ljus/materials/detail/multiple_scattering.hpp"
+#include "ljus/materials/rough_diffuse.hpp"
 
 namespace ljus {
 
@@ -79,7 +79,7 @@ template <std::floating_point T>
     };
     const T both = ar * loss(wo) * loss(wi) / eon_mean_loss<T>;
     return surface.albedo * rough_fon(r, wo, wi) +
-           both * light_again(surface.albedo, ar * eon_mean_loss<T>);
+           both * multiple_scattering(surface.albedo, ar * eon_mean_loss<T>);
 }
 // [eon]
 
@@ -94,7 +94,7 @@ template <std::floating_point T>
     const T ar = r / (T(1) + fon_constant<T> * r);
     const T loss = ar * eon_loss(std::hypot(wo.x, wo.y), std::abs(wo.z));
     return surface.albedo * (T(1) - loss) +
-           light_again(surface.albedo, ar * eon_mean_loss<T>) * loss;
+           multiple_scattering(surface.albedo, ar * eon_mean_loss<T>) * loss;
 }
 
 /// What there is: a diffuse part, even if it is black.
@@ -137,7 +137,7 @@ template <std::floating_point T>
 /// \param which    The parts to sample from.
 /// \return The sample; nothing if `wo` lies on the surface, if the albedo is black, or
 ///         without Lobes::diffuse.
-/// \cost About three times a cosine-weighted direction's; see chapter 12 for what it
+/// \cost About three times a cosine-weighted direction's; see chapter 14 for what it
 ///       saves.
 /// \cite eon2025
 // [eon sample]

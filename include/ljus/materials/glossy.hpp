@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "ljus/materials/bsdf.hpp"
+#include "ljus/materials/material.hpp"
 #include "ljus/math/require.hpp"
 #include "ljus/optics/conductor.hpp"
 #include "ljus/optics/microfacet.hpp"
@@ -41,7 +41,7 @@ template <std::floating_point T>
 /// The least roughness besides 0: below it a float's rounding of a direction is not
 /// small beside alpha.
 template <std::floating_point T>
-inline constexpr T least_roughness = T(0.01);
+inline constexpr T min_roughness = T(0.01);
 
 /// A surface of small mirrors, on both sides. Light that hits a second facet is lost:
 /// of white, at roughness 1, more than half.
@@ -49,9 +49,9 @@ inline constexpr T least_roughness = T(0.01);
 ///                index.
 template <std::floating_point T, typename Facet = RgbT<T>>
 struct GlossyT {
-    using Scalar = T;                            ///< The precision of its numbers.
-    static constexpr bool blurred_mirror = true; ///< See BlurredMirror.
-    Facet reflectance{};                         ///< Of a facet.
+    using Scalar = T;                         ///< The precision of its numbers.
+    static constexpr bool glossy_lobe = true; ///< See Glossy_.
+    Facet reflectance{};                      ///< Of a facet.
     T roughness = T(0.3); ///< alpha = roughness^2; 0, a mirror, or in [0.01, 1].
 };
 using Glossy = GlossyT<float>;                             ///< Of a colour, in float.
@@ -69,7 +69,7 @@ template <std::floating_point T, typename F>
 /// \f[ f = \frac{F(w_o \cdot h)\, D(h)\, G_2(w_o, w_i)}{4\, w_{o,z}\, w_{i,z}}
 ///       = \frac{F\, D}{2\,(w_{i,z}\, r(w_o) + w_{o,z}\, r(w_i))} \f]
 ///
-/// with ggx_normals() and ggx_root().
+/// with ggx_distribution() and ggx_lambda().
 /// \param gloss  The surface.
 /// \param wo     Towards where the light goes.
 /// \param wi     Towards where it comes from.
@@ -85,11 +85,11 @@ template <std::floating_point T, typename F>
     const T alpha = gloss.roughness * gloss.roughness;
     const Vec3T<T> out{wo.x, wo.y, std::abs(wo.z)};
     const Vec3T<T> in{wi.x, wi.y, std::abs(wi.z)};
-    const Vec3T<T> h = middle_of(out, in);
+    const Vec3T<T> h = half_vector(out, in);
     const T cos_facet = std::min(glm::dot(out, h), T(1));
-    const T r_out = ggx_root(alpha, out), r_in = ggx_root(alpha, in);
+    const T r_out = ggx_lambda(alpha, out), r_in = ggx_lambda(alpha, in);
     const T shadowed = out.z * r_in + in.z * r_out;
-    const T f = ggx_normals(alpha, h) / (T(2) * shadowed);
+    const T f = ggx_distribution(alpha, h) / (T(2) * shadowed);
     if (!(f <= std::numeric_limits<T>::max())) return RgbT<T>{T(0)};
     return f * facet_reflectance(gloss.reflectance, cos_facet);
 }
@@ -112,8 +112,8 @@ template <std::floating_point T, typename F>
     const T alpha = gloss.roughness * gloss.roughness;
     const Vec3T<T> out{wo.x, wo.y, std::abs(wo.z)};
     const Vec3T<T> in{wi.x, wi.y, std::abs(wi.z)};
-    return ggx_normals(alpha, middle_of(out, in)) /
-           (T(2) * (out.z + ggx_root(alpha, out)));
+    return ggx_distribution(alpha, half_vector(out, in)) /
+           (T(2) * (out.z + ggx_lambda(alpha, out)));
 }
 // [glossy pdf]
 
@@ -142,9 +142,10 @@ sample(const GlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& u,
     const Vec3T<T> h = sample_visible_normal(alpha, out, Vec2T<T>{u.x, u.y});
     Vec3T<T> in = glm::normalize(reflect(-out, h));
     if (!(in.z > T(0))) return std::nullopt; // into the surface: lost
-    const T r_out = ggx_root(alpha, out);
-    const T g2_over_g1 = (out.z + r_out) / (r_out + out.z / in.z * ggx_root(alpha, in));
-    const T cos_facet = std::min(glm::dot(out, middle_of(out, in)), T(1));
+    const T r_out = ggx_lambda(alpha, out);
+    const T g2_over_g1 =
+        (out.z + r_out) / (r_out + out.z / in.z * ggx_lambda(alpha, in));
+    const T cos_facet = std::min(glm::dot(out, half_vector(out, in)), T(1));
     in.z = std::copysign(in.z, wo.z);
     const RgbT<T> weight = g2_over_g1 * facet_reflectance(gloss.reflectance, cos_facet);
     if (is_black(weight)) return std::nullopt;
@@ -162,7 +163,7 @@ void check(const GlossyT<T, F>& gloss) {
     else
         require_conductor("glossy.reflectance", gloss.reflectance);
     const T r = gloss.roughness;
-    require(r == T(0) || (r >= least_roughness<T> && r <= T(1)), "glossy.roughness", r,
+    require(r == T(0) || (r >= min_roughness<T> && r <= T(1)), "glossy.roughness", r,
             "0, which is a mirror, or within [0.01, 1]");
 }
 

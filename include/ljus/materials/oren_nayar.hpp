@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "ljus/materials/cosine_lobe.hpp"
+#include "ljus/materials/detail/cosine_lobe.hpp"
 #include "ljus/math/require.hpp"
 
 namespace ljus {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "ljus/materials/bsdf.hpp"
+#include "ljus/materials/material.hpp"
 #include "ljus/optics/film_table.hpp"
 #include "ljus/optics/reflection.hpp"
 
@@ -16,7 +16,7 @@ namespace ljus {
 ///
 /// The film is a *thin sheet*: light that it does not reflect goes straight on, through
 /// both surfaces at once. That is no scattering but visibility; so sample() knows the
-/// reflection only, and straight() says how much is left; see thin_sheets.
+/// reflection only, and pass_through() says how much is left; see thin_surfaces.
 /// \{
 
 /// Where the colours come from.
@@ -45,7 +45,7 @@ using SoapFilm = SoapFilmT<float>; ///< SoapFilmT in float.
 
 /// How thick a film can be here, in nm: 1 mm.
 template <std::floating_point T>
-inline constexpr T thickest_film = T(1e6);
+inline constexpr T max_film_thickness = T(1e6);
 
 /// How thick a film is at a point.
 /// \param film      The film.
@@ -59,7 +59,7 @@ template <std::floating_point T>
     const T height = glm::dot(position - film.level, film.up);
     const T thickness = film.thickness * std::exp(-height / film.scale);
     // So that 0 times infinity, far below a film of no thickness, is thick.
-    return thickness < thickest_film<T> ? thickness : thickest_film<T>;
+    return thickness < max_film_thickness<T> ? thickness : max_film_thickness<T>;
 }
 // [thickness_at]
 
@@ -107,16 +107,16 @@ template <std::floating_point T>
 /// \param position  Where.
 /// \param wo        Towards where the light goes.
 /// \return T = 1 - R for each channel.
-// [straight]
+// [pass_through]
 template <std::floating_point T>
-[[nodiscard]] RgbT<T> straight(const SoapFilmT<T>& film, const Vec3T<T>& position,
-                               const Vec3T<T>& wo) noexcept {
+[[nodiscard]] RgbT<T> pass_through(const SoapFilmT<T>& film, const Vec3T<T>& position,
+                                   const Vec3T<T>& wo) noexcept {
     return RgbT<T>{T(1)} - reflectance(film, wo.z, thickness_at(film, position));
 }
-// [straight]
+// [pass_through]
 
 /// The mirror direction, with the film's colour there as weight. What goes straight on
-/// is not sampled; see straight().
+/// is not sampled; see pass_through().
 /// \param point  A point of a film.
 /// \param wo     Towards where the light goes.
 /// \param which  The parts to sample from.
@@ -146,7 +146,7 @@ sample(const SoapFilmT<T>& film, const Vec3T<T>& wo, const Vec3T<T>& u,
 /// \throws std::invalid_argument naming the member.
 template <std::floating_point T>
 void check(const SoapFilmT<T>& film) {
-    require(film.thickness >= T(0) && film.thickness <= thickest_film<T>,
+    require(film.thickness >= T(0) && film.thickness <= max_film_thickness<T>,
             "soap_film.thickness", film.thickness, "within [0, 1e6] nm");
     require_index("soap_film.index", film.index);
     require(film.index >= T(1), "soap_film.index", film.index, "at least 1");

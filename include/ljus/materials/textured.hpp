@@ -3,8 +3,8 @@
 /// \file ljus/materials/textured.hpp
 /// \brief Any material with a colour, its colour from a texture.
 
-#include "ljus/materials/bsdf.hpp"
-#include "ljus/materials/texture.hpp"
+#include "ljus/image/texture.hpp"
+#include "ljus/materials/material.hpp"
 
 namespace ljus {
 
@@ -17,7 +17,7 @@ namespace ljus {
 /// \{
 
 /// A material whose colour is multiplied by a texture's.
-template <Bsdf Base, typename Texture>
+template <Material Base, typename Texture>
 struct Textured {
     using Scalar = typename Base::Scalar; ///< The precision of its numbers.
     Base base{};       ///< White, if the texture's colour shall stay.
@@ -28,7 +28,7 @@ struct Textured {
 /// \param base   The material.
 /// \param color  What its colour is multiplied by.
 /// \return The same material in the new colour.
-template <Bsdf Base>
+template <Material Base>
 [[nodiscard]] constexpr Base
 colored(Base base, const RgbT<typename Base::Scalar>& color) noexcept {
     if constexpr (requires { base.albedo *= color; })
@@ -62,10 +62,10 @@ template <typename Base, typename Texture, std::floating_point T>
 /// \param wo        Towards where the light goes.
 /// \return Of each channel, what the base lets through there.
 template <typename Base, typename Texture, std::floating_point T>
-[[nodiscard]] auto straight(const Textured<Base, Texture>& textured,
-                            const Vec3T<T>& position, const Vec3T<T>& wo) noexcept
-    -> decltype(straight(textured.base, position, wo)) {
-    return straight(at_point(textured, position), position, wo);
+[[nodiscard]] auto pass_through(const Textured<Base, Texture>& textured,
+                                const Vec3T<T>& position, const Vec3T<T>& wo) noexcept
+    -> decltype(pass_through(textured.base, position, wo)) {
+    return pass_through(at_point(textured, position), position, wo);
 }
 
 /// \name What the base says

@@ -109,7 +109,7 @@ inline constexpr SobolTable sobol_table = make_sobol_table();
 // [owen]
 [[nodiscard]] constexpr std::uint32_t owen_scrambled(std::uint32_t bits,
                                                      std::uint64_t seed) noexcept {
-    const std::uint64_t key = mix(seed);
+    const std::uint64_t key = mix_bits(seed);
     std::uint32_t x = reversed_bits(bits);
     x ^= x * 0x3d20adeau; // an even factor keeps this invertible
     x += static_cast<std::uint32_t>(key);

@@ -28,7 +28,7 @@ enum class Pass : std::uint32_t {
 /// \param x  Any number.
 /// \return The scrambled number.
 // [mix]
-[[nodiscard]] constexpr std::uint64_t mix(std::uint64_t x) noexcept {
+[[nodiscard]] constexpr std::uint64_t mix_bits(std::uint64_t x) noexcept {
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
     x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
     return x ^ (x >> 31);
@@ -52,8 +52,10 @@ struct RandomStream {
                                                    std::uint64_t iteration,
                                                    std::uint64_t path) noexcept {
     constexpr std::uint64_t odd = 0x9e3779b97f4a7c15u; // 2^64 over the golden ratio
-    const std::uint64_t work = mix(mix(seed + odd) + static_cast<std::uint64_t>(pass));
-    return {.key = mix(mix(work + odd * (iteration + 1)) ^ mix(path + odd))};
+    const std::uint64_t work =
+        mix_bits(mix_bits(seed + odd) + static_cast<std::uint64_t>(pass));
+    return {
+        .key = mix_bits(mix_bits(work + odd * (iteration + 1)) ^ mix_bits(path + odd))};
 }
 
 /// Moves a stream to the start of a bounce, whatever was drawn in the one before.
@@ -71,7 +73,7 @@ constexpr void start_bounce(RandomStream& stream, std::uint64_t bounce) noexcept
 template <std::floating_point T = float>
 [[nodiscard]] constexpr T next_1d(RandomStream& stream) noexcept {
     constexpr std::uint64_t odd = 0x9e3779b97f4a7c15u;
-    const std::uint64_t bits = mix(stream.key + odd * ++stream.counter);
+    const std::uint64_t bits = mix_bits(stream.key + odd * ++stream.counter);
     if constexpr (sizeof(T) == 4)
         return static_cast<T>(bits >> 40) * T(0x1p-24);
     else

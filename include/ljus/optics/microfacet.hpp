@@ -25,7 +25,7 @@ namespace ljus {
 /// \param wo, wi  With z > 0 both.
 /// \return Unit vector with z > 0.
 template <std::floating_point T>
-[[nodiscard]] Vec3T<T> middle_of(const Vec3T<T>& wo, const Vec3T<T>& wi) noexcept {
+[[nodiscard]] Vec3T<T> half_vector(const Vec3T<T>& wo, const Vec3T<T>& wi) noexcept {
     const Vec3T<T> sum = wo + wi;
     return glm::normalize(sum / max_component(glm::abs(sum)));
 }
@@ -41,7 +41,7 @@ template <std::floating_point T>
 /// \cite walter2007
 // [ggx]
 template <std::floating_point T>
-[[nodiscard]] T ggx_normals(T alpha, const Vec3T<T>& h) noexcept {
+[[nodiscard]] T ggx_distribution(T alpha, const Vec3T<T>& h) noexcept {
     const T x = h.x / alpha;
     const T y = h.y / alpha;
     const T size = alpha * (x * x + y * y + h.z * h.z);
@@ -65,7 +65,7 @@ template <std::floating_point T>
 /// \cost One square root.
 // [smith]
 template <std::floating_point T>
-[[nodiscard]] T ggx_root(T alpha, const Vec3T<T>& w) noexcept {
+[[nodiscard]] T ggx_lambda(T alpha, const Vec3T<T>& w) noexcept {
     return std::sqrt(w.z * w.z + alpha * alpha * (w.x * w.x + w.y * w.y));
 }
 // [smith]

@@ -218,7 +218,7 @@ aim(const Scene& scene, const LightChoice& choice, const std::vector<ObjectId>& 
     if (!(emitted > T(0))) return std::nullopt;
     flight.flux = light.flux * (emitted / (pdf * chosen.probability));
     flight.ray = light.object
-                     ? ray_from(point, direction)
+                     ? spawn_ray(point, direction)
                      : RayT<T>{.origin = point.position, .direction = direction};
     return AimedFlightT<T>{flight, aimed->target};
 }

@@ -69,7 +69,7 @@ template <typename Scene, std::floating_point T>
     if (light.object) {
         const SurfacePointT<T> point = light_point(scene, light, u_point);
         const FrameT<T> frame = frame_around(point.normal);
-        return ray_from(point, to_world(frame, sample_cosine_hemisphere(u_direction)));
+        return spawn_ray(point, to_world(frame, sample_cosine_hemisphere(u_direction)));
     }
     if (light.kind == LightKind::sun)
         return sun_ray(light, light.position, light.radius, u_point);

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "ljus/materials/lambertian.hpp"
-#include "ljus/photons/lane_estimate.hpp"
+#include "ljus/photons/detail/flux_in_disc.hpp"
 #include "ljus/scene/query.hpp"
 
 namespace ljus {
@@ -20,7 +20,7 @@ namespace ljus {
 /// was traced into them, not in what they are.
 template <std::floating_point T>
 struct PhotonMapT {
-    WideKdTreeT<T> tree;       ///< The positions.
+    KdTree8T<T> tree;          ///< The positions.
     PhotonRecordsT<T> records; ///< The rest, in the order of the tree.
 
     /// Whether there is nothing to be found.
@@ -30,7 +30,7 @@ using PhotonMap = PhotonMapT<float>; ///< PhotonMapT in float.
 
 /// Builds a map.
 /// \param photons  In any order, which it does not keep.
-/// \param threads  As in ParallelOptions.
+/// \param threads  As in ParallelSettings.
 /// \return The map, the same for any number of threads.
 /// \throws std::invalid_argument  if a position, a direction or a flux is not finite.
 template <std::floating_point T>
@@ -44,17 +44,17 @@ template <std::floating_point T>
         positions.push_back(photon.position);
     }
 
-    PhotonMapT<T> map{.tree = WideKdTreeT<T>(positions, threads), .records = {}};
+    PhotonMapT<T> map{.tree = KdTree8T<T>(positions, threads), .records = {}};
     positions = {};
     map.records = PhotonRecordsT<T>(photons, map.tree.order());
     return map;
 }
 
 /// The most photons that an estimate with the k nearest takes.
-inline constexpr std::size_t max_gathered = 512;
+inline constexpr std::size_t max_nearest = 512;
 
 /// How photons are gathered.
-struct Gather {
+struct DensityEstimateSettings {
     float radius = 0.1f;                  ///< In scene units, above 0.
     std::size_t nearest = 0;              ///< k within the radius; 0: all within it.
     Kernel kernel = Kernel::epanechnikov; ///< The weight by distance.
@@ -66,10 +66,10 @@ struct Gather {
 /// Refuses a way to gather that gives no estimate.
 /// \param gather  The settings.
 /// \throws std::invalid_argument  with name and value.
-inline void check(const Gather& gather) {
+inline void check(const DensityEstimateSettings& gather) {
     require_positive("gather.radius", gather.radius);
     require_positive("gather.thickness", gather.thickness);
-    require(gather.nearest != 1 && gather.nearest <= max_gathered, "gather.nearest",
+    require(gather.nearest != 1 && gather.nearest <= max_nearest, "gather.nearest",
             static_cast<long long>(gather.nearest),
             "0 for all within the radius, or 2 to 512 (one photon sets the radius)");
 }
@@ -78,7 +78,7 @@ inline void check(const Gather& gather) {
 /// radius is of a size whose square no float can hold.
 /// \param gather  How.
 template <typename Material>
-[[nodiscard]] constexpr bool in_lanes(const Gather& gather) noexcept {
+[[nodiscard]] constexpr bool in_lanes(const DensityEstimateSettings& gather) noexcept {
     return std::same_as<Material, LambertianT<typename Material::Scalar>> &&
            1e-15f < gather.radius && gather.radius < 1e15f;
 }
@@ -112,10 +112,11 @@ template <typename Material>
 ///          flux. There is no cosine: the flux that arrives on the surface holds it.}
 // [estimate]
 template <std::floating_point T, typename Material>
-[[nodiscard]] RgbT<T>
-estimate_radiance(const PhotonMapT<T>& map, const SurfaceT<T>& surface,
-                  const Material& material, const Vec3T<T>& wo, const Gather& gather,
-                  PhotonKinds kinds, std::uint64_t& gathered) {
+[[nodiscard]] RgbT<T> estimate_radiance(const PhotonMapT<T>& map,
+                                        const SurfaceT<T>& surface,
+                                        const Material& material, const Vec3T<T>& wo,
+                                        const DensityEstimateSettings& gather,
+                                        PhotonKinds kinds, std::uint64_t& gathered) {
     if (map.empty()) return RgbT<T>{T(0)};
     const Vec3T<T>& x = surface.point.position;
     double radius2 = double(gather.radius) * double(gather.radius);
@@ -156,7 +157,7 @@ estimate_radiance(const PhotonMapT<T>& map, const SurfaceT<T>& surface,
                                   if (counts(i)) add(i, distance2);
                               });
     } else {
-        std::array<Neighbor, max_gathered> room;
+        std::array<Neighbor, max_nearest> room;
         const std::span<Neighbor> found(room.data(), gather.nearest);
         const std::size_t count = map.tree.nearest(x, T(gather.radius), found, counts);
         const bool full = count == gather.nearest;

@@ -18,25 +18,25 @@ namespace ljus {
 /// \{
 
 /// What a photon does at a surface.
-enum class PhotonLaw : std::uint8_t {
+enum class MapType : std::uint8_t {
     general, ///< Any scattering; marks L D and L ... D ... D, not L S+ D.
     caustics ///< Mirrors and glass only; marks L S+ D.
 };
 
 /// Where the numbers of photons come from.
-enum class PhotonNumbers : std::uint8_t {
+enum class PhotonSampling : std::uint8_t {
     random, ///< Chance; see \ref random.
     sobol ///< Evenly spread, as long as the dimensions last; see \ref low_discrepancy.
 };
 
 /// How photons are made.
-struct PhotonPass {
+struct PhotonPassSettings {
     long long photons = 100000;  ///< How many are emitted; N of the estimate.
     std::uint64_t seed = 1;      ///< Of the random streams.
     std::uint64_t iteration = 0; ///< Which repetition of the pass.
     int max_bounces = 1000; ///< Surfaces a photon may meet; roulette ends it before.
     bool shadow_photons = true; ///< Whether the general map keeps them.
-    PhotonNumbers numbers = PhotonNumbers::random; ///< Chance, or better than chance.
+    PhotonSampling numbers = PhotonSampling::random; ///< Chance, or better than chance.
     double max_memory = 4e9;       ///< Bytes that the photons may take while traced.
     long long give_up = 1LL << 20; ///< Ends after so many paths if none was stored.
     int threads = 0;               ///< 0: all that there are.
@@ -46,7 +46,7 @@ struct PhotonPass {
 /// Refuses a pass that cannot be made.
 /// \param pass  The settings.
 /// \throws std::invalid_argument  with name and value.
-inline void check(const PhotonPass& pass) {
+inline void check(const PhotonPassSettings& pass) {
     require(pass.photons >= 0, "the number of photons", pass.photons, "at least 0");
     require(pass.max_bounces >= 1, "the largest number of bounces",
             static_cast<long long>(pass.max_bounces), "at least 1");
@@ -98,7 +98,7 @@ template <std::floating_point T>
 /// \param mean  Photons stored a path, as seen so far.
 /// \throws std::invalid_argument  with both numbers, in a sentence.
 template <std::floating_point T>
-void require_memory(const PhotonPass& pass, double mean) {
+void require_memory(const PhotonPassSettings& pass, double mean) {
     const double bytes = expected_bytes<T>(pass.photons, mean);
     if (bytes <= pass.max_memory) return;
     char text[256];
@@ -116,16 +116,16 @@ void require_memory(const PhotonPass& pass, double mean) {
 /// \param unsent  Those of them that no light could send.
 /// \param audit   Where their flux went.
 /// \return One sentence.
-[[nodiscard]] inline std::string why_nothing(const PhotonPass& pass, PhotonLaw law,
-                                             long long paths, long long unsent,
-                                             const FluxAudit& audit) {
+[[nodiscard]] inline std::string why_nothing(const PhotonPassSettings& pass,
+                                             MapType law, long long paths,
+                                             long long unsent, const FluxAudit& audit) {
     const auto sum = [](const RgbT<double>& flux) { return flux.x + flux.y + flux.z; };
     const double sent = 1 - static_cast<double>(unsent) / static_cast<double>(paths);
     const double all = sum(audit.emitted) > 0 ? sum(audit.emitted) : 1;
     const auto percent = [&](const RgbT<double>& flux) {
         return 100 * sent * sum(flux) / all;
     };
-    const bool caustics = law == PhotonLaw::caustics;
+    const bool caustics = law == MapType::caustics;
     char text[400];
     std::snprintf(text, sizeof text,
                   "gave up after %lld of %lld photons, none of which was stored: "

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "ljus/optics/absorption.hpp"
+#include "ljus/path/scatter.hpp"
+#include "ljus/path/thin_surfaces.hpp"
 #include "ljus/photons/emission.hpp"
 #include "ljus/photons/photon_pass.hpp"
 #include "ljus/scene/query.hpp"
-#include "ljus/scene/scatter.hpp"
-#include "ljus/scene/thin_sheets.hpp"
 
 namespace ljus {
 
@@ -67,7 +67,7 @@ template <std::floating_point T>
 template <typename Scene, std::floating_point T>
 void trace_shadow(const Scene& scene, const FlightT<T>& flight,
                   const SurfacePointT<T>& first, std::vector<PhotonT<T>>& out) {
-    RayT<T> ray = ray_from(first, flight.ray.direction);
+    RayT<T> ray = spawn_ray(first, flight.ray.direction);
     for (int surfaces = 0; surfaces < 1000; ++surfaces) {
         const auto hit = closest_hit(scene, ray);
         if (!hit) return;
@@ -80,7 +80,7 @@ void trace_shadow(const Scene& scene, const FlightT<T>& flight,
             out.push_back({surface.point.position, ray.direction, flight.flux,
                            flight.light, PhotonKind::shadow,
                            small_normal(surface.point.normal)});
-        ray = ray_from(surface.point, ray.direction);
+        ray = spawn_ray(surface.point, ray.direction);
     }
 }
 // [trace_shadow]
@@ -129,9 +129,9 @@ void absorb(TravellerT<T>& photon, T distance, const RgbT<T>& through,
 // [mark]
 template <std::floating_point T, typename Material>
 void mark(const TravellerT<T>& photon, const SurfaceT<T>& surface,
-          const Material& material, PhotonLaw law, std::vector<PhotonT<T>>& out) {
+          const Material& material, MapType law, std::vector<PhotonT<T>>& out) {
     const PhotonKind kind = kind_of(photon);
-    const bool caustics = law == PhotonLaw::caustics;
+    const bool caustics = law == MapType::caustics;
     const bool owned = (kind == PhotonKind::caustic) == caustics;
     if (!owned || !has(lobes(material), Lobes::diffuse)) return;
     const FlightT<T>& flight = photon.flight;
@@ -154,12 +154,12 @@ void mark(const TravellerT<T>& photon, const SurfaceT<T>& surface,
 // [send_on]
 template <std::floating_point T, typename Material, typename Stream>
 [[nodiscard]] bool send_on(TravellerT<T>& photon, const SurfaceT<T>& surface,
-                           const Material& material, PhotonLaw law, Stream& stream,
+                           const Material& material, MapType law, Stream& stream,
                            FluxAudit& audit) {
     FlightT<T>& flight = photon.flight;
     const Vec3T<T> wo = to_local(surface.frame, -flight.ray.direction);
     const Vec3T<T> u = next_3d<T>(stream);
-    const bool only_specular = law == PhotonLaw::caustics || surface.turned;
+    const bool only_specular = law == MapType::caustics || surface.turned;
     const auto next = scatter(surface, material, wo, u, Transport::flux,
                               only_specular ? Lobes::specular : Lobes::all);
     if (!next) {
@@ -175,7 +175,7 @@ template <std::floating_point T, typename Material, typename Stream>
     (scattered.specular ? photon.met_specular : photon.met_diffuse) = true;
     if (!same_side(wo, scattered.wi))
         photon.medium = scattered.wi.z < T(0) ? absorption(material) : RgbT<T>{};
-    flight.ray = ray_from(surface.point, next->wi);
+    flight.ray = spawn_ray(surface.point, next->wi);
     return true;
 }
 // [send_on]
@@ -194,9 +194,9 @@ template <std::floating_point T, typename Material, typename Stream>
 /// \param audit   Takes the flux.
 // [trace]
 template <typename Scene, std::floating_point T, typename Stream>
-void trace(const Scene& scene, PhotonLaw law, const FlightT<T>& flight,
-           std::optional<ObjectId> target, const PhotonPass& pass, Stream& stream,
-           std::vector<PhotonT<T>>& out, FluxAudit& audit) {
+void trace(const Scene& scene, MapType law, const FlightT<T>& flight,
+           std::optional<ObjectId> target, const PhotonPassSettings& pass,
+           Stream& stream, std::vector<PhotonT<T>>& out, FluxAudit& audit) {
     TravellerT<T> photon{.flight = flight};
     const auto add_to = [&](RgbT<double>& account) {
         account += RgbT<double>(photon.flight.flux);
@@ -217,7 +217,7 @@ void trace(const Scene& scene, PhotonLaw law, const FlightT<T>& flight,
             if (glm::dot(surface.frame.normal, ray.direction) > T(0))
                 photon.medium = scene.visit_material(
                     made_of, [](const auto& m) { return absorption(m); });
-            if (law == PhotonLaw::general && pass.shadow_photons)
+            if (law == MapType::general && pass.shadow_photons)
                 trace_shadow(scene, flight, surface.point, out);
         }
         absorb(photon, met->distance, met->through, audit);

@@ -10,7 +10,7 @@
 #include "ljus/parallel.hpp"
 #include "ljus/photons/aiming.hpp"
 #include "ljus/photons/photon_path.hpp"
-#include "ljus/scene/indexed_scene.hpp"
+#include "ljus/scene/index.hpp"
 
 namespace ljus {
 
@@ -28,20 +28,20 @@ namespace ljus {
 /// \param block    Takes the photons and the account.
 // [trace_block]
 template <typename Scene, std::floating_point T>
-void trace_block(const Scene& scene, PhotonLaw law, const LightChoice& choice,
-                 const std::vector<ObjectId>& targets, const PhotonPass& pass,
+void trace_block(const Scene& scene, MapType law, const LightChoice& choice,
+                 const std::vector<ObjectId>& targets, const PhotonPassSettings& pass,
                  const BlockRange& paths, PhotonBlockT<T>& block) {
     const Pass part =
-        law == PhotonLaw::caustics ? Pass::caustics_photons : Pass::general_photons;
+        law == MapType::caustics ? Pass::caustics_photons : Pass::general_photons;
     for (long long i = paths.first; i < paths.last; ++i) {
         const auto path = static_cast<std::uint64_t>(i);
         SobolStream stream =
-            pass.numbers == PhotonNumbers::sobol
+            pass.numbers == PhotonSampling::sobol
                 ? sobol_stream(pass.seed, part, pass.iteration, path)
                 : without_points(random_stream(pass.seed, part, pass.iteration, path));
         FlightT<T> flight;
         std::optional<ObjectId> target;
-        if (law == PhotonLaw::caustics) {
+        if (law == MapType::caustics) {
             const auto aimed = aim(scene, choice, targets, stream);
             if (!aimed) {
                 ++block.unsent;
@@ -63,7 +63,7 @@ void trace_block(const Scene& scene, PhotonLaw law, const LightChoice& choice,
 /// \param result  Takes the photons and the account.
 /// \return Paths that no light could send.
 template <std::floating_point T>
-long long join(std::vector<PhotonBlockT<T>>& blocks, TracedPhotonsT<T>& result) {
+long long join_blocks(std::vector<PhotonBlockT<T>>& blocks, TracedPhotonsT<T>& result) {
     std::size_t stored = 0;
     for (const PhotonBlockT<T>& block : blocks) stored += block.photons.size();
     result.photons.reserve(stored);
@@ -81,8 +81,8 @@ long long join(std::vector<PhotonBlockT<T>>& blocks, TracedPhotonsT<T>& result) 
 /// Emits and traces the photons of one map, by several threads.
 ///
 /// Some 2000 paths tell how many photons are stored in the mean; a pass that would need
-/// more than PhotonPass::max_memory is refused before it takes it. A pass of which
-/// nothing was stored in PhotonPass::give_up paths ends there, and says why.
+/// more than PhotonPassSettings::max_memory is refused before it takes it. A pass of which
+/// nothing was stored in PhotonPassSettings::give_up paths ends there, and says why.
 /// \param scene  The scene; with at least one light.
 /// \param law    For which map.
 /// \param pass   How many, and with which seed.
@@ -92,7 +92,7 @@ long long join(std::vector<PhotonBlockT<T>>& blocks, TracedPhotonsT<T>& result) 
 // [trace_photons]
 template <typename Scene>
 [[nodiscard]] TracedPhotonsT<typename Scene::Scalar>
-trace_photons(const Scene& scene, PhotonLaw law, const PhotonPass& pass) {
+trace_photons(const Scene& scene, MapType law, const PhotonPassSettings& pass) {
     using T = typename Scene::Scalar;
     check(pass);
     require(!scene.lights.empty(), "the number of lights", 0LL,
@@ -107,7 +107,7 @@ trace_photons(const Scene& scene, PhotonLaw law, const PhotonPass& pass) {
 
     const IndexedT<Scene> indexed(scene);
     TracedPhotonsT<T> result{.emitted = pass.photons};
-    const bool caustics = law == PhotonLaw::caustics;
+    const bool caustics = law == MapType::caustics;
     const auto targets = caustics ? specular_objects(scene) : std::vector<ObjectId>{};
     if (caustics && targets.empty()) return result;
 
@@ -138,7 +138,7 @@ trace_photons(const Scene& scene, PhotonLaw law, const PhotonPass& pass) {
         require_memory<T>(pass, double(stored) / double(std::max(result.emitted, 1LL)));
         if (nothing && result.emitted >= pass.give_up) break;
     }
-    const long long unsent = join(blocks, result);
+    const long long unsent = join_blocks(blocks, result);
     if (nothing && result.complete && result.emitted < pass.photons) {
         result.audit *= double(pass.photons) / double(result.emitted);
         result.remark = why_nothing(pass, law, result.emitted, unsent, result.audit);

@@ -3,10 +3,10 @@
 /// \file ljus/render/distributed.hpp
 /// \brief Distributed rays: one ray of each kind, sent somewhere else each time.
 
-#include "ljus/render/camera_path.hpp"
-#include "ljus/render/direct_light.hpp"
-#include "ljus/scene/shutter.hpp"
-#include "ljus/scene/stratified_stream.hpp"
+#include "ljus/math/stratified_stream.hpp"
+#include "ljus/path/camera_path.hpp"
+#include "ljus/path/direct_light.hpp"
+#include "ljus/path/shutter.hpp"
 
 namespace ljus {
 
@@ -20,7 +20,7 @@ namespace ljus {
 /// \{
 
 /// How rays are distributed.
-struct DistributedRays {
+struct DistributedSettings {
     int max_depth = 5; ///< Reflections and refractions in a row; 0 sends no ray on.
 };
 
@@ -29,11 +29,11 @@ template <typename Scene>
 struct DistributedTracer {
     using Stream = StratifiedStream; ///< What render() gives it to draw from.
     IndexedT<Scene> scene;           ///< What is rendered.
-    DistributedRays settings;        ///< How.
+    DistributedSettings settings;    ///< How.
 };
 
 /// Makes a tracer. How its rays are spread, over the pixel and all the rest, says
-/// Picture::sampling.
+/// RenderSettings::sampling.
 /// \param scene     Must outlive the tracer; a scene, which it indexes, or an
 ///                  IndexedScene.
 /// \param settings  The depth.
@@ -41,7 +41,7 @@ struct DistributedTracer {
 /// \throws std::invalid_argument  if the depth is negative.
 template <typename Scene>
 [[nodiscard]] DistributedTracer<Scene>
-make_distributed(const Scene& scene, const DistributedRays& settings = {}) {
+make_distributed(const Scene& scene, const DistributedSettings& settings = {}) {
     require(settings.max_depth >= 0, "max_depth",
             static_cast<long long>(settings.max_depth), "at least 0");
     return {IndexedT<Scene>(scene), settings};
@@ -65,7 +65,7 @@ template <typename Scene, std::floating_point T, typename Material, typename Str
     const auto whole = [](const LightSampleT<T>&, const Vec3T<T>&) { return T(1); };
     RgbT<T> sum{T(0)};
     for (const LightT<T>& light : scene.lights) {
-        if (BlurredMirror<Material> && light.object) continue;
+        if (Glossy_<Material> && light.object) continue;
         const Vec2T<T> u = light.object ? next_2d<T>(stream) : Vec2T<T>{T(0)};
         sum += direct_light(scene, light, at, material, u, whole, counts);
     }
@@ -107,11 +107,10 @@ template <typename Scene, std::floating_point T, typename Stream, typename Log =
             log.term(owner, letters, path.throughput * light);
             sum += path.throughput * light;
         };
-        if (at.shines()) add("emission", "L", at.surface.object.emission);
+        if (at.emits()) add("emission", "L", at.surface.object.emission);
 
         const auto at_material = [&](const auto& material) {
-            constexpr bool gloss =
-                BlurredMirror<std::remove_cvref_t<decltype(material)>>;
+            constexpr bool gloss = Glossy_<std::remove_cvref_t<decltype(material)>>;
             if (has(lobes(material), Lobes::diffuse))
                 add("shadow ray", "DL",
                     soft_light(scene, at, material, stream, counts));

@@ -3,10 +3,10 @@
 /// \file ljus/render/path_tracing.hpp
 /// \brief The rendering equation solved by random paths: the judge of all the others.
 
-#include "ljus/render/camera_path.hpp"
-#include "ljus/render/direct_light.hpp"
-#include "ljus/render/path_log.hpp"
-#include "ljus/scene/indexed_scene.hpp"
+#include "ljus/path/camera_path.hpp"
+#include "ljus/path/direct_light.hpp"
+#include "ljus/path/path_log.hpp"
+#include "ljus/scene/index.hpp"
 #include "ljus/scene/light_choice.hpp"
 
 namespace ljus {
@@ -16,18 +16,18 @@ namespace ljus {
 /// \{
 
 /// Whose a lamp's light is, where a shadow ray and the path itself can both find it.
-enum class LampShare : std::uint8_t {
+enum class MisHeuristic : std::uint8_t {
     balance,    ///< Each has a share, by its density: balance().
     power,      ///< Each has a share, by its density's square: power_heuristic().
     shadow_rays ///< The shadow ray's alone: next-event estimation as it was before.
 };
 
 /// How paths are traced.
-struct PathTracing {
+struct PathTracingSettings {
     int max_depth = 1000;      ///< Surfaces on a camera path; 1 is direct light only.
     int roulette_depth = 4;    ///< From this surface on, roulette may end a path.
     bool sample_lights = true; ///< False: paths must find the lights by themselves.
-    LampShare share = LampShare::balance; ///< If they need not: who is believed.
+    MisHeuristic share = MisHeuristic::balance; ///< If they need not: who is believed.
     double roulette_threshold = 1; ///< A path that carries less is in danger; 0: none.
     double roulette_most = 1;      ///< Above 0: the largest probability to survive.
 };
@@ -35,9 +35,9 @@ struct PathTracing {
 /// A scene, ready for path tracing. It refers to the scene, which must outlive it.
 template <typename Scene>
 struct PathTracer {
-    IndexedT<Scene> scene; ///< What is rendered.
-    PathTracing settings;  ///< How.
-    LightChoice lights;    ///< Its lights, by power.
+    IndexedT<Scene> scene;        ///< What is rendered.
+    PathTracingSettings settings; ///< How.
+    LightChoice lights;           ///< Its lights, by power.
 };
 
 /// Makes a path tracer.
@@ -47,8 +47,8 @@ struct PathTracer {
 /// \return The tracer.
 /// \throws std::invalid_argument  if a setting is out of range.
 template <typename Scene>
-[[nodiscard]] PathTracer<Scene> make_path_tracer(const Scene& scene,
-                                                 const PathTracing& settings = {}) {
+[[nodiscard]] PathTracer<Scene>
+make_path_tracer(const Scene& scene, const PathTracingSettings& settings = {}) {
     require(settings.max_depth >= 1, "max_depth",
             static_cast<long long>(settings.max_depth), "at least 1");
     require(settings.roulette_threshold >= 0, "roulette_threshold",
@@ -90,9 +90,9 @@ template <std::floating_point T>
 /// \param other  Of the one that could have.
 /// \return In [0, 1].
 template <std::floating_point T>
-[[nodiscard]] constexpr T share_of(LampShare share, T pdf, T other) noexcept {
-    return share == LampShare::power ? power_heuristic(pdf, other)
-                                     : balance(pdf, other);
+[[nodiscard]] constexpr T mis_weight(MisHeuristic share, T pdf, T other) noexcept {
+    return share == MisHeuristic::power ? power_heuristic(pdf, other)
+                                        : balance(pdf, other);
 }
 
 /// The density with which the tracer's shadow rays from a surface choose a point of a
@@ -124,11 +124,11 @@ template <typename Scene, std::floating_point T>
 [[nodiscard]] RgbT<T> emitted(const PathTracer<Scene>& tracer, const PathT<T>& path,
                               const SceneHitT<T>& hit, const ShadingT<T>& at) {
     const RgbT<T> all = path.throughput * at.surface.object.emission;
-    const PathTracing& settings = tracer.settings;
+    const PathTracingSettings& settings = tracer.settings;
     if (!(path.bsdf_pdf > T(0)) || !settings.sample_lights) return all;
-    if (settings.share == LampShare::shadow_rays) return RgbT<T>{T(0)};
+    if (settings.share == MisHeuristic::shadow_rays) return RgbT<T>{T(0)};
     const T other = pdf_of_light(tracer, path.from, hit, at);
-    return share_of(settings.share, path.bsdf_pdf, other) * all;
+    return mis_weight(settings.share, path.bsdf_pdf, other) * all;
 }
 // [emitted]
 
@@ -144,17 +144,17 @@ template <typename Scene, std::floating_point T>
 /// \report{Section 3.2.3}
 // [sampled]
 template <typename Scene, std::floating_point T, typename Material>
-[[nodiscard]] RgbT<T> light_of_one(const PathTracer<Scene>& tracer,
-                                   const PathT<T>& path, const ShadingT<T>& at,
-                                   const Material& material, RandomStream& stream,
-                                   Counts& counts) {
+[[nodiscard]] RgbT<T> sample_one_light(const PathTracer<Scene>& tracer,
+                                       const PathT<T>& path, const ShadingT<T>& at,
+                                       const Material& material, RandomStream& stream,
+                                       Counts& counts) {
     const auto chosen = choose_light(tracer.lights, next_1d<T>(stream));
     const auto weigh = [&](const LightSampleT<T>& light, const Vec3T<T>& wi) {
-        const LampShare share = tracer.settings.share;
-        if (share == LampShare::shadow_rays) return T(1);
+        const MisHeuristic share = tracer.settings.share;
+        if (share == MisHeuristic::shadow_rays) return T(1);
         if (light.pdf == T(0)) return T(1); // no path meets a point light
-        return share_of(share, light.pdf * chosen.probability,
-                        pdf(material, at.wo, wi));
+        return mis_weight(share, light.pdf * chosen.probability,
+                          pdf(material, at.wo, wi));
     };
     return path.throughput *
            direct_light(tracer.scene, tracer.scene.lights[chosen.light], at, material,
@@ -181,7 +181,7 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
 [[nodiscard]] RgbT<T> radiance(const PathTracer<Scene>& tracer, const RayT<T>& ray,
                                RandomStream& stream, Counts& counts, Log&& log = {}) {
     const auto& scene = tracer.scene;
-    const PathTracing& limits = tracer.settings;
+    const PathTracingSettings& limits = tracer.settings;
     RgbT<T> sum{T(0)};
     PathT<T> path{.ray = ray};
     log.begin();
@@ -196,21 +196,21 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
         if (!met) break;
         const ShadingT<T> at = shading(scene, path.ray, met->hit, path.medium);
         path.throughput *= transmittance(path.medium, met->distance) * met->arrives();
-        if (at.shines()) add("emission", "L", emitted(tracer, path, met->hit, at));
+        if (at.emits()) add("emission", "L", emitted(tracer, path, met->hit, at));
         if (depth > limits.max_depth) break;
 
         const auto at_material = [&](const auto& material) {
             if (has(lobes(material), Lobes::diffuse) && limits.sample_lights &&
                 !scene.lights.empty())
                 add("shadow ray", "DL",
-                    light_of_one(tracer, path, at, material, stream, counts));
+                    sample_one_light(tracer, path, at, material, stream, counts));
             return send_on(path, at, material, Lobes::all, depth == limits.max_depth,
                            stream, log);
         };
         if (!visit_material_of(scene, at.surface, at_material)) break;
         if (is_black(path.throughput)) break;
         if (depth >= limits.roulette_depth &&
-            !survives(path.throughput, path.squeeze, next_1d<T>(stream),
+            !survives(path.throughput, path.eta_scale, next_1d<T>(stream),
                       static_cast<T>(limits.roulette_threshold),
                       static_cast<T>(limits.roulette_most)))
             break;

@@ -3,13 +3,13 @@
 /// \file ljus/render/photon_mapping.hpp
 /// \brief The report's renderer: rays from the camera, and two photon maps.
 
+#include "ljus/path/camera_path.hpp"
+#include "ljus/path/direct_light.hpp"
+#include "ljus/path/path_log.hpp"
 #include "ljus/photons/photon_map.hpp"
 #include "ljus/photons/tracing.hpp"
-#include "ljus/render/camera_path.hpp"
-#include "ljus/render/direct_light.hpp"
-#include "ljus/render/path_log.hpp"
 #include "ljus/render/survey.hpp"
-#include "ljus/scene/indexed_scene.hpp"
+#include "ljus/scene/index.hpp"
 
 namespace ljus {
 
@@ -44,11 +44,11 @@ struct PhotonMapsT {
 /// \throws std::invalid_argument  if there is no light, or a setting is out of range.
 template <typename Scene>
 [[nodiscard]] PhotonMapsT<typename Scene::Scalar>
-make_photon_maps(const Scene& scene, const PhotonMapping& settings = {}) {
+make_photon_maps(const Scene& scene, const PhotonMappingSettings& settings = {}) {
     check(settings);
     const Plan plan = survey(scene, settings);
     PhotonMapsT<typename Scene::Scalar> maps;
-    const auto run = [&](PhotonLaw law, const PhotonPass& pass, auto& map,
+    const auto run = [&](MapType law, const PhotonPassSettings& pass, auto& map,
                          auto& audit) {
         const auto traced = trace_photons(scene, law, pass);
         map = make_photon_map(traced.photons);
@@ -57,9 +57,9 @@ make_photon_maps(const Scene& scene, const PhotonMapping& settings = {}) {
         if (!traced.remark.empty()) maps.remarks += traced.remark + "\n";
     };
     if (plan.caustics_map.on)
-        run(PhotonLaw::caustics, settings.caustics, maps.caustics, maps.caustics_audit);
+        run(MapType::caustics, settings.caustics, maps.caustics, maps.caustics_audit);
     if (plan.general_map.on)
-        run(PhotonLaw::general, settings.general, maps.general, maps.general_audit);
+        run(MapType::general, settings.general, maps.general, maps.general_audit);
     return maps;
 }
 
@@ -68,7 +68,7 @@ template <typename Scene>
 struct PhotonMapper {
     IndexedT<Scene> scene;                           ///< What is rendered.
     const PhotonMapsT<typename Scene::Scalar>& maps; ///< Of the first pass.
-    PhotonMapping settings;                          ///< How.
+    PhotonMappingSettings settings;                  ///< How.
 };
 
 /// Makes a photon mapper.
@@ -81,7 +81,7 @@ struct PhotonMapper {
 template <typename Scene>
 [[nodiscard]] PhotonMapper<Scene>
 make_photon_mapper(const Scene& scene, const PhotonMapsT<typename Scene::Scalar>& maps,
-                   const PhotonMapping& settings = {}) {
+                   const PhotonMappingSettings& settings = {}) {
     check(settings);
     return {IndexedT<Scene>(scene), maps, settings};
 }
@@ -102,8 +102,8 @@ template <typename Scene, std::floating_point T, typename Material, typename Add
 void light_at(const PhotonMapper<Scene>& mapper, const ShadingT<T>& at,
               const Material& material, bool gather, RandomStream& stream,
               Counts& counts, Add& add) {
-    const PhotonMapping& settings = mapper.settings;
-    const auto ask = [&](const PhotonMapT<T>& map, const Gather& how,
+    const PhotonMappingSettings& settings = mapper.settings;
+    const auto ask = [&](const PhotonMapT<T>& map, const DensityEstimateSettings& how,
                          PhotonKinds kinds) {
         ++counts.map_queries;
         return estimate_radiance(map, at.surface, material, at.wo, how, kinds,
@@ -111,23 +111,23 @@ void light_at(const PhotonMapper<Scene>& mapper, const ShadingT<T>& at,
     };
     if (gather)
         add("general map", "DL|D..DL",
-            ask(mapper.maps.general, settings.gather_general, light_kinds));
+            ask(mapper.maps.general, settings.general_estimate, light_kinds));
     else
         add("shadow ray", "DL",
-            light_of_all(mapper.scene, at, material, settings.shadow_rays, stream,
-                         counts));
+            sample_all_lights(mapper.scene, at, material, settings.shadow_rays, stream,
+                              counts));
     if (settings.indirect == IndirectLight::photons)
         add("general map", "D..DL",
-            ask(mapper.maps.general, settings.gather_general,
+            ask(mapper.maps.general, settings.general_estimate,
                 one_kind(PhotonKind::indirect)));
     if (!mapper.maps.caustics.empty())
         add("caustics map", "DS+L",
-            ask(mapper.maps.caustics, settings.gather_caustics, light_kinds));
+            ask(mapper.maps.caustics, settings.caustics_estimate, light_kinds));
 }
 // [light_at]
 
 /// So many times, at most, a camera path goes both ways.
-inline constexpr std::size_t most_splits = 8;
+inline constexpr std::size_t max_splits = 8;
 
 /// So many times more likely than elsewhere a way survives that began where a path went
 /// both ways. It is faint: roulette as elsewhere would make it rare, and then as bright
@@ -157,10 +157,10 @@ inline constexpr int second_way_luck = 16;
 template <typename Scene, std::floating_point T, typename Log = NoLog>
 [[nodiscard]] RgbT<T> radiance(const PhotonMapper<Scene>& mapper, RayT<T> ray,
                                RandomStream& stream, Counts& counts, Log&& log = {}) {
-    const PhotonMapping& settings = mapper.settings;
+    const PhotonMappingSettings& settings = mapper.settings;
     RgbT<T> sum{T(0)};
-    std::array<PathT<T>, most_splits> others; // the second ways, to be followed later
-    std::array<int, most_splits> depths{};    // and how many boundaries they have met
+    std::array<PathT<T>, max_splits> others; // the second ways, to be followed later
+    std::array<int, max_splits> depths{};    // and how many boundaries they have met
     std::size_t splits = 0;
 
     const auto follow = [&](PathT<T> path, int first) {
@@ -177,7 +177,7 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
                 shading(mapper.scene, path.ray, met->hit, path.medium);
             path.throughput *=
                 transmittance(path.medium, met->distance) * met->arrives();
-            if (at.shines() && !path.met_diffuse)
+            if (at.emits() && !path.met_diffuse)
                 add("emission", "L", at.surface.object.emission);
 
             const bool gather =
@@ -186,7 +186,7 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
                 if (has(lobes(material), Lobes::diffuse))
                     light_at(mapper, at, material, gather, stream, counts, add);
                 if (depth == settings.max_depth) return false;
-                if (settings.split_glass && !path.met_diffuse && splits < most_splits) {
+                if (settings.split_glass && !path.met_diffuse && splits < max_splits) {
                     if (const auto other = split(path, at, material, log)) {
                         depths[splits] = depth;
                         others[splits++] = *other;
@@ -204,11 +204,11 @@ template <typename Scene, std::floating_point T, typename Log = NoLog>
             };
             if (!visit_material_of(mapper.scene, at.surface, at_material)) return;
             if (is_black(path.throughput)) return;
-            const T squeeze = splits > 0 && !path.met_diffuse
-                                  ? path.squeeze / T(second_way_luck)
-                                  : path.squeeze;
+            const T eta_scale = splits > 0 && !path.met_diffuse
+                                    ? path.eta_scale / T(second_way_luck)
+                                    : path.eta_scale;
             if (depth >= settings.roulette_depth &&
-                !survives(path.throughput, squeeze, next_1d<T>(stream)))
+                !survives(path.throughput, eta_scale, next_1d<T>(stream)))
                 return;
             ++counts.bounce_rays;
         }

@@ -7,11 +7,11 @@
 #include <optional>
 
 #include "ljus/image/image.hpp"
+#include "ljus/math/sampling_pattern.hpp"
 #include "ljus/parallel.hpp"
-#include "ljus/render/counts.hpp"
-#include "ljus/render/path_log.hpp"
+#include "ljus/path/counts.hpp"
+#include "ljus/path/path_log.hpp"
 #include "ljus/scene/camera.hpp"
-#include "ljus/scene/sampling_pattern.hpp"
 
 namespace ljus {
 
@@ -21,10 +21,10 @@ namespace ljus {
 /// \{
 
 /// The picture that is asked for.
-struct Picture {
+struct RenderSettings {
     int width = 400;        ///< Pixels, at least 1.
     int height = 400;       ///< Pixels, at least 1.
-    int rays = 64;          ///< Primary rays in a pixel, at least 1; exactly as many.
+    int samples = 64;       ///< Primary rays in a pixel, at least 1; exactly as many.
     std::uint64_t seed = 1; ///< Of the random streams.
     int threads = 0;        ///< 0: all that there are.
     Progress progress = {}; ///< Called with (done, total); false stops.
@@ -81,16 +81,16 @@ constexpr void start_ray(RandomStream& stream, std::uint64_t seed, std::uint64_t
 template <typename Renderer, template <std::floating_point> typename AnyCamera,
           std::floating_point T, typename Log = NoLog>
 [[nodiscard]] RgbT<T> sample_pixel(const Renderer& renderer, const AnyCamera<T>& camera,
-                                   const Picture& picture, const Pattern& pattern,
-                                   int x, int y, int number, Counts& counts,
-                                   Log&& log = {}) {
+                                   const RenderSettings& picture,
+                                   const Pattern& pattern, int x, int y, int number,
+                                   Counts& counts, Log&& log = {}) {
     const auto pixel =
         static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(picture.width) +
         static_cast<std::uint64_t>(x);
     typename StreamOf<Renderer>::Type stream;
     start_ray(stream, picture.seed, pixel, number, pattern);
     const Vec2T<T> place =
-        spread(pattern, number, mix(picture.seed) ^ pixel, next_2d<T>(stream));
+        spread(pattern, number, mix_bits(picture.seed) ^ pixel, next_2d<T>(stream));
     const RayT<T> ray = camera_ray(camera, Vec2T<T>{T(x), T(y)} + place, picture.width,
                                    picture.height, stream);
     ++counts.camera_rays;
@@ -108,11 +108,11 @@ template <typename Renderer, template <std::floating_point> typename AnyCamera,
 template <typename Renderer, template <std::floating_point> typename AnyCamera,
           std::floating_point T>
 [[nodiscard]] RenderedT<T> render(const Renderer& renderer, const AnyCamera<T>& camera,
-                                  const Picture& picture) {
-    require(picture.rays >= 1, "rays", static_cast<long long>(picture.rays),
+                                  const RenderSettings& picture) {
+    require(picture.samples >= 1, "samples", static_cast<long long>(picture.samples),
             "at least 1");
     RenderedT<T> result{.image = make_image<T>(picture.width, picture.height)};
-    const Pattern pattern = make_pattern(picture.sampling, picture.rays);
+    const Pattern pattern = make_pattern(picture.sampling, picture.samples);
     const int tiles = (picture.width + 15) / 16;
     std::vector<Counts> counts(static_cast<std::size_t>(tiles) *
                                static_cast<std::size_t>(picture.height));
@@ -122,7 +122,7 @@ template <typename Renderer, template <std::floating_point> typename AnyCamera,
         Counts cost; // of its own: two threads do not share a cache line
         for (int x = first; x < std::min(first + 16, picture.width); ++x) {
             RgbT<double> sum{0}; // a float would lose the last of 100 000 samples
-            for (int i = 0; i < picture.rays; ++i) {
+            for (int i = 0; i < picture.samples; ++i) {
                 const RgbT<T> sample =
                     sample_pixel(renderer, camera, picture, pattern, x, y, i, cost);
                 if (is_finite(sample))
@@ -130,7 +130,7 @@ template <typename Renderer, template <std::floating_point> typename AnyCamera,
                 else
                     ++cost.rejected;
             }
-            pixel(result.image, x, y) = RgbT<T>(sum / double(picture.rays));
+            pixel(result.image, x, y) = RgbT<T>(sum / double(picture.samples));
         }
         counts[static_cast<std::size_t>(number)] = cost;
     };

@@ -6,10 +6,10 @@
 #include <array>
 #include <string>
 
+#include "ljus/path/thin_surfaces.hpp"
 #include "ljus/photons/photon_map.hpp"
 #include "ljus/photons/tracing.hpp"
-#include "ljus/scene/indexed_scene.hpp"
-#include "ljus/scene/thin_sheets.hpp"
+#include "ljus/scene/index.hpp"
 
 namespace ljus {
 
@@ -27,16 +27,17 @@ enum class IndirectLight : std::uint8_t {
 };
 
 /// How the report's renderer works. Lengths are in scene units.
-struct PhotonMapping {
+struct PhotonMappingSettings {
     int max_depth = 1000;     ///< Surfaces on a camera path, mirrors and glass counted.
     int roulette_depth = 4;   ///< From this surface on, roulette may end a path.
     int shadow_rays = 1;      ///< Shadow rays to each light, at least 1.
     bool split_glass = false; ///< At glass before anything matt, go both ways.
     IndirectLight indirect = IndirectLight::rays; ///< Who carries indirect light.
-    PhotonPass caustics{};                 ///< Photons aimed at mirrors and glass.
-    PhotonPass general{};                  ///< Photons for all the rest.
-    Gather gather_caustics{};              ///< How caustics are estimated.
-    Gather gather_general{.radius = 0.3f}; ///< How the general map is asked.
+    PhotonPassSettings caustics{}; ///< Photons aimed at mirrors and glass.
+    PhotonPassSettings general{};  ///< Photons for all the rest.
+    DensityEstimateSettings caustics_estimate{}; ///< How caustics are estimated.
+    DensityEstimateSettings general_estimate{
+        .radius = 0.3f}; ///< How the general map is asked.
     bool keep_general_map =
         false; ///< Make the general map, even if no ray will ask it.
 };
@@ -44,7 +45,7 @@ struct PhotonMapping {
 /// Refuses settings that give no picture.
 /// \param settings  The settings.
 /// \throws std::invalid_argument  with name and value.
-inline void check(const PhotonMapping& settings) {
+inline void check(const PhotonMappingSettings& settings) {
     require(settings.max_depth >= 1, "max_depth",
             static_cast<long long>(settings.max_depth), "at least 1");
     require(settings.shadow_rays >= 1, "shadow_rays",
@@ -53,8 +54,8 @@ inline void check(const PhotonMapping& settings) {
             settings.caustics.photons, "at least 0");
     require(settings.general.photons >= 0, "general.photons", settings.general.photons,
             "at least 0");
-    check(settings.gather_caustics);
-    check(settings.gather_general);
+    check(settings.caustics_estimate);
+    check(settings.general_estimate);
 }
 
 /// Whether a pass runs, and why or why not.
@@ -126,7 +127,7 @@ template <typename Scene>
 /// \return The plan; printed by examples, obeyed by make_photon_maps().
 // [survey]
 template <typename Scene>
-[[nodiscard]] Plan survey(const Scene& scene, const PhotonMapping& settings) {
+[[nodiscard]] Plan survey(const Scene& scene, const PhotonMappingSettings& settings) {
     const SceneNeeds found = needs(scene);
     const auto of_all = [&](std::size_t count, const char* what) {
         return std::to_string(count) + " of " + std::to_string(found.objects) +
@@ -169,9 +170,9 @@ template <typename Scene>
     plan.shadow_photons =
         item("shadow photons", shadows,
              shadows ? "the general map keeps them" : "no map keeps them");
-    const bool films = has_thin_sheets(scene);
+    const bool films = has_thin_surfaces(scene);
     plan.thin_film = item("thin film", films,
-                          films ? "rays go straight on through the listed films"
+                          films ? "rays go pass_through on through the listed films"
                                 : "no material is one");
     const bool few = found.objects <= flat_loop_limit;
     plan.flat_loop = item("flat loop", few,

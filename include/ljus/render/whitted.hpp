@@ -4,9 +4,9 @@
 /// \brief Whitted's ray tracing: a tree of mirrors and glass, with hard shadows.
 
 #include "ljus/geometry/solid_angle.hpp"
-#include "ljus/render/camera_path.hpp"
-#include "ljus/render/direct_light.hpp"
-#include "ljus/scene/indexed_scene.hpp"
+#include "ljus/path/camera_path.hpp"
+#include "ljus/path/direct_light.hpp"
+#include "ljus/scene/index.hpp"
 
 namespace ljus {
 
@@ -19,7 +19,7 @@ namespace ljus {
 /// \{
 
 /// How a tree is traced.
-struct Whitted {
+struct WhittedSettings {
     int max_depth = 5;     ///< Reflections and refractions in a row; 0 sends no ray on.
     bool both_ways = true; ///< Glass sends two rays; false: one of them, by roulette.
     bool lamps = true; ///< A lamp with a size lights, from its middle; or is only seen.
@@ -31,8 +31,8 @@ struct Whitted {
 /// it.
 template <typename Scene>
 struct WhittedTracer {
-    IndexedT<Scene> scene; ///< What is rendered.
-    Whitted settings;      ///< How.
+    IndexedT<Scene> scene;    ///< What is rendered.
+    WhittedSettings settings; ///< How.
 };
 
 /// Makes a tracer.
@@ -43,7 +43,7 @@ struct WhittedTracer {
 /// \throws std::invalid_argument  if a setting is out of range.
 template <typename Scene>
 [[nodiscard]] WhittedTracer<Scene> make_whitted(const Scene& scene,
-                                                const Whitted& settings = {}) {
+                                                const WhittedSettings& settings = {}) {
     require(settings.max_depth >= 0, "max_depth",
             static_cast<long long>(settings.max_depth), "at least 0");
     require_radiance("whitted.ambient", settings.ambient);
@@ -57,11 +57,11 @@ template <typename Scene>
 /// point that is nearest to the observer, of a quad its middle.
 /// \return The point.
 template <typename Lamp>
-[[nodiscard]] auto middle_of(const Lamp&) noexcept {
+[[nodiscard]] auto center_sample(const Lamp&) noexcept {
     return Vec2T<ScalarOf<Lamp>>{ScalarOf<Lamp>(0.5)};
 }
 template <std::floating_point T>
-[[nodiscard]] constexpr Vec2T<T> middle_of(const SphereT<T>&) noexcept {
+[[nodiscard]] constexpr Vec2T<T> center_sample(const SphereT<T>&) noexcept {
     return Vec2T<T>{T(0)};
 }
 /// \}
@@ -84,7 +84,7 @@ void local_light(const WhittedTracer<Scene>& tracer, const ShadingT<T>& at,
         if (light.object) {
             if (!tracer.settings.lamps) continue;
             u = tracer.scene.visit_shape(
-                *light.object, [](const auto& shape) { return middle_of(shape); });
+                *light.object, [](const auto& shape) { return center_sample(shape); });
         }
         add("shadow ray", "DL",
             direct_light(tracer.scene, light, at, material, u, whole, counts));
@@ -120,7 +120,7 @@ void follow(const WhittedTracer<Scene>& tracer, PathT<T> path, int depth,
         log.term(owner, letters, share * light);
         sum += share * light;
     };
-    if (at.shines()) add("emission", "L", at.surface.object.emission);
+    if (at.emits()) add("emission", "L", at.surface.object.emission);
 
     std::optional<PathT<T>> other; // the second branch
     const auto at_material = [&](const auto& material) {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/scene/light.hpp
-/// \brief What shines: the emissive objects of a scene, points, spots and suns.
+/// \brief What emits: the emissive objects of a scene, points, spots and suns.
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +58,7 @@ enum class LightKind : std::uint8_t {
 template <std::floating_point T>
 struct LightT {
     LightKind kind = LightKind::point; ///< What it is.
-    std::optional<ObjectId> object{}; ///< The emissive object; none for other kinds.
+    std::optional<ObjectId> object{};  ///< The emissive object; none for other kinds.
     Vec3T<T> position{T(0)}; ///< Of a point or spot light; of a sun, the middle of the
                              ///< scene.
     RgbT<T> emission{T(0)};  ///< Radiance of an object, intensity of a point or spot,

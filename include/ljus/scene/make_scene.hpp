@@ -22,7 +22,7 @@ namespace ljus {
 /// \{
 
 /// A shape and what it is made of, on its way into a scene.
-template <Shape S, Bsdf M>
+template <Shape S, Material M>
 struct Placed {
     S shape;                       ///< The shape.
     M material;                    ///< What it is made of.
@@ -36,7 +36,7 @@ struct Placed {
 /// \param emission    The radiance it emits along its normal's side, W/(m^2 sr).
 /// \param inside_out  Whether the normal points inwards.
 /// \return A part for make_scene().
-template <Shape S, Bsdf M>
+template <Shape S, Material M>
 [[nodiscard]] Placed<S, M>
 placed(const S& shape, const M& material,
        const std::type_identity_t<RgbT<ScalarOf<S>>>& emission = RgbT<ScalarOf<S>>{0},

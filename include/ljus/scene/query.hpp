@@ -157,7 +157,7 @@ decltype(auto) visit_material_of(const Scene& scene, const SurfaceT<T>& surface,
     return scene.visit_material(surface.object.material, [&](const auto& m) {
         using Here = decltype(material_at(m, surface.point.position));
         // A soap film's point is no material: scatter() asks for it.
-        if constexpr (Bsdf<std::remove_cvref_t<Here>>)
+        if constexpr (Material<std::remove_cvref_t<Here>>)
             return f(material_at(m, surface.point.position));
         else
             return f(m);

@@ -1,14 +1,14 @@
 #pragma once
 
 /// \file ljus/scene/scene.hpp
-/// \brief Shapes, what they are made of, and what shines: plain data.
+/// \brief Shapes, what they are made of, and what emits: plain data.
 
 #include <array>
 #include <cstddef>
 #include <tuple>
 #include <vector>
 
-#include "ljus/materials/bsdf.hpp"
+#include "ljus/materials/material.hpp"
 #include "ljus/scene/make_light.hpp"
 
 namespace ljus {
@@ -22,7 +22,7 @@ template <Shape... S>
 struct Shapes {};
 
 /// The closed list of a scene's material types.
-template <Bsdf... M>
+template <Material... M>
 struct Materials {};
 
 /// Whether no type is listed twice.
@@ -69,7 +69,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
     /// \param material  One of the listed types.
     /// \return Its number, for the shapes that are made of it.
     /// \throws std::invalid_argument  if a value lies outside the material's range.
-    template <Bsdf B>
+    template <Material B>
     requires(std::same_as<B, M> || ...) MaterialId add(const B& material) {
         check(material);
         auto& array = std::get<std::vector<B>>(materials);
@@ -101,11 +101,11 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
 
         const bool sheet = visit_material(material, [](const auto& m) {
             return requires {
-                straight(m, Vec3T<Scalar>{}, Vec3T<Scalar>{});
+                pass_through(m, Vec3T<Scalar>{}, Vec3T<Scalar>{});
             };
         });
         require(!sheet || is_black(radiance), "the radiance of a thin sheet", radiance,
-                "black: light goes straight on through it");
+                "black: light goes pass_through on through it");
 
         auto& array = std::get<std::vector<G>>(shapes);
         const ObjectId id{type_of<G, FirstShape, S...>(),

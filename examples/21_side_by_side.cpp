@@ -1,0 +1,734 @@
+// figures: side_by_side
+// smoke: --quality draft --width 16 --height 16 --rungs 2 --seeds 2 --truth 16
+/// \file 21_side_by_side.cpp
+/// \brief Chapter 21: two rooms by all renderers: error against time, the same time, the
+/// same error, bias and noise, and which light paths each carries.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <ljus/ljus.hpp>
+
+#include "common/clock.hpp"
+#include "common/command_line.hpp"
+#include "common/convergence.hpp"
+#include "common/plot.hpp"
+#include "common/terminal.hpp"
+
+using namespace ljus;
+
+namespace {
+
+using Cornell = CornellSceneT<float>;
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+/// What the user may set besides the common options.
+struct Sizes {
+    int rungs = 0; ///< Efforts tried, each four times the one before.
+    int seeds = 0; ///< Runs of each.
+    int truth = 0; ///< Rays a pixel of the reference.
+};
+
+// --- The renderers --------------------------------------------------------------------
+
+/// One picture, and what it took.
+struct Shot {
+    Image image{};           ///< The picture.
+    Counts counts{};         ///< Rays of the view.
+    double solution = 0;     ///< Seconds for what does not know the camera.
+    double view = 0;         ///< Seconds for the picture.
+    std::size_t memory = 0;  ///< Bytes of what is kept for other views.
+    std::size_t working = 0; ///< Bytes of what is needed while it is made.
+    long long photons = 0;   ///< How many were emitted.
+
+    [[nodiscard]] double seconds() const { return solution + view; }
+};
+
+/// A renderer with all that an effort decides: rays, photons and radius, or patches.
+struct Method {
+    std::string name; ///< As in plots.
+    std::string file; ///< As in names of files.
+    /// Renders a room. `effort` is a number of rays a pixel, or as much work; cameras:
+    /// one picture each from one solution.
+    std::function<std::vector<Shot>(const Cornell&, const std::vector<Camera>&,
+                                    double effort, std::uint64_t seed)>
+        shoot{};
+};
+
+/// Seconds of processor time since the last call.
+struct Lap {
+    double start = examples::processor_seconds();
+    double operator()() {
+        const double now = examples::processor_seconds();
+        const double spent = now - start;
+        start = now;
+        return std::max(spent, 1e-6);
+    }
+};
+
+/// Pictures from all cameras by a renderer that is ready.
+template <typename Renderer>
+std::vector<Shot> views_of(const Renderer& renderer, const std::vector<Camera>& cameras,
+                           const examples::Options& options, double rays,
+                           std::uint64_t seed, const Shot& made = {}) {
+    std::vector<Shot> shots;
+    for (const Camera& camera : cameras) {
+        Lap lap;
+        const auto seen = render(renderer, camera,
+                                 {.width = options.width,
+                                  .height = options.height,
+                                  .samples = std::max(1, int(std::lround(rays))),
+                                  .seed = seed,
+                                  .threads = options.threads});
+        shots.push_back(made);
+        shots.back().view = lap();
+        shots.back().image = seen.image;
+        shots.back().counts = seen.counts;
+        examples::stop_if_asked();
+    }
+    return shots;
+}
+
+/// The bytes of a photon map.
+std::size_t bytes_of(const PhotonMap& map) {
+    return map.tree.bytes() + map.records.blocks().size() * sizeof(RecordBlockT<float>);
+}
+
+/// The photon maps' efforts: as many photons as there are rays to make use of them, and
+/// a radius that shrinks with their sixth root, so that bias and noise fall together.
+// [photon effort]
+PhotonMappingSettings photon_settings(IndirectLight indirect, double effort,
+                                      std::uint64_t seed) {
+    const bool direct = indirect == IndirectLight::photons;
+    const auto many = std::llround((direct ? 4000 : 500) * effort);
+    const auto smaller = float(std::pow(effort, -1.0 / 6));
+    return {.shadow_rays = direct ? 4 : 1,
+            .indirect = indirect,
+            .caustics{.photons = many, .seed = seed},
+            .general{.photons = many, .seed = seed, .shadow_photons = false},
+            .caustics_estimate{.radius = 0.15f * smaller},
+            .general_estimate{.radius = (direct ? 0.35f : 0.5f) * smaller}};
+}
+// [photon effort]
+
+/// All renderers of the book so far, and two ways to use photons.
+std::vector<Method> methods(const examples::Options& options) {
+    std::vector<Method> all;
+    using Cameras = std::vector<Camera>;
+    all.push_back({"WhittedSettings", "whitted",
+                   [&options](const Cornell& scene, const Cameras& cameras,
+                              double effort, std::uint64_t seed) {
+                       return views_of(make_whitted(scene), cameras, options, effort,
+                                       seed);
+                   }});
+    all.push_back({"distributed rays", "distributed",
+                   [&options](const Cornell& scene, const Cameras& cameras,
+                              double effort, std::uint64_t seed) {
+                       return views_of(make_distributed(scene), cameras, options,
+                                       effort, seed);
+                   }});
+    all.push_back({"path tracing", "paths",
+                   [&options](const Cornell& scene, const Cameras& cameras,
+                              double effort, std::uint64_t seed) {
+                       return views_of(make_path_tracer(scene), cameras, options,
+                                       effort, seed);
+                   }});
+    all.push_back(
+        {"radiosity", "radiosity",
+         [&options](const Cornell& scene, const Cameras& cameras, double effort,
+                    std::uint64_t seed) {
+             Lap lap;
+             const auto solved = make_radiosity(
+                 scene, {.patches = {.size = std::max(0.8 / std::sqrt(effort), 0.07)},
+                         .factors = {.analytic = false,
+                                     .rays = 512,
+                                     .seed = seed,
+                                     .threads = options.threads}});
+             const auto view = make_light_map_view(scene, solved->map);
+             const std::size_t kept =
+                 solved->map.irradiance.size() * sizeof(RgbT<double>);
+             return views_of(
+                 view, cameras, options, std::max(effort / 4, 4.0), seed,
+                 {.solution = lap(),
+                  .memory = kept,
+                  .working = kept + solved->factors.exchange.size() * sizeof(double)});
+         }});
+    for (const auto indirect : {IndirectLight::map, IndirectLight::photons}) {
+        const bool direct = indirect == IndirectLight::photons;
+        all.push_back(
+            {direct ? "photon map seen" : "two passes", direct ? "seen" : "photons",
+             [&options, indirect, direct](const Cornell& scene, const Cameras& cameras,
+                                          double effort, std::uint64_t seed) {
+                 const auto settings = photon_settings(indirect, effort, seed);
+                 Lap lap;
+                 const auto maps = make_photon_maps(scene, settings);
+                 const auto mapper = make_photon_mapper(scene, maps, settings);
+                 const std::size_t kept =
+                     bytes_of(maps.general) + bytes_of(maps.caustics);
+                 const long long passes = maps.caustics.empty() ? 1 : 2;
+                 return views_of(mapper, cameras, options, direct ? effort / 4 : effort,
+                                 seed,
+                                 {.solution = lap(),
+                                  .memory = kept,
+                                  .working = kept,
+                                  .photons = passes * settings.general.photons});
+             }});
+    }
+    return all;
+}
+
+// --- Error against time ---------------------------------------------------------------
+
+/// What one effort of one method brought.
+struct Rung {
+    double effort = 0;     ///< The effort.
+    double seconds = 0;    ///< Median over the seeds.
+    double rays = 0;       ///< Of the view.
+    double photons = 0;    ///< Emitted.
+    BiasVariance pixels{}; ///< The two parts of relMSE.
+    BiasVariance blocks{}; ///< The same of the means of 10 x 10 pixels.
+    Image image{};         ///< Of the first seed.
+
+    [[nodiscard]] double error(bool block) const {
+        const BiasVariance& parts = block ? blocks : pixels;
+        return parts.bias_squared + parts.variance;
+    }
+};
+
+/// A room, its truth, and what all methods made of it.
+struct Study {
+    std::string name;                      ///< Of the room.
+    Room<Cornell> room{};                  ///< The room.
+    ImageT<double> truth{};                ///< By another renderer, with other seeds.
+    double noise = 0;                      ///< Of the truth, as relMSE.
+    double block_noise = 0;                ///< The same of its blocks.
+    std::vector<std::vector<Rung>> runs{}; ///< One list a method.
+};
+
+/// Paths of which every number, at every surface, is shared out evenly among the rays of
+/// a pixel, and photons for caustics.
+struct Judge {
+    using Stream = StratifiedStream; ///< What render() gives it to draw from.
+    IndexedT<Cornell> scene;         ///< A room.
+    const PhotonMap& caustics;       ///< Empty in the matt room.
+    DensityEstimateSettings gather;  ///< In discs smaller than a pixel.
+};
+
+/// What a matt surface sends on of each lamp's light, and of the caustics map's.
+template <typename Material>
+Rgb lamps_and_caustics(const Judge& judge, const ShadingT<float>& at,
+                       const Material& material, StratifiedStream& stream,
+                       Counts& counts) {
+    const Rgb lamps = soft_light(judge.scene, at, material, stream, counts);
+    return lamps + estimate_radiance(judge.caustics, at.surface, material, at.wo,
+                                     judge.gather, light_kinds, counts.map_photons);
+}
+
+// [judge]
+Rgb radiance(const Judge& judge, const Ray& ray, StratifiedStream& stream,
+             Counts& counts, NoLog log = {}) {
+    Rgb sum{0};
+    PathT<float> path{.ray = ray};
+    for (int depth = 1; depth < 1000; ++depth) {
+        start_bounce(stream, std::uint64_t(depth));
+        const auto met = meet(judge.scene, path.ray, stream);
+        if (!met) break;
+        const auto at = shading(judge.scene, path.ray, met->hit, path.medium);
+        path.throughput *= transmittance(path.medium, met->distance);
+        if (at.emits() && !path.met_diffuse)
+            sum += path.throughput * at.surface.object.emission;
+        const auto at_material = [&](const auto& matter) {
+            if (has(lobes(matter), Lobes::diffuse))
+                sum += path.throughput *
+                       lamps_and_caustics(judge, at, matter, stream, counts);
+            return send_on(path, at, matter, Lobes::all, false, stream, log);
+        };
+        if (!visit_material_of(judge.scene, at.surface, at_material)) break;
+        if (depth >= 4 &&
+            !survives(path.throughput, path.eta_scale, next_1d(stream), 0.4f))
+            break;
+    }
+    return sum;
+}
+// [judge]
+
+/// The truth: the mean of eight pictures, which tell its own error.
+void find_truth(Study& study, int rays, const examples::Options& options) {
+    constexpr int parts = 8;
+    const Cornell& scene = study.room.scene;
+    std::vector<Image> runs;
+    for (std::uint64_t number = 0; number < parts; ++number) {
+        const int part = std::max(1, rays / parts);
+        const std::uint64_t seed = options.seed + 1000 + number;
+        const PhotonMappingSettings settings{
+            .indirect = IndirectLight::rays,
+            .caustics{.photons = 400LL * part, .seed = seed},
+            .caustics_estimate{.radius = 0.6f / float(options.width)}};
+        const auto maps = make_photon_maps(scene, settings);
+        examples::ProgressBar bar("reference", options.quiet);
+        runs.push_back(render(Judge{.scene = IndexedT<Cornell>(scene),
+                                    .caustics = maps.caustics,
+                                    .gather = settings.caustics_estimate},
+                              study.room.camera,
+                              {.width = options.width,
+                               .height = options.height,
+                               .samples = part,
+                               .seed = seed,
+                               .threads = options.threads,
+                               .progress = bar})
+                           .image);
+        examples::stop_if_asked();
+    }
+    study.truth = {options.width, options.height,
+                   std::vector<RgbT<double>>(runs[0].pixels.size())};
+    for (const Image& run : runs)
+        for (std::size_t i = 0; i < run.pixels.size(); ++i)
+            study.truth.pixels[i] += RgbT<double>(run.pixels[i]) / double(parts);
+    study.noise = examples::relative_split(runs, study.truth).variance / parts;
+    study.block_noise =
+        examples::relative_split(runs, study.truth, 0, 10).variance / parts;
+    save_png(study.truth, options.path("side_by_side-" + study.name + "-truth.png"));
+}
+
+/// Runs all methods, rung by rung.
+void climb(Study& study, const std::vector<Method>& all,
+           const examples::Options& options, const Sizes& sizes) {
+    for (const Method& method : all) {
+        study.runs.emplace_back();
+        for (int rung = 0; rung < sizes.rungs; ++rung) {
+            Rung result{.effort = std::pow(4.0, rung)};
+            std::vector<Image> images;
+            std::vector<double> seconds;
+            for (int seed = 0; seed < sizes.seeds; ++seed) {
+                // A processor's clock may tick a hundred times a second only.
+                Shot shot;
+                Lap lap;
+                double spent = 0;
+                int repeats = 0;
+                for (; spent < options.pick(0.01, 0.06, 0.06);
+                     ++repeats, spent += lap())
+                    shot = method.shoot(study.room.scene, {study.room.camera},
+                                        result.effort,
+                                        options.seed + std::uint64_t(seed))[0];
+                images.push_back(shot.image);
+                seconds.push_back(spent / repeats);
+                result.rays += double(shot.counts.rays()) / sizes.seeds;
+                result.photons = double(shot.photons);
+            }
+            std::sort(seconds.begin(), seconds.end());
+            result.seconds = seconds[seconds.size() / 2];
+            result.pixels = examples::relative_split(images, study.truth, study.noise);
+            result.blocks =
+                examples::relative_split(images, study.truth, study.block_noise, 10);
+            result.image = images[0];
+            if (!options.quiet)
+                std::printf("%s, %s, effort %.0f: %.3f s, %.0f rays, %.0f photons, "
+                            "relMSE %.5f (bias^2 %.5f), blocks %.6f (bias^2 %.6f)\n",
+                            study.name.c_str(), method.name.c_str(), result.effort,
+                            result.seconds, result.rays, result.photons,
+                            result.error(false), result.pixels.bias_squared,
+                            result.error(true), result.blocks.bias_squared);
+            study.runs.back().push_back(std::move(result));
+        }
+    }
+}
+
+/// One column of a list of rungs.
+template <typename Value>
+std::vector<double> column(const std::vector<Rung>& rungs, Value value) {
+    std::vector<double> list;
+    for (const Rung& rung : rungs) list.push_back(value(rung));
+    return list;
+}
+std::vector<double> times(const std::vector<Rung>& rungs) {
+    return column(rungs, [](const Rung& rung) { return rung.seconds; });
+}
+std::vector<double> errors(const std::vector<Rung>& rungs, bool block) {
+    return column(rungs, [&](const Rung& rung) { return rung.error(block); });
+}
+
+/// Two plots: relMSE of pixels and of blocks, against time.
+void plots(const Study& study, const std::vector<Method>& all,
+           const examples::Options& options) {
+    for (const bool block : {false, true}) {
+        examples::Plot plot{.name = "side_by_side-" + study.name +
+                                    (block ? "-blocks" : "-pixels"),
+                            .columns = {"seconds of processor time"},
+                            .y_label = block ? "relMSE of 10 x 10 blocks" : "relMSE",
+                            .log_x = true,
+                            .log_y = true};
+        for (std::size_t k = 0; k < all.size(); ++k) {
+            plot.columns.push_back(all[k].name);
+            for (const Rung& rung : study.runs[k]) {
+                examples::Row row(all.size() + 1, nothing);
+                row[0] = rung.seconds;
+                row[k + 1] = std::max(rung.error(block), 1e-9);
+                plot.rows.push_back(row);
+            }
+        }
+        save_plot(options.out, plot);
+    }
+}
+
+/// Slopes, and what of the best run's error is bias.
+void split_table(const Study& study, const std::vector<Method>& all,
+                 const examples::Options& options) {
+    examples::Table table{.name = "side_by_side-" + study.name + "-split",
+                          .columns = {"", "slope of relMSE against time",
+                                      "of the best: bias²", "noise", "blocks: bias²",
+                                      "noise "}};
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const auto law =
+            examples::fit_power(times(study.runs[k]), errors(study.runs[k], false));
+        const Rung& best = study.runs[k].back();
+        table.rows.push_back({all[k].name,
+                              examples::text(law.slope, "%.2f") + " ± " +
+                                  examples::text(law.error, "%.2f"),
+                              examples::text(best.pixels.bias_squared, "%.5f"),
+                              examples::text(best.pixels.variance, "%.5f"),
+                              examples::text(best.blocks.bias_squared, "%.6f"),
+                              examples::text(best.blocks.variance, "%.6f")});
+    }
+    save_table(options.out, table);
+    // Every point, for whoever wants to draw it otherwise.
+    examples::Table points{.name = "side_by_side-" + study.name + "-points",
+                           .columns = {"renderer", "effort", "seconds", "rays",
+                                       "photons", "bias2", "variance", "block bias2",
+                                       "block variance"}};
+    double smallest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < all.size(); ++k)
+        for (const Rung& r : study.runs[k]) {
+            std::vector<std::string> row{all[k].name};
+            for (const double value :
+                 {r.effort, r.seconds, r.rays, r.photons, r.pixels.bias_squared,
+                  r.pixels.variance, r.blocks.bias_squared, r.blocks.variance})
+                row.push_back(examples::text(value, "%.6g"));
+            points.rows.push_back(row);
+            smallest = std::min(smallest, r.error(false));
+        }
+    save_table(options.out, points);
+    if (!options.quiet)
+        std::printf("%s: the reference's standard error is %.4f; the smallest error "
+                    "reported (root of relMSE) is %.4f, %.1f times as much\n",
+                    study.name.c_str(), std::sqrt(study.noise), std::sqrt(smallest),
+                    std::sqrt(smallest / study.noise));
+}
+
+// --- The same time, the same error ----------------------------------------------------
+
+/// A picture of a method for a panel.
+Shot panel(const Study& study, const Method& method, double effort,
+           const examples::Options& options) {
+    return method.shoot(study.room.scene, {study.room.camera}, effort,
+                        options.seed + 77)[0];
+}
+
+/// The effort that takes a time: between rungs a straight line, beyond them the power law
+/// of the last two, or in proportion if that is less. At least 1 ray a pixel.
+double effort_for(const std::vector<Rung>& rungs, double seconds) {
+    const Rung &last = rungs.back(), &before = rungs[rungs.size() - 2];
+    if (seconds >= last.seconds) {
+        const double power = std::log(last.seconds / before.seconds) /
+                             std::log(last.effort / before.effort);
+        return last.effort * std::pow(seconds / last.seconds, 1 / std::max(power, 1.0));
+    }
+    for (std::size_t i = 1; i < rungs.size(); ++i)
+        if (seconds <= rungs[i].seconds && rungs[i].seconds > rungs[i - 1].seconds) {
+            const double t = (seconds - rungs[i - 1].seconds) /
+                             (rungs[i].seconds - rungs[i - 1].seconds);
+            return std::max(1.0, rungs[i - 1].effort +
+                                     t * (rungs[i].effort - rungs[i - 1].effort));
+        }
+    return 1;
+}
+
+/// All renderers, each as good as it gets in the same time.
+void equal_time(const Study& study, const std::vector<Method>& all,
+                const examples::Options& options) {
+    examples::Table table{.name = "side_by_side-" + study.name + "-time",
+                          .columns = {"", "budget, s", "taken, s", "rays a pixel",
+                                      "photons", "relMSE", "times the judge's error",
+                                      "of 10 x 10 blocks", "FLIP"}};
+    const std::vector<double> budgets =
+        options.pick<std::vector<double>>({0.1}, {1, 10}, {1, 10, 100});
+    for (std::size_t b = 0; b < budgets.size(); ++b)
+        for (std::size_t k = 0; k < all.size(); ++k) {
+            const Shot shot =
+                panel(study, all[k],
+                      std::min(effort_for(study.runs[k], budgets[b]), 1e6), options);
+            save_png(shot.image,
+                     options.path("side_by_side-" + study.name + "-time-" +
+                                  all[k].file +
+                                  (b == 0 ? "" : "-" + std::to_string(b)) + ".png"));
+            const double pixels = double(options.width) * options.height;
+            const double error = rel_mse(shot.image, study.truth) - study.noise;
+            table.rows.push_back(
+                {all[k].name, examples::text(budgets[b]),
+                 examples::text(shot.seconds(), "%.2f"),
+                 examples::text(double(shot.counts.camera_rays) / pixels),
+                 std::to_string(shot.photons), examples::text(error, "%.5f"),
+                 examples::text(std::sqrt(std::max(error, 0.0) / study.noise), "%.0f"),
+                 examples::text(
+                     block_error(shot.image, study.truth) - study.block_noise, "%.6f"),
+                 examples::text(flip(shot.image, study.truth), "%.3f")});
+        }
+    save_table(options.out, table);
+}
+
+/// Time and rays that each needs for an error, and pictures that have one of them.
+void equal_error(const Study& study, const std::vector<Method>& all,
+                 const examples::Options& options) {
+    examples::Table table{.name = "side_by_side-" + study.name + "-error",
+                          .columns = {""}};
+    struct Target {
+        bool block;
+        double error;
+    };
+    const std::array targets{Target{false, 0.1}, Target{false, 0.03},
+                             Target{true, 0.003}, Target{true, 0.001}};
+    for (const Target& target : targets)
+        table.columns.push_back((target.block ? std::string("blocks ") : "relMSE ") +
+                                examples::text(target.error));
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const auto& rungs = study.runs[k];
+        std::vector<std::string> row{all[k].name};
+        for (const Target& target : targets) {
+            const auto error = errors(rungs, target.block);
+            const double seconds = examples::reach(times(rungs), error, target.error);
+            const double rays =
+                examples::reach(column(rungs, [](const Rung& r) { return r.rays; }),
+                                error, target.error);
+            row.push_back(std::isnan(seconds)
+                              ? "not by " +
+                                    examples::text(rungs.back().seconds, "%.2f") +
+                                    " s: " + examples::text(error.back(), "%.2g")
+                              : examples::text(seconds, "%.3f") + " s, " +
+                                    examples::text(rays / 1000, "%.0f") + "k rays");
+        }
+        table.rows.push_back(row);
+        // The panel: where it has the first error, or as near to it as it came.
+        const double effort =
+            examples::reach(column(rungs, [](const Rung& r) { return r.effort; }),
+                            errors(rungs, targets[1].block), targets[1].error);
+        const Shot shot = panel(
+            study, all[k], std::isnan(effort) ? rungs.back().effort : effort, options);
+        save_png(shot.image, options.path("side_by_side-" + study.name + "-error-" +
+                                          all[k].file + ".png"));
+        if (!options.quiet)
+            std::printf("%s, equal error, %s: relMSE %.4f, %.3f s\n",
+                        study.name.c_str(), all[k].name.c_str(),
+                        rel_mse(shot.image, study.truth), shot.seconds());
+    }
+    save_table(options.out, table);
+}
+
+// --- Who carries what -----------------------------------------------------------------
+
+/// Each class of paths: what a renderer brings of it, over what path tracing brings.
+void class_table(const Study& study, const examples::Options& options,
+                 const Sizes& sizes) {
+    static constexpr std::array names{"EL",      "ES+L",       "EDL", "ES+DL",
+                                      "ES*DS+L", "E.*D.*D.*L", "E.*L"};
+    std::vector<LightPathExpression> classes;
+    for (const char* name : names) classes.push_back(light_path_expression(name));
+    const Cornell& scene = study.room.scene;
+    const int seeds = std::max(sizes.seeds, 4);
+    struct Sum {
+        double mean = 0, squares = 0;
+    };
+    const auto measured = [&](auto make) {
+        std::array<Sum, names.size()> sums{};
+        for (int seed = 1; seed <= seeds; ++seed) {
+            const RenderSettings picture{.width = options.width,
+                                         .height = options.height,
+                                         .samples = options.pick(2, 16, 64),
+                                         .seed =
+                                             options.seed + 5000 + std::uint64_t(seed),
+                                         .threads = options.threads};
+            const std::vector<RgbT<double>> means = make(picture);
+            examples::stop_if_asked();
+            for (std::size_t k = 0; k < means.size(); ++k) {
+                const double value = (means[k].x + means[k].y + means[k].z) / 3;
+                sums[k].mean += value / seeds;
+                sums[k].squares += value * value / seeds;
+            }
+        }
+        return sums;
+    };
+    const auto of = [&](const auto& renderer) {
+        return measured([&](const RenderSettings& picture) {
+            return class_means(renderer, study.room.camera, picture, classes);
+        });
+    };
+    const auto mapped = [&](IndirectLight indirect) {
+        return measured([&](const RenderSettings& picture) {
+            const auto settings = photon_settings(
+                indirect, options.pick(16.0, 64.0, 256.0), picture.seed);
+            const auto maps = make_photon_maps(scene, settings);
+            return class_means(make_photon_mapper(scene, maps, settings),
+                               study.room.camera, picture, classes);
+        });
+    };
+    // Radiosity answers for E D+ L at once. What its lamps' patches send out, and no
+    // others, is E D L; the rest is E D+ D L.
+    const auto patches = measured([&](const RenderSettings& picture) {
+        const auto all = make_radiosity(
+            scene, {.patches = {.size = options.pick(0.4, 0.2, 0.1)},
+                    .factors = {.analytic = false, .rays = 512, .seed = picture.seed}});
+        std::vector<RgbT<double>> lamp;
+        for (const Patch& patch : all->patches.patches) lamp.push_back(patch.emitted);
+        const auto view = [&](const LightMap& map) {
+            return class_means(make_light_map_view(scene, map), study.room.camera,
+                               picture, classes);
+        };
+        auto whole = view(all->map);
+        const auto direct =
+            view(make_light_map(scene, all->patches, all->factors, lamp));
+        whole[5] = whole[2] - direct[2];
+        whole[2] = direct[2];
+        return whole;
+    });
+    const auto truth = of(make_path_tracer(scene));
+    struct Line {
+        const char* name;
+        std::array<Sum, names.size()> sums;
+    };
+    const std::array lines{Line{"WhittedSettings", of(make_whitted(scene))},
+                           Line{"distributed rays", of(make_distributed(scene))},
+                           Line{"path tracing", truth},
+                           Line{"radiosity", patches},
+                           Line{"two passes", mapped(IndirectLight::map)},
+                           Line{"photon map seen", mapped(IndirectLight::photons)}};
+    examples::Table table{.name = "side_by_side-" + study.name + "-classes",
+                          .columns = {""}};
+    for (const char* name : names) table.columns.push_back(name);
+    std::vector<std::string> share{"share of the light"};
+    for (std::size_t k = 0; k < names.size(); ++k)
+        share.push_back(
+            examples::text(100 * truth[k].mean / truth.back().mean, "%.1f %%"));
+    table.rows.push_back(share);
+    for (const Line& line : lines) {
+        std::vector<std::string> row{line.name};
+        for (std::size_t k = 0; k < names.size(); ++k) {
+            const auto error = [&](const Sum& sum) { // relative, of the mean
+                const double spread = std::max(sum.squares - sum.mean * sum.mean, 0.0);
+                return sum.mean > 0 ? std::sqrt(spread / (seeds - 1)) / sum.mean : 0;
+            };
+            const Sum &its = line.sums[k], &right = truth[k];
+            if (!(right.mean > 0))
+                row.push_back(its.mean > 0 ? "?" : "");
+            else if (!(its.mean >
+                       1e-6 * right.mean)) // a rest of two light maps is rounding
+                row.push_back("0");
+            else
+                row.push_back(
+                    examples::text(its.mean / right.mean, "%.3f(") +
+                    std::to_string(std::lround(1000 * its.mean / right.mean *
+                                               std::hypot(error(its), error(right)))) +
+                    ")");
+        }
+        table.rows.push_back(row);
+    }
+    save_table(options.out, table);
+    if (options.quiet) return;
+    for (const auto& row : table.rows) {
+        for (const auto& cell : row) std::printf("%-18s", cell.c_str());
+        std::printf("\n");
+    }
+}
+
+// --- One solution, many views ---------------------------------------------------------
+
+/// What the first view costs, what each further one does, and what is kept for it.
+void views(const Study& study, const std::vector<Method>& all,
+           const examples::Options& options, const Sizes& sizes) {
+    constexpr int count = 5;
+    std::vector<Camera> cameras;
+    for (int i = 0; i < count; ++i) {
+        const auto x = float(-0.8 + 1.6 * i / (count - 1));
+        cameras.push_back(look_at(View{.position{x, 1.0f + x / 2, 4.4f - x * x},
+                                       .target{0, 1, 0},
+                                       .up{0, 1, 0},
+                                       .vfov_degrees = 33}));
+    }
+    examples::Table table{.name = "side_by_side-" + study.name + "-views",
+                          .columns = {"", "solution, s", "a view, s",
+                                      "a further view over the first", "kept",
+                                      "while it is made"}};
+    const double effort = std::pow(4.0, sizes.rungs - 1);
+    for (const Method& method : all) {
+        if (method.file == "whitted" || method.file == "distributed") continue;
+        const auto shots =
+            method.shoot(study.room.scene, cameras, effort, options.seed);
+        const double solution = shots[0].solution;
+        double view = 0;
+        for (const Shot& shot : shots) view += shot.view / count;
+        const auto size = [](std::size_t bytes) {
+            return bytes == 0 ? std::string("nothing")
+                              : examples::text(double(bytes) / 1e6, "%.2f MB");
+        };
+        const bool keeps = shots[0].memory > 0;
+        table.rows.push_back({method.name,
+                              keeps ? examples::text(solution, "%.3f") : "none",
+                              examples::text(view, "%.3f"),
+                              examples::text(view / (solution + view), "%.2f"),
+                              size(shots[0].memory), size(shots[0].working)});
+        if (method.file == "seen" || method.file == "radiosity")
+            for (int i = 0; i < count; i += 2)
+                save_png(shots[std::size_t(i)].image,
+                         options.path("side_by_side-" + study.name + "-view-" +
+                                      method.file + "-" + std::to_string(i) + ".png"));
+        if (!options.quiet)
+            std::printf("%s, views, %s: solution %s s, view %s s, ratio %s, kept %s, "
+                        "working %s\n",
+                        study.name.c_str(), method.name.c_str(),
+                        table.rows.back()[1].c_str(), table.rows.back()[2].c_str(),
+                        table.rows.back()[3].c_str(), table.rows.back()[4].c_str(),
+                        table.rows.back()[5].c_str());
+    }
+    save_table(options.out, table);
+}
+
+} // namespace
+
+/// Makes the figures of chapter 21.
+/// \param argc  Number of arguments.
+/// \param argv  The command line; `--help` explains it.
+/// \return 0; 2 with one sentence for anything that is wrong.
+int main(int argc, char** argv) {
+    return examples::run_main(argc, argv, [](examples::CommandLine& line) {
+        Sizes sizes;
+        line.about("Chapter 21, side by side: two rooms by all renderers.");
+        line.add("--rungs", sizes.rungs,
+                 "Efforts tried, each four times the one before", 2, 8);
+        line.add("--seeds", sizes.seeds, "Runs of each effort", 2, 1000);
+        line.add("--truth", sizes.truth, "Rays a pixel of the reference", 8, 10000000);
+        const examples::Options options =
+            line.parse({.draft{.width = 40, .height = 40, .samples = 1},
+                        .report{.width = 100, .height = 100, .samples = 1},
+                        .reference{.width = 200, .height = 200, .samples = 1}});
+        if (!line.given("--rungs")) sizes.rungs = options.pick(3, 4, 5);
+        if (!line.given("--seeds")) sizes.seeds = options.pick(3, 6, 12);
+        if (!line.given("--truth")) sizes.truth = options.pick(1000, 8000, 100000);
+
+        const auto all = methods(options);
+        for (const bool matt : {true, false}) {
+            Study study{.name = matt ? "matt" : "glass",
+                        .room = matt ? matt_cornell_box() : cornell_box()};
+            find_truth(study, sizes.truth, options);
+            climb(study, all, options, sizes);
+            plots(study, all, options);
+            split_table(study, all, options);
+            equal_time(study, all, options);
+            equal_error(study, all, options);
+            class_table(study, options, sizes);
+            views(study, all, options, sizes);
+        }
+    });
+}

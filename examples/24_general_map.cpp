@@ -1,0 +1,555 @@
+// figures: fig-5 fig-6 fig-7
+// smoke: --quality draft --photons 500 --width 40 --height 40
+/// \file 24_general_map.cpp
+/// \brief Chapter 24: the three kinds of photons, and what they say on their own.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "common/clock.hpp"
+#include "common/command_line.hpp"
+#include "common/plot.hpp"
+#include "ljus/inspect/census.hpp"
+#include "ljus/inspect/photon_dots.hpp"
+#include "ljus/io/png.hpp"
+#include "ljus/render/path_tracing.hpp"
+#include "ljus/render/photon_mapping.hpp"
+#include "ljus/render/render.hpp"
+#include "ljus/scenes/report_rooms.hpp"
+
+using namespace ljus;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+using Point = glm::dvec3;
+
+void print(const examples::Table& table) {
+    for (const auto& row : table.rows) {
+        for (const auto& cell : row) std::printf("%-14s ", cell.c_str());
+        std::printf("\n");
+    }
+}
+
+void save(const examples::Options& options, const examples::Table& table) {
+    examples::save_table(options.out, table);
+    if (!options.quiet) print(table);
+}
+
+// --- Figures 5, 6 and 7 ---------------------------------------------------------------
+
+/// The photons of one kind, as the report shows them.
+// [figure]
+template <typename Scene>
+long long save_figure(const std::string& path, const Image& drawing,
+                      const Room<Scene>& room, const std::vector<Photon>& photons,
+                      PhotonKind kind) {
+    Image image = drawing;
+    const long long seen = add_photon_dots(
+        image, room.scene, room.camera, photons, {.radius = 1.2f, .brightness = 0.9f},
+        [&](const Photon& photon) {
+            return photon.kind == kind ? dot_color(photon) : Rgb{0};
+        });
+    save_png(image, path);
+    return seen;
+}
+// [figure]
+
+void figures(const examples::Options& options, long long count) {
+    const auto room = final_room<float>();
+    const Image drawing =
+        scene_drawing(room.scene, room.camera, options.width, options.height);
+    const auto traced = trace_photons(
+        room.scene, MapType::general,
+        {.photons = count, .seed = options.seed, .threads = options.threads});
+    const PhotonCensus found = census(traced.photons);
+    const double emitted = traced.audit.emitted.y;
+
+    examples::Table table{.name = "general-census",
+                          .columns = {"photons", "stored", "in the picture", "power, W",
+                                      "of the emitted", "large + small lamp, W",
+                                      "inside of objects"},
+                          .rows = {}};
+    const std::array figure{std::pair{PhotonKind::indirect, "general-indirect.png"},
+                            std::pair{PhotonKind::shadow, "general-shadow.png"},
+                            std::pair{PhotonKind::direct, "general-direct.png"}};
+    for (const auto& [kind, name] : figure) {
+        const long long seen =
+            save_figure(options.path(name), drawing, room, traced.photons, kind);
+        std::array<double, 2> lamp{};
+        long long behind = 0; // on the inner side of a matt ball, where nobody looks
+        for (const Photon& photon : traced.photons) {
+            if (photon.kind != kind) continue;
+            lamp[photon.light] += double(photon.flux.y);
+            behind += photon_side(photon.direction, Vec3(photon.normal)) < 0 ? 1 : 0;
+        }
+        const PhotonCount& of_kind = found[kind];
+        table.rows.push_back(
+            {name_of(kind), std::to_string(of_kind.photons), std::to_string(seen),
+             examples::text(of_kind.flux.y, "%.1f"),
+             examples::text(of_kind.flux.y / emitted, "%.3f"),
+             examples::text(lamp[0], "%.1f + ") + examples::text(lamp[1], "%.1f"),
+             std::to_string(behind)});
+    }
+    save(options, table);
+
+    // Each photon knows its lamp: what either would light, and does not.
+    Image image = drawing;
+    (void)add_photon_dots(
+        image, room.scene, room.camera, traced.photons,
+        {.radius = 1.2f, .brightness = 0.9f}, [](const Photon& photon) {
+            if (photon.kind != PhotonKind::shadow) return Rgb{0};
+            return photon.light == 0 ? Rgb{0.1f, 0.5f, 1} : Rgb{1, 0.4f, 0.05f};
+        });
+    save_png(image, options.path("general-shadow-lamps.png"));
+}
+
+// --- The map as a picture -------------------------------------------------------------
+
+/// The general map, looked at: no shadow ray and no indirect ray, only what the photons
+/// say where a camera path first meets a matt surface.
+template <typename Scene>
+struct MapView {
+    const PhotonMapper<Scene>& mapper; ///< The scene and its maps.
+};
+
+// [map view]
+template <typename Scene, typename Log>
+Rgb radiance(const MapView<Scene>& view, Ray ray, RandomStream& stream, Counts& counts,
+             Log&&) {
+    const auto& [scene, maps, settings] = view.mapper;
+    Rgb sum{0}, throughput{1}, medium{0};
+    const auto add = [&](const char*, const char*, const Rgb& light) {
+        sum += throughput * light;
+    };
+    for (int depth = 1; depth <= 20; ++depth) {
+        start_bounce(stream, static_cast<std::uint64_t>(depth));
+        const auto hit = closest_hit(scene, ray);
+        if (!hit) break;
+        const auto at = shading(scene, ray, *hit, medium);
+        throughput *= transmittance(medium, hit->at.t);
+        if (at.emits()) sum += throughput * at.surface.object.emission;
+        const bool goes_on =
+            scene.visit_material(at.surface.object.material, [&](const auto& material) {
+                if (has(lobes(material), Lobes::diffuse))
+                    light_at(view.mapper, at, material, true, stream, counts, add);
+                const auto next = sample(material, at.wo, next_3d<float>(stream),
+                                         Transport::radiance, Lobes::specular);
+                if (!next) return false;
+                throughput *= next->weight;
+                medium = medium_beyond(medium, material, at.wo, next->wi);
+                ray = spawn_ray(at.surface.point, to_world(at.surface.frame, next->wi));
+                return true;
+            });
+        if (!goes_on) break;
+    }
+    return sum;
+}
+// [map view]
+
+void map_as_picture(const examples::Options& options) {
+    const auto room = final_room<float>();
+    PhotonMappingSettings settings{.indirect = IndirectLight::map};
+    settings.general = {.photons = options.pick(50'000LL, 500'000LL, 5'000'000LL),
+                        .seed = options.seed,
+                        .shadow_photons = false,
+                        .threads = options.threads};
+    settings.caustics = settings.general;
+    settings.general_estimate.radius = 0.5f;
+    settings.caustics_estimate.radius = 0.15f;
+    const auto maps = make_photon_maps(room.scene, settings);
+    const auto mapper = make_photon_mapper(room.scene, maps, settings);
+    const RenderSettings picture{.width = options.width,
+                                 .height = options.height,
+                                 .samples = options.pick(4, 16, 64),
+                                 .seed = options.seed,
+                                 .threads = options.threads};
+    const examples::StopWatch watch;
+    save_png(render(MapView<decltype(room.scene)>{mapper}, room.camera, picture).image,
+             options.path("general-map.png"));
+    const double map_seconds = watch.seconds();
+    RenderSettings more = picture;
+    more.samples = options.pick(8, 64, 1024);
+    save_png(render(make_path_tracer(room.scene), room.camera, more).image,
+             options.path("general-path.png"));
+    if (!options.quiet)
+        std::printf("the map as a picture: %.1f s; path tracing: %.1f s\n", map_seconds,
+                    watch.seconds() - map_seconds);
+}
+
+// --- Irradiance -----------------------------------------------------------------------
+
+/// What a white surface would send, times pi, at a point of the floor y = 0.
+double irradiance(const PhotonMap& map, const Point& at, double radius) {
+    const Vec3 up{0, 1, 0};
+    const SurfaceT<float> floor{.point{.position = Vec3(at), .normal = up},
+                                .frame = frame_around(up),
+                                .object = {}};
+    std::uint64_t gathered = 0;
+    const Rgb sent = estimate_radiance(map, floor, Lambertian{.albedo = Rgb{1}},
+                                       Vec3{0, 0, 1}, {.radius = float(radius)},
+                                       one_kind(PhotonKind::direct), gathered);
+    return double(sent.x) * pi;
+}
+
+/// From a rectangular lamp of radiance 1 to a point of a floor below it (Lambert).
+double irradiance_from(const Quad& lamp, const Point& at) {
+    const Point c{lamp.corner}, u{lamp.edge_u}, v{lamp.edge_v};
+    const std::array corners{c, c + u, c + u + v, c + v};
+    double sum = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Point a = glm::normalize(corners[i] - at);
+        const Point b = glm::normalize(corners[(i + 1) % 4] - at);
+        sum += std::acos(glm::dot(a, b)) * glm::normalize(glm::cross(a, b)).y;
+    }
+    return std::abs(sum) / 2;
+}
+
+using Boxes = Scene<Shapes<Quad>, Materials<Lambertian>>;
+
+// --- Edges, corners, thin walls -------------------------------------------------------
+
+/// Two rooms, open in front, with a wall between them that has no thickness; a lamp in
+/// the left one.
+struct TwoRooms {
+    Boxes scene;
+    Quad lamp{.corner{-0.7f, 0.999f, 0.3f}, .edge_u{0.4f, 0, 0}, .edge_v{0, 0, 0.4f}};
+};
+
+TwoRooms two_rooms() {
+    TwoRooms rooms;
+    Boxes& scene = rooms.scene;
+    const auto white = scene.add(Lambertian{.albedo = Rgb{0.75f}});
+    const auto red = scene.add(Lambertian{.albedo = Rgb{0.75f, 0.3f, 0.2f}});
+    const auto blue = scene.add(Lambertian{.albedo = Rgb{0.2f, 0.4f, 0.75f}});
+    const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
+    const Vec3 x{2, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+    scene.add(Quad{.corner{-1, 0, 0}, .edge_u = z, .edge_v = x}, white); // floor
+    scene.add(Quad{.corner{-1, 1, 0}, .edge_u = x, .edge_v = z}, white); // ceiling
+    scene.add(Quad{.corner{-1, 0, 0}, .edge_u = x, .edge_v = y}, white); // back
+    scene.add(Quad{.corner{-1, 0, 0}, .edge_u = y, .edge_v = z}, red);
+    scene.add(Quad{.corner{1, 0, 0}, .edge_u = z, .edge_v = y}, blue);
+    scene.add(Quad{.corner{0, 0, 0}, .edge_u = y, .edge_v = z}, white); // between
+    scene.add(rooms.lamp, black, Rgb{8});
+    return rooms;
+}
+
+void failures(const examples::Options& options) {
+    const TwoRooms rooms = two_rooms();
+    constexpr double radius = 0.15;
+    constexpr int steps = 120;
+    const long long photons = options.pick(50'000LL, 400'000LL, 4'000'000LL);
+    std::vector<double> sums(steps + 1, 0.0);
+    const std::array places{Point{-0.5, 0, 0.5}, Point{-1, 0, 0.5},
+                            Point{-1, 0, 0},     Point{-1e-6, 0, 0.5},
+                            Point{1e-6, 0, 0.5}, Point{0.075, 0, 0.5}};
+    std::vector<double> at_places(places.size(), 0.0);
+    const int seeds = options.pick(4, 16, 16);
+    for (int seed = 0; seed < seeds; ++seed) {
+        const auto map = make_photon_map(
+            trace_photons(rooms.scene, MapType::general,
+                          {.photons = photons,
+                           .seed = options.seed + static_cast<std::uint64_t>(seed),
+                           .max_bounces = 1,
+                           .shadow_photons = false,
+                           .threads = options.threads})
+                .photons);
+        for (int i = 0; i <= steps; ++i)
+            sums[std::size_t(i)] +=
+                irradiance(map, {2.0 * i / steps - 1, 0, 0.5}, radius) / seeds / 8;
+        for (std::size_t i = 0; i < places.size(); ++i)
+            at_places[i] += irradiance(map, places[i], radius) / seeds / 8;
+    }
+    examples::Plot plot{.name = "general-edges",
+                        .columns = {"along the floor from the left wall to the right",
+                                    "exact", "estimate with r = 0.15"},
+                        .y_label = "irradiance from a lamp of radiance 1",
+                        .rows = {}};
+    const auto exact = [&](const Point& at) {
+        return at.x < 0 ? irradiance_from(rooms.lamp, at) : 0.0;
+    };
+    for (int i = 0; i <= steps; ++i) {
+        const double x = 2.0 * i / steps - 1;
+        plot.rows.push_back({x, exact({x, 0, 0.5}), sums[std::size_t(i)]});
+    }
+    examples::save_plot(options.out, plot);
+
+    examples::Table table{.name = "general-edges-table",
+                          .columns = {"on the floor", "exact", "estimate", "ratio"},
+                          .rows = {}};
+    const std::array<const char*, 6> names{
+        "in the middle of the left room",   "at the foot of the left wall",
+        "in its corner with the back wall", "at the wall between, lit side",
+        "at the wall between, dark side",   "half a radius into the dark"};
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const double right = exact(places[i]);
+        table.rows.push_back({names[i], examples::text(right, "%.4f"),
+                              examples::text(at_places[i], "%.4f"),
+                              right > 0 ? examples::text(at_places[i] / right, "%.3f")
+                                        : std::string("-")});
+    }
+    save(options, table);
+
+    // And the picture, light that has bounced included.
+    PhotonMappingSettings settings{.indirect = IndirectLight::map};
+    settings.general = {.photons = photons,
+                        .seed = options.seed,
+                        .shadow_photons = false,
+                        .threads = options.threads};
+    settings.general_estimate.radius = float(radius);
+    const auto maps = make_photon_maps(rooms.scene, settings);
+    const auto mapper = make_photon_mapper(rooms.scene, maps, settings);
+    const Camera camera =
+        look_at({.position{0, 0.5f, 3}, .target{0, 0.5f, 0}, .vfov_degrees = 54});
+    const RenderSettings picture{.width = options.width,
+                                 .height = options.height,
+                                 .samples = options.pick(4, 16, 64),
+                                 .seed = options.seed,
+                                 .threads = options.threads};
+    save_png(render(MapView<Boxes>{mapper}, camera, picture).image,
+             options.path("general-leak.png"), {.exposure = 0.5});
+    RenderSettings more = picture;
+    more.samples = options.pick(8, 64, 1024);
+    save_png(render(make_path_tracer(rooms.scene), camera, more).image,
+             options.path("general-leak-path.png"), {.exposure = 0.5});
+}
+
+// --- Error against number and radius --------------------------------------------------
+
+/// Estimates of one number of photons: [radius][seed][place], relative to the truth.
+using Estimates = std::vector<std::vector<std::vector<double>>>;
+
+/// Variance and squared bias of a radius, over all seeds but one (-1: over all).
+struct Parts {
+    double variance = 0, bias2 = 0;
+};
+Parts parts_of(const std::vector<std::vector<double>>& seeds, int left_out = -1) {
+    Parts parts;
+    const std::size_t places = seeds.front().size();
+    for (std::size_t place = 0; place < places; ++place) {
+        double count = 0, mean = 0, squares = 0;
+        for (std::size_t seed = 0; seed < seeds.size(); ++seed) {
+            if (int(seed) == left_out) continue;
+            const double before = seeds[seed][place] - mean;
+            mean += before / ++count;
+            squares += before * (seeds[seed][place] - mean);
+        }
+        const double variance = squares / (count - 1);
+        parts.variance += variance / double(places);
+        parts.bias2 += ((mean - 1) * (mean - 1) - variance / count) / double(places);
+    }
+    return parts;
+}
+
+/// A slope of a logarithm over a logarithm, with its 95 % band from leaving out each
+/// seed in turn (the jackknife).
+struct Slope {
+    double value = 0, band = 0;
+};
+template <typename Y>
+Slope slope_of(const std::vector<double>& x, int seeds, Y y) {
+    const auto fit = [&](int left_out) {
+        double mx = 0, my = 0, xy = 0, xx = 0;
+        const double n = double(x.size());
+        std::vector<double> values;
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            values.push_back(std::log(std::max(y(i, left_out), 1e-30)));
+            mx += std::log(x[i]) / n;
+            my += values.back() / n;
+        }
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            xy += (std::log(x[i]) - mx) * (values[i] - my);
+            xx += (std::log(x[i]) - mx) * (std::log(x[i]) - mx);
+        }
+        return xy / xx;
+    };
+    double mean = 0, squares = 0;
+    std::vector<double> fits;
+    for (int seed = 0; seed < seeds; ++seed) fits.push_back(fit(seed));
+    for (const double f : fits) mean += f / seeds;
+    for (const double f : fits) squares += (f - mean) * (f - mean);
+    // Student's t, 15 degrees of freedom.
+    return {fit(-1), 2.13 * std::sqrt(squares * (seeds - 1) / seeds)};
+}
+
+void laws(const examples::Options& options) {
+    Boxes scene;
+    const auto white = scene.add(Lambertian{.albedo = Rgb{1}});
+    const Quad lamp{.corner{-0.5f, 1, -0.5f}, .edge_u{1, 0, 0}, .edge_v{0, 0, 1}};
+    scene.add(Quad{.corner{-9, 0, -9}, .edge_u{0, 0, 18}, .edge_v{18, 0, 0}}, white);
+    scene.add(lamp, scene.add(Lambertian{.albedo = Rgb{0}}), Rgb{1});
+
+    constexpr int seeds = 16;
+    const int last = options.pick(9, 11, 12); // N = 10^(last/2)
+    std::vector<double> numbers, radii;
+    for (int i = 6; i <= last; ++i)
+        numbers.push_back(std::round(std::pow(10, i / 2.0)));
+    for (int i = 0; i < 14; ++i) radii.push_back(0.05 * std::pow(2, i / 3.0));
+    std::vector<Point> places;
+    for (int i = 0; i < 49; ++i)
+        places.push_back({0.2 * (i % 7) - 0.6, 0, 0.2 * (i / 7) - 0.6});
+
+    std::vector<Estimates> all;
+    struct Cost { // the least of all seeds: the machine may be busy
+        double trace = 1e30, build = 1e30, megabytes = 0, stored = 0;
+        std::vector<double> query; // nanoseconds, a radius
+    };
+    std::vector<Cost> costs;
+    for (const double number : numbers) {
+        Estimates estimates(radii.size());
+        Cost cost{.query = std::vector<double>(radii.size(), 1e30)};
+        for (int seed = 0; seed < seeds; ++seed) {
+            examples::StopWatch watch;
+            const auto traced =
+                trace_photons(scene, MapType::general,
+                              {.photons = static_cast<long long>(number),
+                               .seed = options.seed + static_cast<std::uint64_t>(seed),
+                               .shadow_photons = false,
+                               .threads = options.threads});
+            cost.trace = std::min(cost.trace, watch.seconds());
+            const examples::StopWatch build;
+            const PhotonMap map = make_photon_map(traced.photons, options.threads);
+            cost.build = std::min(cost.build, build.seconds());
+            cost.stored = double(traced.photons.size());
+            cost.megabytes =
+                1e-6 * double(map.tree.bytes() + map.records.blocks().size() *
+                                                     sizeof(map.records.blocks()[0]));
+            for (std::size_t r = 0; r < radii.size(); ++r) {
+                const examples::StopWatch ask;
+                std::vector<double> row;
+                for (const Point& place : places)
+                    row.push_back(irradiance(map, place, radii[r]));
+                cost.query[r] = std::min(cost.query[r],
+                                         ask.seconds() * 1e9 / double(places.size()));
+                for (std::size_t p = 0; p < places.size(); ++p)
+                    row[p] /= irradiance_from(lamp, places[p]);
+                estimates[r].push_back(row);
+            }
+        }
+        all.push_back(estimates);
+        costs.push_back(cost);
+    }
+
+    examples::Plot by_radius{.name = "general-radius",
+                             .columns = {"radius of the estimate"},
+                             .y_label = "error of the irradiance, rms",
+                             .rows = {},
+                             .log_x = true,
+                             .log_y = true};
+    std::vector<std::size_t> shown;
+    for (std::size_t n = 0; n < numbers.size(); n += 2) {
+        shown.push_back(n);
+        by_radius.columns.push_back(examples::text(numbers[n], "%.0f") + " photons");
+    }
+    for (std::size_t r = 0; r < radii.size(); ++r) {
+        examples::Row row{radii[r]};
+        for (const std::size_t n : shown) {
+            const Parts parts = parts_of(all[n][r]);
+            row.push_back(std::sqrt(parts.variance + std::max(0.0, parts.bias2)));
+        }
+        by_radius.rows.push_back(row);
+    }
+    examples::save_plot(options.out, by_radius);
+
+    const auto best = [&](std::size_t n, int left_out) {
+        double least = 1e30;
+        for (std::size_t r = 0; r < radii.size(); ++r) {
+            const Parts parts = parts_of(all[n][r], left_out);
+            least = std::min(least, parts.variance + parts.bias2);
+        }
+        return least;
+    };
+    const std::size_t middle = 6; // r = 0.2
+    const Slope with_number =
+        slope_of(numbers, seeds, [&](std::size_t n, int left_out) {
+            return parts_of(all[n][middle], left_out).variance;
+        });
+    const std::vector<double> narrow(radii.begin(), radii.begin() + 8); // r <= 0.25
+    const Slope with_radius = slope_of(narrow, seeds, [&](std::size_t r, int left_out) {
+        return parts_of(all[numbers.size() / 2][r], left_out).variance;
+    });
+    const std::vector<double> wide(radii.begin() + 7, radii.begin() + 12); // to 0.63
+    const Slope of_bias = slope_of(wide, seeds, [&](std::size_t r, int left_out) {
+        return parts_of(all.back()[r + 7], left_out).bias2;
+    });
+    const Slope of_best = slope_of(numbers, seeds, best);
+    examples::Table slopes{
+        .name = "general-slopes",
+        .columns = {"what", "against", "theory", "measured", "95 % band"},
+        .rows = {}};
+    const auto slope_row = [&](const char* what, const char* against,
+                               const char* theory, const Slope& slope) {
+        slopes.rows.push_back({what, against, theory,
+                               examples::text(slope.value, "%.3f"),
+                               examples::text(slope.band, "± %.3f")});
+    };
+    slope_row("variance, r = 0.2", "N", "-1", with_number);
+    slope_row("variance, r to 0.25", "r", "-2", with_radius);
+    slope_row("bias squared, r from 0.25 to 0.63", "r", "4", of_bias);
+    slope_row("mean square error at the best r", "N", "-2/3", of_best);
+    save(options, slopes);
+
+    examples::Plot by_number{.name = "general-best",
+                             .columns = {"photons emitted", "at the best radius",
+                                         "N^(-2/3)", "r = 0.1", "r = 0.4"},
+                             .y_label = "mean square error of the irradiance",
+                             .rows = {},
+                             .log_x = true,
+                             .log_y = true};
+    examples::Table trade{.name = "general-trade",
+                          .columns = {"photons", "best radius", "error, rms",
+                                      "tracing, ms", "tree, ms", "a query, µs", "MB",
+                                      "bytes a photon"},
+                          .rows = {}};
+    const double anchor =
+        best(numbers.size() / 2, -1) * std::pow(numbers[numbers.size() / 2], 2.0 / 3);
+    for (std::size_t n = 0; n < numbers.size(); ++n) {
+        const auto error2 = [&](std::size_t r) {
+            const Parts parts = parts_of(all[n][r]);
+            return parts.variance + parts.bias2;
+        };
+        std::size_t at = 0;
+        for (std::size_t r = 1; r < radii.size(); ++r)
+            if (error2(r) < error2(at)) at = r;
+        by_number.rows.push_back({numbers[n], error2(at),
+                                  anchor / std::pow(numbers[n], 2.0 / 3), error2(3),
+                                  error2(9)});
+        const Cost& cost = costs[n];
+        trade.rows.push_back(
+            {examples::text(numbers[n], "%.0f"), examples::text(radii[at], "%.2f"),
+             examples::text(100 * std::sqrt(error2(at)), "%.2f %%"),
+             examples::text(1e3 * cost.trace, "%.1f"),
+             examples::text(1e3 * cost.build, "%.1f"),
+             examples::text(1e-3 * cost.query[at], "%.2f"),
+             examples::text(cost.megabytes, "%.2f"),
+             examples::text(1e6 * cost.megabytes / cost.stored, "%.1f")});
+    }
+    examples::save_plot(options.out, by_number);
+    save(options, trade);
+}
+
+} // namespace
+
+/// Makes the chapter's pictures, plots and tables.
+/// \param argc  Number of arguments.
+/// \param argv  The command line; `--help` explains it.
+/// \return 0; 2 with one sentence for anything that is wrong.
+int main(int argc, char** argv) {
+    return examples::run_main(argc, argv, [](examples::CommandLine& line) {
+        long long photons = 0;
+        line.about("Chapter 24, the general map: figures 5, 6 and 7.");
+        line.add("--photons", photons, "Photons emitted for the figures", 1, 100000000);
+        const examples::Options options =
+            line.parse({.draft{.width = 300, .height = 300, .samples = 1}});
+        if (!line.given("--photons")) photons = options.pick(15000LL, 30000LL, 60000LL);
+        figures(options, photons);
+        map_as_picture(options);
+        failures(options);
+        laws(options);
+    });
+}

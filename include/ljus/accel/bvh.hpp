@@ -1,0 +1,183 @@
+#pragma once
+
+/// \file ljus/accel/bvh.hpp
+/// \brief The plain tree of boxes: what a ray meets, without asking everything.
+
+#include <array>
+
+#include "ljus/accel/detail/bvh_build.hpp"
+
+namespace ljus {
+
+/// \defgroup bvh Bounding volumes
+/// \brief Discussion: "an octree, axis-aligned bounding boxes, or a binary space
+/// partition". Chapter: \ref ch_bvh.
+/// \{
+
+/// What a search tells of its way, if nobody listens.
+struct NoTrace {
+    /// A node was visited.
+    constexpr void operator()() const noexcept {}
+};
+
+/// The nearest hit so far; of several that are as near, that of the thing with the
+/// least number: what asking all of them in turn would find.
+// [nearest]
+template <std::floating_point T>
+struct NearestHitT {
+    FlatHitT<T> at{};                                                 ///< Where.
+    std::uint32_t number = std::numeric_limits<std::uint32_t>::max(); ///< Of what.
+    bool found = false; ///< Whether there is one.
+
+    /// Takes a hit, if it is nearer, and shortens the ray to it: but for one unit in
+    /// the last place, because a thing at the same t, computed in double, may seem
+    /// farther.
+    /// \return Whether it was nearer.
+    bool offer(const FlatHitT<T>& hit, std::uint32_t of, RayT<T>& ray) noexcept {
+        if (found && !(hit.t < at.t || (hit.t == at.t && of < number))) return false;
+        at = hit;
+        number = of;
+        found = true;
+        const T beyond = hit.t + hit.t * std::numeric_limits<T>::epsilon() +
+                         std::numeric_limits<T>::denorm_min();
+        ray.t_max = beyond < ray.t_max ? beyond : ray.t_max;
+        return true;
+    }
+};
+// [nearest]
+using NearestHit = NearestHitT<float>; ///< NearestHitT in float.
+
+/// A binary tree of boxes over any things that have one \cite rubin1980. What the
+/// things are, and where, is the caller's: a search calls back with a thing's *place*
+/// in the tree's order, and order() says which one that is.
+///
+///     std::vector<Box> boxes;
+///     for (const Triangle& triangle : triangles) boxes.push_back(bounds(triangle));
+///     const Bvh tree(boxes);
+///     NearestHit nearest;
+///     tree.closest(ray, [&](std::uint32_t place, Ray& rest) {
+///         const std::uint32_t i = tree.order()[place];
+///         if (const auto hit = intersect(rest, triangles[i]))
+///             nearest.offer(*hit, i, rest);
+///     });
+template <std::floating_point T>
+class BvhT {
+public:
+    /// A tree over nothing.
+    BvhT() = default;
+
+    /// Builds the tree.
+    /// \param boxes     As for build_bvh().
+    /// \param settings  As for build_bvh().
+    /// \throws As build_bvh().
+    explicit BvhT(std::span<const BoxT<T>> boxes, const BvhSettings& settings = {})
+        : tree_(build_bvh(boxes, settings)) {}
+
+    /// order()[place] is a thing's number in the span that the tree was built from.
+    [[nodiscard]] const std::vector<std::uint32_t>& order() const noexcept {
+        return tree_.order;
+    }
+    /// The nodes, the root first.
+    [[nodiscard]] const std::vector<BvhNodeT<T>>& nodes() const noexcept {
+        return tree_.nodes;
+    }
+    /// A box around everything.
+    [[nodiscard]] BoxT<T> box() const noexcept {
+        return tree_.nodes.empty() ? BoxT<T>{} : tree_.nodes[0].box;
+    }
+    /// The memory that the tree takes.
+    [[nodiscard]] std::size_t bytes() const noexcept {
+        return tree_.nodes.capacity() * sizeof(BvhNodeT<T>) +
+               tree_.order.capacity() * 4;
+    }
+
+    /// Asks the things that a ray may meet, the nearer ones first.
+    /// \param ray    The ray.
+    /// \param test   Called as test(place, ray) for things whose box the ray meets; it
+    ///               may shorten the ray, as NearestHitT does, so that what lies
+    ///               farther is left out; what is as far is still asked.
+    /// \param watch  Called for each node on the way.
+    /// \cost In the mean O(log n) calls, in the worst case n.
+    template <typename Test, typename Watch = NoTrace>
+    void closest(RayT<T> ray, Test&& test, Watch&& watch = {}) const {
+        walk(
+            ray,
+            [&](std::uint32_t place) {
+                test(place, ray);
+                return false;
+            },
+            watch);
+    }
+
+    /// Whether any of the things that a ray may meet says yes.
+    /// \param ray    The ray.
+    /// \param test   Called as test(place); true ends the search.
+    /// \param watch  Called for each node on the way.
+    /// \return Whether one said true.
+    template <typename Test, typename Watch = NoTrace>
+    [[nodiscard]] bool any(const RayT<T>& ray, Test&& test, Watch&& watch = {}) const {
+        return walk(ray, test, watch);
+    }
+
+private:
+    // The way of both searches: of two children the nearer one first, and the other one
+    // kept for later, with the distance at which the ray enters it.
+    // [walk]
+    template <typename Test, typename Watch>
+    bool walk(const RayT<T>& ray, Test&& test, Watch& watch) const {
+        const auto& nodes = tree_.nodes;
+        if (nodes.empty() || !(is_finite(ray.origin) && is_finite(ray.direction)))
+            return false;
+        const auto with_signs = box_ray(ray, nodes[0].box);
+        if (!with_signs) return ask_all(test);
+        const auto entry = [&](std::uint32_t i) {
+            return enter(*with_signs, nodes[i].box, ray.t_min, ray.t_max);
+        };
+        struct Later {
+            std::uint32_t node;
+            T t;
+        };
+        std::array<Later, bvh_depth> later;
+        std::size_t waiting = 0;
+        if (!entry(0)) return false;
+        for (std::uint32_t at = 0;;) {
+            watch();
+            const BvhNodeT<T>& node = nodes[at];
+            for (std::uint32_t i = 0; i < node.count; ++i)
+                if (test(node.first + i)) return true;
+            if (node.count == 0) {
+                const auto one = entry(node.first);
+                const auto two = entry(node.first + 1);
+                if (one || two) {
+                    const bool second = !one || (two && *two < *one);
+                    at = node.first + (second ? 1u : 0u);
+                    if (one && two)
+                        later[waiting++] = {second ? node.first : node.first + 1,
+                                            second ? *one : *two};
+                    continue;
+                }
+            }
+            // What was found since may lie in front of what waits.
+            do {
+                if (waiting == 0) return false;
+                --waiting;
+            } while (later[waiting].t > ray.t_max);
+            at = later[waiting].node;
+        }
+    }
+    // [walk]
+
+    template <typename Test>
+    bool ask_all(Test& test) const {
+        for (std::uint32_t place = 0; place < tree_.order.size(); ++place)
+            if (test(place)) return true;
+        return false;
+    }
+
+    BvhNodesT<T> tree_;
+};
+using Bvh = BvhT<float>; ///< BvhT in float.
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,90 @@
+#pragma once
+
+/// \file ljus/accel/bvh8.hpp
+/// \brief The fast tree of boxes: eight children a node, asked at once.
+
+#include "ljus/accel/bvh.hpp"
+#include "ljus/accel/detail/bvh8_traverse.hpp"
+
+namespace ljus {
+
+/// \defgroup bvh8 Wide trees
+/// \brief The twin of the plain tree for speed \cite wald2008 : the same searches, the
+/// same answers. Chapter: \ref ch_bvh.
+/// \{
+
+/// The plain tree, made wide: nodes of up to eight children, chosen by
+/// \ref bvh_collapse.
+class Bvh8 {
+public:
+    /// A tree over nothing.
+    Bvh8() = default;
+
+    /// Builds the tree.
+    /// \param boxes     As for build_bvh(), but below 2^27.
+    /// \param settings  As for build_bvh(); leaves of at most 16.
+    /// \param multiple  Leaves start at multiples of so many places, with holes
+    ///                  between them.
+    /// \throws As build_bvh().
+    template <typename Boxes>
+    requires std::convertible_to<const Boxes&, std::span<const Box>>
+    explicit Bvh8(const Boxes& boxes, const BvhSettings& settings = {},
+                  std::uint32_t multiple = 1) {
+        require(settings.leaf_size <= 16, "leaf_size",
+                static_cast<long long>(settings.leaf_size), "at most 16");
+        wide_ = make_bvh8(build_bvh(std::span<const Box>(boxes), settings), multiple);
+    }
+
+    /// A place between leaves that nothing has.
+    static constexpr std::uint32_t hole = Bvh8Nodes::hole;
+
+    /// order()[place] is a thing's number, or a hole.
+    [[nodiscard]] const std::vector<std::uint32_t>& order() const noexcept {
+        return wide_.order;
+    }
+    /// The nodes, the root first.
+    [[nodiscard]] const std::vector<Bvh8Node>& nodes() const noexcept {
+        return wide_.nodes;
+    }
+    /// The tree itself, for walk_nearest() and walk_any().
+    [[nodiscard]] const Bvh8Nodes& wide() const noexcept { return wide_; }
+    /// A box around everything.
+    [[nodiscard]] const Box& box() const noexcept { return wide_.box; }
+    /// The memory that the tree takes.
+    [[nodiscard]] std::size_t bytes() const noexcept {
+        return wide_.nodes.capacity() * sizeof(Bvh8Node) + wide_.order.capacity() * 4;
+    }
+
+    /// Asks the things that a ray may meet, the nearer ones first: as BvhT::closest().
+    template <typename Test, typename Watch = NoTrace>
+    void closest(Ray ray, Test&& test, Watch&& watch = {}) const {
+        const auto ask = [&](std::uint32_t place) {
+            test(place, ray);
+            return false;
+        };
+        walk_nearest(wide_, ray, each_place(ask), watch);
+    }
+
+    /// Whether any of the things that a ray may meet says yes: as BvhT::any().
+    template <typename Test, typename Watch = NoTrace>
+    [[nodiscard]] bool any(const Ray& ray, Test&& test, Watch&& watch = {}) const {
+        return walk_any(wide_, ray, each_place(test), watch);
+    }
+
+    /// A leaf for walk_nearest() and walk_any() that asks place by place.
+    template <typename Ask>
+    [[nodiscard]] auto each_place(Ask& ask) const {
+        return [this, &ask](std::uint32_t first, std::uint32_t count, const Bvh8Ray*) {
+            for (std::uint32_t place = first; place < first + count; ++place)
+                if (wide_.order[place] != hole && ask(place)) return true;
+            return false;
+        };
+    }
+
+private:
+    Bvh8Nodes wide_;
+};
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,211 @@
+#pragma once
+
+/// \file ljus/accel/detail/kd_tree8_build.hpp
+/// \brief How the wide k-d tree is built: its shape, and the splitting of ranges.
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "ljus/accel/detail/kd_tree8_nodes.hpp"
+#include "ljus/accel/detail/lane_select.hpp"
+#include "ljus/math/require.hpp"
+#include "ljus/parallel.hpp"
+
+namespace ljus {
+
+/// \addtogroup kd_tree8
+/// \{
+
+namespace detail {
+
+// Builds the nodes, the blocks and the order of a tree.
+template <std::floating_point T>
+class KdTree8Builder {
+public:
+    // A point on its way: 16 bytes in float, moved as one.
+    struct Item {
+        T v[3];
+        std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t> index;
+    };
+
+    KdTree8Builder(const KdTree8Shape& shape, std::span<KdTree8NodeT<T>> nodes,
+                   std::span<BlockT<T>> blocks, std::span<std::uint32_t> order)
+        : shape_(shape), nodes_(nodes), blocks_(blocks), order_(order) {
+        for (auto& items : items_)
+            items = std::make_unique_for_overwrite<Item[]>(shape.points);
+    }
+
+    // [wide build]
+    void build(std::span<const Vec3T<T>> points, int threads) {
+        constexpr long long piece = 1 << 14;
+        if (shape_.points < 2 * piece) threads = 1; // not worth waking them
+        const auto total = static_cast<long long>(points.size());
+        parallel_blocks(block_count(total, piece),
+                        [&](long long block) {
+                            const auto [first, last] = block_range(block, piece, total);
+                            for (auto i = std::size_t(first); i < std::size_t(last);
+                                 ++i) {
+                                require_finite("a point of the k-d tree", points[i]);
+                                items_[0][i] = {{points[i].x, points[i].y, points[i].z},
+                                                static_cast<decltype(Item::index)>(i)};
+                            }
+                        },
+                        {.threads = threads});
+
+        // The upper ranges level by level, then whole subtrees.
+        const int together = std::min(shape_.halvings, 5);
+        for (int depth = 0; depth < together; ++depth)
+            parallel_blocks(
+                1LL << depth,
+                [&](long long number) { halve(depth, std::uint64_t(number)); },
+                {.threads = threads});
+        parallel_blocks(
+            1LL << together,
+            [&](long long number) { finish(together, std::uint64_t(number)); },
+            {.threads = threads});
+    }
+
+private:
+    void finish(int depth, std::uint64_t number) {
+        halve(depth, number);
+        if (depth == shape_.halvings) return;
+        finish(depth + 1, 2 * number);
+        finish(depth + 1, 2 * number + 1);
+    }
+
+    // One range: its box into its node; then its points to its two halves, which lie in
+    // the other array, or into its leaf.
+    void halve(int depth, std::uint64_t number) {
+        const auto point = [&](std::uint64_t block) {
+            return std::min(8 * block, shape_.points);
+        };
+        const std::uint64_t first = point(shape_.first_block(depth, number));
+        const std::uint64_t last = point(shape_.first_block(depth, number + 1));
+        Item* const from = items_[depth % 2].get() + first;
+        Vec3T<T> low, high;
+        bounds(from, last - first, low, high);
+        const int below = shape_.halvings - depth;
+        if (depth > 0 && below % 3 == 0) {
+            const int level = shape_.levels - 1 - below / 3;
+            KdTree8NodeT<T>& node =
+                nodes_[shape_.first[std::size_t(level)] + std::size_t(number / 8)];
+            node.low.set(number % 8, low);
+            node.high.set(number % 8, high);
+        }
+        if (below == 0) {
+            for (std::uint64_t i = first; i < last; ++i) {
+                const Item& item = from[i - first];
+                blocks_[i / 8].set(i % 8, {item.v[0], item.v[1], item.v[2]});
+                order_[i] = static_cast<std::uint32_t>(item.index);
+            }
+            return;
+        }
+        const std::uint64_t middle =
+            point(shape_.first_block(depth + 1, 2 * number + 1));
+        partition(from, items_[(depth + 1) % 2].get() + first, last - first,
+                  middle - first, longest_axis(low, high));
+    }
+    // [wide build]
+
+    static void bounds(const Item* items, std::uint64_t count, Vec3T<T>& low,
+                       Vec3T<T>& high) noexcept {
+        // Four lanes, of which the index is one: its bits are read, and not used.
+        T lows[2][4], highs[2][4];
+        std::memcpy(lows[0], &items[0], sizeof lows[0]);
+        std::memcpy(lows[1], &items[0], sizeof lows[1]);
+        std::memcpy(highs, lows, sizeof highs);
+        for (std::uint64_t i = 0; i < count; ++i) {
+            T v[4];
+            std::memcpy(v, &items[i], sizeof v);
+            T* const l = lows[i % 2];
+            T* const h = highs[i % 2];
+            for (int c = 0; c < 4; ++c) {
+                l[c] = v[c] < l[c] ? v[c] : l[c];
+                h[c] = v[c] > h[c] ? v[c] : h[c];
+            }
+        }
+        for (int c = 0; c < 3; ++c) {
+            low[c] = std::min(lows[0][c], lows[1][c]);
+            high[c] = std::max(highs[0][c], highs[1][c]);
+        }
+    }
+
+    // Sends the `rank` items with the smallest coordinates to the front of `to`, the
+    // others behind them. What is in `from` is lost.
+    // [partition]
+    static void partition(Item* from, Item* to, std::uint64_t count, std::uint64_t rank,
+                          int axis) {
+        while (count > 0) {
+            const auto [low, high] = pivots(from, count, rank, axis);
+            // Below the pivots to the front, above to the back, the band between them
+            // to the front of where it came from: three writes, and no jump.
+            std::uint64_t front = 0, back = count, band = 0;
+            for (std::uint64_t i = 0; i < count; ++i) {
+                const Item item = from[i];
+                const T key = item.v[axis];
+                to[front] = item;
+                to[back - 1] = item;
+                from[band] = item;
+                const bool below = key < low;
+                const bool above = key > high;
+                front += below;
+                back -= above;
+                band += !(below | above);
+            }
+            // In a band of equal numbers any order will do.
+            const bool inside = front <= rank && rank <= back;
+            if (!inside || low == high || band > count / 2) {
+                std::copy(from, from + band, to + front);
+                if (!inside || low != high)
+                    std::nth_element(to, to + rank, to + count,
+                                     [axis](const Item& a, const Item& b) {
+                                         return a.v[axis] < b.v[axis];
+                                     });
+                return;
+            }
+            to += front;
+            rank -= front;
+            count = band;
+        }
+    }
+    // [partition]
+
+    // Two numbers between which the item of a rank is likely to lie: of a few items,
+    // twice its own coordinate; of many, what a sample says.
+    static std::pair<T, T> pivots(const Item* items, std::uint64_t count,
+                                  std::uint64_t rank, int axis) {
+        constexpr std::uint64_t few = 2048;
+        constexpr std::uint64_t sample = 512;
+        constexpr std::uint64_t margin = 32; // 2.8 standard deviations of its median
+        std::array<T, few> keys;
+        const std::uint64_t size = count <= few ? count : sample;
+        for (std::uint64_t i = 0; i < size; ++i)
+            keys[i] = items[count <= few ? i : i * (count / sample)].v[axis];
+        for (std::uint64_t i = size; i % 8 != 0; ++i)
+            keys[i] = std::numeric_limits<T>::infinity();
+        if (count <= few) {
+            const T key = select_smallest(keys.data(), size, rank + 1);
+            return {key, key};
+        }
+        const std::uint64_t middle = rank * sample / count;
+        return {
+            select_smallest(keys.data(), size, std::max(middle, margin) - margin + 1),
+            select_smallest(keys.data(), size, std::min(middle + margin, sample))};
+    }
+
+    const KdTree8Shape& shape_;
+    std::span<KdTree8NodeT<T>> nodes_;
+    std::span<BlockT<T>> blocks_;
+    std::span<std::uint32_t> order_;
+    std::unique_ptr<Item[]> items_[2];
+};
+
+} // namespace detail
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,176 @@
+#pragma once
+
+/// \file ljus/accel/detail/kd_tree8_search.hpp
+/// \brief The nearest points of the wide k-d tree.
+
+#include <algorithm>
+
+#include "ljus/accel/kd_tree8.hpp"
+
+namespace ljus {
+
+/// \addtogroup kd_tree8
+/// \{
+
+template <std::floating_point T>
+std::optional<Neighbor> KdTree8T<T>::nearest(const Vec3T<T>& center, T radius) const {
+    if (!(radius >= T(0)) || size() == 0) return std::nullopt;
+    auto reach = ReachT<T>::up_to(double(radius) * double(radius), false);
+    std::optional<Neighbor> best;
+    towards(center, reach, [&](std::size_t first, std::size_t last) {
+        // The smallest distance in T, but for its last bits; only what is as small may
+        // be the nearest.
+        LanesT<T> least = distances2(blocks_[first], center);
+        for (std::size_t b = first + 1; b < last; ++b) {
+            const LanesT<T> d2 = distances2(blocks_[b], center);
+            for_lanes([&](int i) {
+                least.lane[i] = d2.lane[i] < least.lane[i] ? d2.lane[i] : least.lane[i];
+            });
+        }
+        const std::uint32_t smallest = smallest_lane(least, 255, reach.last);
+        if (smallest == 8) return;
+        const T bound = std::min(
+            ReachT<T>::up_to(double(least.lane[smallest]), false).last, reach.last);
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        const ReachT<T> close{.limit2 = infinity, .sure = bound, .last = bound};
+        for (std::uint32_t some = in_leaf(first, last, center, close); some != 0;
+             some &= some - 1) {
+            const std::size_t i =
+                8 * first + static_cast<std::size_t>(std::countr_zero(some));
+            const double exact = distance2(point(i), center);
+            if (!reach.holds(exact)) continue;
+            best = Neighbor{exact, static_cast<std::uint32_t>(i)};
+            reach = ReachT<T>::up_to(exact, true);
+        }
+    });
+    return best;
+}
+
+// [nearest]
+template <std::floating_point T>
+template <typename Wanted>
+std::size_t KdTree8T<T>::nearest(const Vec3T<T>& center, T radius,
+                                 std::span<Neighbor> found, Wanted wanted) const {
+    if (found.empty() || !(radius >= T(0)) || size() == 0) return 0;
+    auto reach = ReachT<T>::up_to(double(radius) * double(radius), false);
+    if (found.size() <= max_counted) return count_nearest(center, reach, found, wanted);
+
+    Nearest best{.found = found, .limit2 = reach.limit2};
+    towards(center, reach, [&](std::size_t first, std::size_t last) {
+        for (std::size_t b = first; b < last; ++b) {
+            std::uint32_t some =
+                reach.within(blocks_[b], center, distances2(blocks_[b], center));
+            for (; some != 0; some &= some - 1) {
+                const auto i = std::size_t(std::countr_zero(some));
+                const auto index = static_cast<std::uint32_t>(8 * b + i);
+                const double d2 = distance2(blocks_[b][i], center);
+                if (best.reaches(d2) && wanted(index)) best.take({d2, index});
+            }
+        }
+        if (best.count == found.size())
+            reach = ReachT<T>::up_to(found[0].distance2, true);
+    });
+    return best.count;
+}
+
+// Gathers candidates and now and then, when there are more than enough, finds by
+// counting how far the k-th of them lies: the reach from then on.
+template <std::floating_point T>
+template <typename Wanted>
+std::size_t KdTree8T<T>::count_nearest(const Vec3T<T>& center, ReachT<T> reach,
+                                       std::span<Neighbor> found,
+                                       Wanted& wanted) const {
+    constexpr std::size_t room = 2 * max_counted;
+    alignas(32) T d2[room + 8];
+    std::uint32_t index[room + 8];
+    std::uint32_t band[room];
+    const std::size_t k = found.size();
+    std::size_t count = 0;
+
+    const auto fill_up = [&] {
+        for (std::size_t i = count; i % 8 != 0; ++i)
+            d2[i] = std::numeric_limits<T>::infinity();
+    };
+    // On the way a few too many will do.
+    const std::size_t spare = k / 8;
+    const auto thin_out = [&] {
+        fill_up();
+        const T least = select_smallest(d2, count, k, spare);
+        const T bound = ReachT<T>::up_to(double(least), false).last;
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const T x = d2[i];
+            d2[kept] = x;
+            index[kept] = index[i];
+            kept += x <= bound;
+        }
+        count = kept;
+        if (double(bound) < reach.limit2)
+            reach = ReachT<T>::up_to(double(bound), false);
+    };
+    const auto shrink = [&] {
+        fill_up();
+        // Those that T puts near the k-th are put into their order in double.
+        const auto kth = ReachT<T>::up_to(double(select_smallest(d2, count, k)), false);
+        std::size_t sure = 0, ties = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const T x = d2[i];
+            const std::uint32_t at = index[i];
+            d2[sure] = x;
+            index[sure] = at;
+            band[ties] = at;
+            sure += x <= kth.sure;
+            ties += x > kth.sure && x <= kth.last;
+        }
+        const auto exact = [&](std::uint32_t i) {
+            return Neighbor{distance2(point(i), center), i};
+        };
+        const std::uint32_t last = static_cast<std::uint32_t>(k - sure - 1);
+        std::nth_element(band, band + last, band + ties,
+                         [&](auto a, auto b) { return exact(a) < exact(b); });
+        const double limit2 = exact(band[last]).distance2;
+        for (std::size_t i = 0; sure < k; ++i, ++sure) {
+            d2[sure] = distances2(blocks_[band[i] / 8], center).lane[band[i] % 8];
+            index[sure] = band[i];
+        }
+        count = k;
+        reach = ReachT<T>::up_to(limit2, true);
+    };
+
+    std::size_t enough = k;
+    towards(center, reach, [&](std::size_t first, std::size_t last) {
+        for (std::size_t b = first; b < last; ++b) {
+            const LanesT<T> far = distances2(blocks_[b], center);
+            const std::uint32_t some = reach.within(blocks_[b], center, far);
+            if (some == 0) continue;
+            for (std::uint32_t i = 0; i < lane_count; ++i) {
+                const auto at = static_cast<std::uint32_t>(8 * b + i);
+                d2[count] = far.lane[i];
+                index[count] = at;
+                if constexpr (std::is_same_v<Wanted, AnyPoint>)
+                    count += some >> i & 1u;
+                else
+                    count += (some >> i & 1u) != 0 && wanted(at) ? 1 : 0;
+            }
+        }
+        if (count >= enough) {
+            thin_out();
+            if (count > k + 2 * spare) shrink(); // many are equally far
+            enough = count + std::max<std::size_t>(k / 2, 32);
+        }
+    });
+    if (count > k) shrink();
+
+    std::size_t farthest = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        found[i] = {distance2(point(index[i]), center), index[i]};
+        if (found[i].distance2 > found[farthest].distance2) farthest = i;
+    }
+    if (count > 0) std::swap(found[0], found[farthest]);
+    return count;
+}
+// [nearest]
+
+/// \}
+
+} // namespace ljus

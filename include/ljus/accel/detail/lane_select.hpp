@@ -1,0 +1,135 @@
+#pragma once
+
+/// \file ljus/accel/detail/lane_select.hpp
+/// \brief The k-th smallest of many numbers, by counting eight at a time.
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include "ljus/accel/detail/point_block.hpp"
+
+namespace ljus {
+
+/// \addtogroup kd_tree8
+/// \{
+
+namespace detail {
+
+/// The number in the middle of two, counted in floats: never more than the width of T
+/// in bits steps lie between any two numbers.
+template <std::floating_point T>
+[[nodiscard]] constexpr T middle_in_bits(T low, T high) noexcept {
+    using Bits = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
+    constexpr Bits sign = std::numeric_limits<Bits>::min();
+    // Below 0 the order of the bits is reversed.
+    const auto ordered = [](T x) {
+        const Bits bits = std::bit_cast<Bits>(x);
+        return bits < 0 ? sign - bits : bits;
+    };
+    const Bits a = ordered(low);
+    const Bits b = ordered(high);
+    const Bits middle = (a & b) + ((a ^ b) >> 1);
+    return std::bit_cast<T>(middle < 0 ? sign - middle : middle);
+}
+
+} // namespace detail
+
+/// How many numbers do not exceed a threshold.
+/// \param values     The numbers, filled up to whole eights with infinity.
+/// \param count      How many there are.
+/// \param threshold  Below infinity.
+template <std::floating_point T>
+[[nodiscard]] constexpr std::size_t count_up_to(const T* values, std::size_t count,
+                                                T threshold) noexcept {
+    using Count = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
+    Count counts[lane_count] = {};
+    for (const T* block = values; block < values + count; block += lane_count)
+        for_lanes([&](int j) { counts[j] += block[j] <= threshold ? 1 : 0; });
+    Count sum = 0;
+    for (const Count lane : counts) sum += lane;
+    return static_cast<std::size_t>(sum);
+}
+
+/// The smallest of all numbers above a bound, and the largest finite one that does not
+/// exceed another.
+/// \param values  The numbers, filled up to whole eights with infinity.
+/// \param count   How many there are.
+/// \param above   Smaller ones, and this one, do not count for the smallest.
+/// \param up_to   Larger ones do not count for the largest.
+/// \return Both; infinity and minus infinity if there are none.
+template <std::floating_point T>
+[[nodiscard]] constexpr std::pair<T, T>
+smallest_and_largest(const T* values, std::size_t count, T above, T up_to) noexcept {
+    constexpr T infinity = std::numeric_limits<T>::infinity();
+    T low[lane_count], high[lane_count];
+    for (std::size_t j = 0; j < lane_count; ++j) low[j] = infinity, high[j] = -infinity;
+    for (const T* block = values; block < values + count; block += lane_count)
+        for_lanes([&](int j) {
+            const T x = block[j];
+            const T for_low = x > above ? x : infinity;
+            const T for_high = x <= up_to ? x : -infinity;
+            low[j] = for_low < low[j] ? for_low : low[j];
+            high[j] = for_high > high[j] ? for_high : high[j];
+        });
+    std::pair<T, T> result{low[0], high[0]};
+    for (std::size_t j = 1; j < lane_count; ++j) {
+        result.first = low[j] < result.first ? low[j] : result.first;
+        result.second = high[j] > result.second ? high[j] : result.second;
+    }
+    return result;
+}
+
+/// The k-th smallest of some numbers.
+///
+/// No number is moved: a threshold is guessed from the two that enclose the answer, as
+/// if the numbers between them were spread evenly, and those below it are counted; each
+/// third guess is the middle in bits, so that no numbers take long.
+/// \param values  The numbers, without NaN, above minus infinity; filled up to whole
+///                eights with infinity.
+/// \param count   How many there are, at least 1.
+/// \param k       Which one, in [1, count].
+/// \param spare   So many more than k may be let through, if that is sooner found out.
+/// \return The smallest of them that k numbers do not exceed; with numbers to spare,
+///         that or any other number that k to k + spare of them do not exceed.
+/// \cost About five passes, at most a hundred (in double two hundred); a pass is a
+///       comparison and an addition for eight numbers.
+// [select]
+template <std::floating_point T>
+[[nodiscard]] constexpr T select_smallest(const T* values, std::size_t count,
+                                          std::size_t k,
+                                          std::size_t spare = 0) noexcept {
+    constexpr T infinity = std::numeric_limits<T>::infinity();
+    constexpr T most = std::numeric_limits<T>::max();
+    // Fewer than k lie at or below `low`, at least k at or below `high`.
+    auto [low, high] = smallest_and_largest(values, count, -infinity, most);
+    std::size_t up_to_low = count_up_to(values, count, low);
+    if (up_to_low >= k) return low;
+    std::size_t up_to_high = count_up_to(values, count, most);
+    if (up_to_high < k) return infinity;
+
+    for (int step = 0;; ++step) {
+        if (spare > 0 && up_to_high <= k + spare) return high;
+        if (up_to_high == k)
+            return smallest_and_largest(values, count, infinity, high).second;
+        if (up_to_low + 1 == k)
+            return smallest_and_largest(values, count, low, -infinity).first;
+        const T part = (T(k - up_to_low) - T(0.5)) / T(up_to_high - up_to_low);
+        T guess = low + (high - low) * part;
+        if (step % 3 == 2 || !(low < guess && guess < high)) {
+            guess = detail::middle_in_bits(low, high);
+            if (!(low < guess && guess < high)) return high; // neighbours
+        }
+        const std::size_t up_to_guess = count_up_to(values, count, guess);
+        (up_to_guess < k ? low : high) = guess;
+        (up_to_guess < k ? up_to_low : up_to_high) = up_to_guess;
+    }
+}
+// [select]
+
+/// \}
+
+} // namespace ljus

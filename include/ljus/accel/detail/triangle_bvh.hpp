@@ -1,0 +1,216 @@
+#pragma once
+
+/// \file ljus/accel/detail/triangle_bvh.hpp
+/// \brief A wide tree over triangles: eight of them are looked at together, and only
+/// those are tested about which that leaves a doubt.
+
+#include "ljus/accel/bvh8.hpp"
+
+namespace ljus {
+
+/// \defgroup triangle_bvh Trees of triangles
+/// \brief The fast tree for a mesh. Chapter: \ref ch_bvh.
+/// \{
+
+/// Up to eight triangles, coordinate by coordinate: five cache lines of 64 bytes.
+struct alignas(64) TriangleLanes {
+    Lanes3 v1{};  ///< First corners.
+    Lanes3 v2{};  ///< Second corners.
+    Lanes3 v3{};  ///< Third corners.
+    Lanes size{}; ///< The largest component of both edges; below 0 for no triangle.
+};
+
+/// What a first look at eight triangles says: lanes, as yes_lanes() has them.
+struct FirstLook {
+    std::uint64_t maybe = 0;   ///< Those that the ray may hit.
+    std::uint64_t certain = 0; ///< Those among them that it hits.
+};
+
+/// A first look at eight triangles: the test of Moeller and Trumbore
+/// \cite moller1997 without its division, in float, and how far its rounding can move
+/// each number. Where a sign could change within that, a triangle's own test decides.
+/// \param block  The triangles.
+/// \param ready  The ray, made ready.
+/// \param ray    The ray.
+/// \return Which ones it may hit, and which it hits.
+/// \cost Some 90 operations for all eight together.
+// [first_look]
+template <typename Caller>
+[[nodiscard]] inline FirstLook
+first_look(const TriangleLanes& block, const Bvh8Ray& ready, const Ray& ray) noexcept {
+    constexpr float min = std::numeric_limits<float>::min();
+    // Each number is a sum of six products with at most 8 roundings on the way.
+    constexpr float rounding = 64 * std::numeric_limits<float>::epsilon() / 2;
+    const float across = rounding * ready.length;
+    const Vec3 o = ray.origin, d = ray.direction;
+    const float t_min = ray.t_min;
+    const float t_max = ray.t_max < ready.last ? ray.t_max : ready.last;
+    const auto size_of = [](float x) { return x < 0 ? -x : x; };
+    LaneMask maybe, certain;
+    for (int i = 0; i < lane_count; ++i) {
+        const float x = block.v1.x.lane[i], y = block.v1.y.lane[i];
+        const float z = block.v1.z.lane[i];
+        const float e1x = block.v2.x.lane[i] - x, e2x = block.v3.x.lane[i] - x;
+        const float e1y = block.v2.y.lane[i] - y, e2y = block.v3.y.lane[i] - y;
+        const float e1z = block.v2.z.lane[i] - z, e2z = block.v3.z.lane[i] - z;
+        const float tx = o.x - x, ty = o.y - y, tz = o.z - z;
+        const float px = d.y * e2z - d.z * e2y;
+        const float py = d.z * e2x - d.x * e2z;
+        const float pz = d.x * e2y - d.y * e2x;
+        const float qx = ty * e1z - tz * e1y;
+        const float qy = tz * e1x - tx * e1z;
+        const float qz = tx * e1y - ty * e1x;
+
+        // All of them times the size of the determinant.
+        const float signed_area = px * e1x + py * e1y + pz * e1z;
+        const float sign = signed_area < 0 ? -1.0f : 1.0f;
+        const float area = sign * signed_area;
+        const float u = sign * (px * tx + py * ty + pz * tz);
+        const float v = sign * (qx * d.x + qy * d.y + qz * d.z);
+        const float t = sign * (qx * e2x + qy * e2y + qz * e2z);
+        const float w = area - u - v;
+        const float before = t - t_min * area;
+        const float behind = t_max * area - t;
+
+        const float size = block.size.lane[i];
+        const float scale = size * (size_of(tx) + size_of(ty) + size_of(tz) + size);
+        const float wide = across * scale + min;
+        const float deep = rounding * size * scale + min;
+        const float near = deep + across * t_min * size * size;
+        const float far = deep + across * t_max * size * size;
+        // Written so that NaN, of what overflows, is left to the triangle's own test:
+        // where u or v is NaN, so is w, and `inner` then is w.
+        const float uv = u < v ? u : v;
+        const float inner = uv < w ? uv : w;
+        const bool out =
+            (inner < -wide) | (before < -near) | (behind < -far) | (size < 0);
+        const bool in = (inner > wide) & (before > near) & (behind > far) & (size > 0);
+        maybe.lane[i] = out ? 0 : -1;
+        certain.lane[i] = in ? -1 : 0;
+    }
+    return {yes_lanes(maybe), yes_lanes(certain)};
+}
+// [first_look]
+
+/// A wide tree over triangles, with the searches of BvhT, and the same answers. It
+/// keeps the triangles, in its own order: what a search asks about lies where the first
+/// look has just been.
+///
+///     const TriangleBvh tree(count, [&](std::uint32_t i) { return triangles[i]; });
+///     tree.closest(ray, [&](std::uint32_t place, Ray& rest) {
+///         if (const auto hit = intersect<double>(rest, tree.triangle(place)))
+///             nearest.offer(*hit, tree.order()[place], rest);
+///     });
+/// \cost About 60 bytes a triangle.
+class TriangleBvh {
+public:
+    /// A tree over nothing.
+    TriangleBvh() = default;
+
+    /// Builds the tree.
+    /// \param count     How many triangles, below 2^26.
+    /// \param triangle  Called as triangle(i) for each; returns a Triangle.
+    /// \param threads   0: all that there are.
+    /// \throws As build_bvh().
+    template <typename TriangleOf>
+    TriangleBvh(std::uint32_t count, TriangleOf&& triangle, int threads = 0) {
+        std::vector<Box> boxes;
+        boxes.reserve(count);
+        for (std::uint32_t i = 0; i < count; ++i) boxes.push_back(bounds(triangle(i)));
+        const BvhSettings settings{
+            .leaf_size = lane_count, .at_a_time = lane_count, .threads = threads};
+        tree_ = Bvh8(boxes, settings, lane_count);
+        TriangleLanes empty;
+        empty.size = all_lanes(-1.0f);
+        blocks_.resize(order().size() / lane_count, empty);
+        for (std::size_t place = 0; place < order().size(); ++place)
+            if (order()[place] != Bvh8::hole)
+                put(blocks_[place / lane_count], place % lane_count,
+                    triangle(order()[place]));
+    }
+
+    /// order()[place] is a triangle's number, or Bvh8::hole.
+    [[nodiscard]] const std::vector<std::uint32_t>& order() const noexcept {
+        return tree_.order();
+    }
+    /// The triangle at a place that is no hole, as it was given.
+    [[nodiscard]] Triangle triangle(std::uint32_t place) const noexcept {
+        const TriangleLanes& block = blocks_[place / lane_count];
+        const std::size_t lane = place % lane_count;
+        const auto corner = [lane](const Lanes3& v) {
+            return Vec3{v.x.lane[lane], v.y.lane[lane], v.z.lane[lane]};
+        };
+        return {corner(block.v1), corner(block.v2), corner(block.v3)};
+    }
+    /// The tree of boxes.
+    [[nodiscard]] const Bvh8& tree() const noexcept { return tree_; }
+    /// A box around everything.
+    [[nodiscard]] const Box& box() const noexcept { return tree_.box(); }
+    /// The memory that it takes, with what it keeps of the triangles.
+    [[nodiscard]] std::size_t bytes() const noexcept {
+        return tree_.bytes() + blocks_.capacity() * sizeof(TriangleLanes);
+    }
+
+    /// As BvhT::closest(): the triangles that the ray may hit are asked.
+    template <typename Test, typename Watch = NoTrace>
+    void closest(Ray ray, Test&& test, Watch&& watch = {}) const {
+        const auto ask = [&](std::uint32_t place) {
+            test(place, ray);
+            return false;
+        };
+        walk_nearest(tree_.wide(), ray, look_first<false>(ray, ask), watch);
+    }
+
+    /// As BvhT::any(), but a triangle that is certainly hit is not asked.
+    template <typename Test, typename Watch = NoTrace>
+    [[nodiscard]] bool any(const Ray& ray, Test&& test, Watch&& watch = {}) const {
+        return walk_any(tree_.wide(), ray, look_first<true>(ray, test), watch);
+    }
+
+private:
+    // A leaf of the tree's walks.
+    template <bool certain_ends, typename Ask>
+    struct LookFirst {
+        const TriangleBvh& of;
+        const Ray& ray;
+        Ask& ask;
+
+        bool operator()(std::uint32_t first, std::uint32_t count,
+                        const Bvh8Ray* ready) const {
+            if (ready == nullptr || !ready->moderate)
+                return of.tree_.each_place(ask)(first, count, ready);
+            FirstLook found =
+                first_look<Ask>(of.blocks_[first / lane_count], *ready, ray);
+            if (certain_ends && found.certain != 0) return true;
+            while (found.maybe != 0)
+                if (ask(first + static_cast<std::uint32_t>(take_lane(found.maybe))))
+                    return true;
+            return false;
+        }
+    };
+    template <bool certain_ends, typename Ask>
+    LookFirst<certain_ends, Ask> look_first(const Ray& ray, Ask& ask) const {
+        return {*this, ray, ask};
+    }
+
+    static void put(TriangleLanes& block, std::size_t lane, const Triangle& triangle) {
+        const auto set = [&](Lanes3& lanes, const Vec3& v) {
+            lanes.x.lane[lane] = v.x;
+            lanes.y.lane[lane] = v.y;
+            lanes.z.lane[lane] = v.z;
+        };
+        const Vec3 e1 = triangle.v2 - triangle.v1;
+        const Vec3 e2 = triangle.v3 - triangle.v1;
+        set(block.v1, triangle.v1);
+        set(block.v2, triangle.v2);
+        set(block.v3, triangle.v3);
+        block.size.lane[lane] = max_component(glm::max(glm::abs(e1), glm::abs(e2)));
+    }
+
+    Bvh8 tree_;
+    std::vector<TriangleLanes> blocks_;
+};
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,185 @@
+#pragma once
+
+/// \file ljus/accel/kd_tree.hpp
+/// \brief The plain k-d tree: points near a point.
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "ljus/accel/neighbor.hpp"
+#include "ljus/math/require.hpp"
+
+namespace ljus {
+
+/// \defgroup kd_tree The k-d tree
+/// \brief Section 3.2.2: "whenever a photon hits a surface, it is stored in a k-d
+/// tree".
+/// \{
+
+/// A balanced k-d tree \cite bentley1975 without a single pointer: each range of the
+/// array is halved at the median of its longest side, down to leaves of a few points.
+/// Each range knows its box, so that a search far from all photons ends at once.
+///
+/// The tree keeps the positions; what belongs to them is the caller's, put into the
+/// tree's order with order(). Searches are const, take no memory, and may run on any
+/// number of threads.
+template <std::floating_point T>
+class KdTreeT {
+public:
+    /// An empty tree: every search finds nothing.
+    KdTreeT() = default;
+
+    /// Builds the tree.
+    /// \param points  Any points, equal ones too; below 2^32.
+    /// \throws std::invalid_argument  if a point is not finite.
+    /// \cost O(n log n), whatever the points; 16 bytes a point in float, and 3 to 12
+    ///       for the boxes.
+    explicit KdTreeT(std::span<const Vec3T<T>> points) {
+        require(points.size() <= std::numeric_limits<std::uint32_t>::max(),
+                "the number of points in a k-d tree",
+                static_cast<long long>(points.size()), "below 2^32");
+        for (const Vec3T<T>& point : points) {
+            require_finite("a point of the k-d tree", point);
+            order_.push_back(static_cast<std::uint32_t>(order_.size()));
+        }
+        if (!points.empty()) build(points, 0, 0, points.size());
+        for (const std::uint32_t index : order_) points_.push_back(points[index]);
+    }
+
+    /// Where the points came from: order()[i] is the number of the i-th point of the
+    /// tree in the span it was built from.
+    [[nodiscard]] const std::vector<std::uint32_t>& order() const noexcept {
+        return order_;
+    }
+    /// The points, in the tree's order.
+    [[nodiscard]] const std::vector<Vec3T<T>>& points() const noexcept {
+        return points_;
+    }
+    /// How many points there are.
+    [[nodiscard]] std::size_t size() const noexcept { return points_.size(); }
+
+    /// The way that every search takes, and that a search of your own can take: of the
+    /// two halves of a range the nearer one first.
+    /// \param center   Where the search is.
+    /// \param offer    Called as offer(index, distance2) with each point on the way.
+    /// \param reaches  Called as reaches(distance2) with the squared distance to a
+    ///                 range's box: no point in it is nearer. False leaves it out.
+    template <typename Offer, typename Reaches>
+    void walk(const Vec3T<T>& center, Offer&& offer, Reaches&& reaches) const {
+        if (!points_.empty() && reaches(distance2_to(0, center)))
+            descend(0, 0, points_.size(), center, offer, reaches);
+    }
+
+    /// Calls `visit(index, distance2)` for each point within a closed ball.
+    /// \param center  Of the ball.
+    /// \param radius  Not squared; infinity for all. Below 0, and if it or the centre
+    ///                is NaN, the ball is empty.
+    /// \param visit   Takes the place in the tree's order and the squared distance.
+    /// \cost In the mean O(log n) and one step a point found.
+    // [within]
+    template <typename Visit>
+    void visit_within(const Vec3T<T>& center, T radius, Visit&& visit) const {
+        if (!(radius >= T(0))) return;
+        const double limit2 = double(radius) * double(radius);
+        const auto offer = [&](std::uint32_t index, double distance2) {
+            if (distance2 <= limit2) visit(index, distance2);
+        };
+        walk(center, offer, [&](double distance2) { return distance2 <= limit2; });
+    }
+    // [within]
+
+    /// The nearest points within a closed ball.
+    /// \param center  Of the ball.
+    /// \param radius  As for visit_within().
+    /// \param found   Room for as many as are wanted; filled as a heap, farthest first.
+    /// \param wanted  Called with a place in the tree's order; false passes it over.
+    /// \return How many were found; of several that are equally far, any, but always
+    ///         the same ones.
+    /// \cost In the mean O(log n) and some steps a point that is wanted, also where
+    ///       many points are equal; where few of those around are wanted, more.
+    // [nearest]
+    template <typename Wanted>
+    [[nodiscard]] std::size_t nearest(const Vec3T<T>& center, T radius,
+                                      std::span<Neighbor> found, Wanted wanted) const {
+        if (found.empty() || !(radius >= T(0))) return 0;
+        Nearest best{.found = found, .limit2 = double(radius) * double(radius)};
+        const auto offer = [&](std::uint32_t index, double distance2) {
+            if (best.reaches(distance2) && wanted(index)) best.take({distance2, index});
+        };
+        walk(center, offer, [&](double distance2) { return best.reaches(distance2); });
+        return best.count;
+    }
+    // [nearest]
+
+private:
+    static constexpr std::size_t leaf_size = 16; // such a range is asked one by one
+
+    // Where the points of a range lie.
+    struct Box {
+        Vec3T<T> low, high;
+    };
+
+    // [build]
+    void build(std::span<const Vec3T<T>> points, std::size_t node, std::size_t first,
+               std::size_t last) {
+        Box box{points[order_[first]], points[order_[first]]};
+        for (std::size_t i = first; i < last; ++i) {
+            box.low = glm::min(box.low, points[order_[i]]);
+            box.high = glm::max(box.high, points[order_[i]]);
+        }
+        if (boxes_.size() <= node) boxes_.resize(node + 1);
+        boxes_[node] = box;
+        if (last - first <= leaf_size) return;
+
+        // The median goes to the middle; ties are split by the point's number.
+        const int axis = longest_axis(box.low, box.high);
+        const auto less = [&](std::uint32_t a, std::uint32_t b) {
+            const T x = points[a][axis], y = points[b][axis];
+            return x < y || (x == y && a < b);
+        };
+        const std::size_t middle = first + (last - first) / 2;
+        std::uint32_t* const order = order_.data();
+        std::nth_element(order + first, order + middle, order + last, less);
+        build(points, 2 * node + 1, first, middle);
+        build(points, 2 * node + 2, middle, last);
+    }
+    // [build]
+
+    double distance2_to(std::size_t node, const Vec3T<T>& center) const noexcept {
+        return box_distance2(boxes_[node].low, boxes_[node].high, center);
+    }
+
+    // [walk]
+    template <typename Offer, typename Reaches>
+    void descend(std::size_t node, std::size_t first, std::size_t last,
+                 const Vec3T<T>& center, Offer& offer, Reaches& reaches) const {
+        if (last - first <= leaf_size) {
+            for (std::size_t i = first; i < last; ++i)
+                offer(static_cast<std::uint32_t>(i), distance2(points_[i], center));
+            return;
+        }
+        const std::size_t middle = first + (last - first) / 2;
+        const std::size_t low = 2 * node + 1, high = 2 * node + 2;
+        const double to_low = distance2_to(low, center);
+        const double to_high = distance2_to(high, center);
+
+        // The nearer half first: what it finds may bring the other one out of reach.
+        const bool low_first = to_low <= to_high;
+        if (low_first && reaches(to_low))
+            descend(low, first, middle, center, offer, reaches);
+        if (reaches(to_high)) descend(high, middle, last, center, offer, reaches);
+        if (!low_first && reaches(to_low))
+            descend(low, first, middle, center, offer, reaches);
+    }
+    // [walk]
+
+    std::vector<Vec3T<T>> points_;
+    std::vector<std::uint32_t> order_;
+    std::vector<Box> boxes_; // of range i; its halves are 2i + 1 and 2i + 2
+};
+using KdTree = KdTreeT<float>; ///< KdTreeT in float.
+
+/// \}
+
+} // namespace ljus

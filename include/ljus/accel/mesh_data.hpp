@@ -1,0 +1,105 @@
+#pragma once
+
+/// \file ljus/accel/mesh_data.hpp
+/// \brief What a mesh is made of: vertices and triangles.
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "ljus/geometry/triangle.hpp"
+#include "ljus/math/require.hpp"
+
+namespace ljus {
+
+/// \defgroup mesh_data What meshes are made of
+/// \brief Vertices that triangles share. Chapter: \ref ch_triangle.
+/// \{
+
+/// Vertices, and triangles as numbers of vertices, from 0.
+template <std::floating_point T>
+struct MeshDataT {
+    std::vector<Vec3T<T>> positions{}; ///< Of the vertices, in scene units.
+    std::vector<Vec3T<T>> normals{};   ///< Unit, one a vertex; none: flat triangles.
+    std::vector<std::array<std::uint32_t, 3>> triangles{}; ///< Counter-clockwise.
+};
+using MeshData = MeshDataT<float>; ///< MeshDataT in float.
+
+/// A triangle of the data.
+/// \param data  The data.
+/// \param part  Which one.
+template <std::floating_point T>
+[[nodiscard]] TriangleT<T> triangle_of(const MeshDataT<T>& data,
+                                       std::size_t part) noexcept {
+    const auto& corner = data.triangles[part];
+    return {data.positions[corner[0]], data.positions[corner[1]],
+            data.positions[corner[2]]};
+}
+
+/// Refuses data that no mesh can be made of.
+/// \param data  The data.
+/// \throws std::invalid_argument  naming the place and the value.
+template <std::floating_point T>
+void check(const MeshDataT<T>& data) {
+    const auto place = [](const char* list, std::size_t i) {
+        return std::string(list).append("[").append(std::to_string(i)).append("]");
+    };
+    const auto count = [](std::size_t n) { return static_cast<long long>(n); };
+    require(!data.triangles.empty() && data.triangles.size() < 0xffffffffu,
+            "the number of a mesh's triangles", count(data.triangles.size()),
+            "at least 1 and below 2^32 - 1");
+    require(data.normals.empty() || data.normals.size() == data.positions.size(),
+            "the number of a mesh's normals", count(data.normals.size()),
+            "0 or that of its positions, " + std::to_string(data.positions.size()));
+    for (std::size_t i = 0; i < data.positions.size(); ++i)
+        if (!is_finite(data.positions[i]))
+            require_finite(place("mesh.positions", i), data.positions[i]);
+    for (std::size_t i = 0; i < data.normals.size(); ++i)
+        if (!is_finite(data.normals[i]))
+            require_finite(place("mesh.normals", i), data.normals[i]);
+    for (std::size_t i = 0; i < data.triangles.size(); ++i)
+        for (const std::uint32_t corner : data.triangles[i])
+            if (corner >= data.positions.size())
+                require(false, place("mesh.triangles", i) + "'s vertex", count(corner),
+                        "below the number of positions, " +
+                            std::to_string(data.positions.size()));
+}
+
+/// Gives each vertex the mean of its triangles' normals, weighted by their angles
+/// there, so that it does not matter how a flat part is cut into triangles
+/// \cite thurmer1998. Vertices at different numbers stay different, even at the same
+/// point: so edges are kept sharp.
+/// \param data  The data; the old normals are forgotten. A vertex without a triangle
+///              that has an area gets (0, 0, 0), which counts as no normal.
+/// \cost O(n).
+// [smooth]
+template <std::floating_point T>
+void smooth(MeshDataT<T>& data) {
+    using Wide = Vec3T<WideT<T>>;
+    std::vector<Wide> sums(data.positions.size(), Wide{0});
+    for (std::size_t i = 0; i < data.triangles.size(); ++i) {
+        const Wide across = cross_of_edges(triangle_of(data, i));
+        if (!(glm::dot(across, across) > 0)) continue;
+        const Wide normal = glm::normalize(across);
+        const auto& corner = data.triangles[i];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Wide here{data.positions[corner[k]]};
+            const Wide a = Wide{data.positions[corner[(k + 1) % 3]]} - here;
+            const Wide b = Wide{data.positions[corner[(k + 2) % 3]]} - here;
+            const auto angle =
+                std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+            sums[corner[k]] += angle * normal;
+        }
+    }
+    data.normals.clear();
+    for (const Wide& sum : sums) {
+        const bool known = glm::dot(sum, sum) > 0;
+        data.normals.emplace_back(known ? glm::normalize(sum) : Wide{0});
+    }
+}
+// [smooth]
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,98 @@
+#pragma once
+
+/// \file ljus/accel/pair_triangles.hpp
+/// \brief Two triangles that are one parallelogram, found again.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "ljus/geometry/quad.hpp"
+
+namespace ljus {
+
+/// \defgroup pair_triangles Pairs of triangles
+/// \brief A file of triangles has two for each wall and each lamp. As one quad they
+/// cost half as much, and the lamp is one light.
+/// \{
+
+/// The flat shapes that a list of triangles stands for.
+template <std::floating_point T>
+struct FlatShapesT {
+    std::vector<QuadT<T>> quads;         ///< Of the pairs, in the order of completion.
+    std::vector<TriangleT<T>> triangles; ///< Those without a partner, in their order.
+};
+
+/// Joins triangles with a common edge, the same side and a common parallelogram.
+///
+/// The vertices come in double, as a file has them. A fourth corner may differ from
+/// \f$ B + C - A \f$ by the rounding of the file's decimals, a few units in the last
+/// place of a double; that is nothing in float.
+/// \tparam T        The precision of the shapes.
+/// \param vertices  Points.
+/// \param indices   Three numbers of vertices a triangle.
+/// \return Every triangle, as itself or as half of a quad with the same normal.
+/// \cost O(n log n).
+// [pair_triangles]
+template <std::floating_point T>
+[[nodiscard]] FlatShapesT<T>
+pair_triangles(const std::vector<glm::dvec3>& vertices,
+               const std::vector<std::array<std::uint32_t, 3>>& indices) {
+    // Vertices at the same point get the same number.
+    std::map<std::array<double, 3>, std::uint32_t> first_at;
+    std::vector<std::uint32_t> number(vertices.size());
+    for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+        const glm::dvec3& v = vertices[i];
+        number[i] = first_at.try_emplace({v.x, v.y, v.z}, i).first->second;
+    }
+
+    FlatShapesT<T> shapes;
+    using Edge = std::pair<std::uint32_t, std::uint32_t>;
+    std::map<Edge, std::pair<std::size_t, int>>
+        waiting; // triangle, its corner opposite
+    std::vector<bool> paired(indices.size(), false);
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        const auto corner = [&](std::size_t triangle, int k) {
+            return number[indices[triangle][static_cast<std::size_t>(k % 3)]];
+        };
+        for (int k = 0; k < 3 && !paired[i]; ++k) {
+            // The same edge the other way round: the partner has the same side.
+            const auto found = waiting.find({corner(i, k + 2), corner(i, k + 1)});
+            if (found == waiting.end() || paired[found->second.first]) continue;
+            const auto [partner, opposite] = found->second;
+            const glm::dvec3& a = vertices[corner(partner, opposite)];
+            const glm::dvec3& b = vertices[corner(partner, opposite + 1)];
+            const glm::dvec3& c = vertices[corner(partner, opposite + 2)];
+            const glm::dvec3& d = vertices[corner(i, k)];
+            const double size =
+                std::max({max_component(glm::abs(a)), max_component(glm::abs(b)),
+                          max_component(glm::abs(c))});
+            const glm::dvec3 gap = glm::abs((a - b) + (d - c));
+            if (!(max_component(gap) <=
+                  8 * std::numeric_limits<double>::epsilon() * size))
+                continue;
+            paired[i] = paired[partner] = true;
+            shapes.quads.push_back(
+                {.corner{a}, .edge_u = Vec3T<T>{b - a}, .edge_v = Vec3T<T>{c - a}});
+        }
+        if (paired[i]) continue;
+        for (int k = 0; k < 3; ++k)
+            waiting[{corner(i, k + 1), corner(i, k + 2)}] = {i, k};
+    }
+    for (std::size_t i = 0; i < indices.size(); ++i)
+        if (!paired[i])
+            shapes.triangles.push_back({.v1 = Vec3T<T>{vertices[indices[i][0]]},
+                                        .v2 = Vec3T<T>{vertices[indices[i][1]]},
+                                        .v3 = Vec3T<T>{vertices[indices[i][2]]}});
+    return shapes;
+}
+// [pair_triangles]
+
+/// \}
+
+} // namespace ljus

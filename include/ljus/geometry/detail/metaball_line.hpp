@@ -1,0 +1,189 @@
+#pragma once
+
+/// \file ljus/geometry/detail/metaball_line.hpp
+/// \brief The field of metaballs as a ray sees it: a function of t with its bounds.
+
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "ljus/geometry/detail/field_on_ray.hpp"
+#include "ljus/geometry/ray.hpp"
+
+namespace ljus {
+
+/// \defgroup metaballs Metaballs
+/// \brief Section 2.1, footnote 2: "organic-looking n-dimensional objects". Chapter:
+/// \ref ch_metaballs.
+/// \{
+
+/// One source of a field: \f$ w (1 - r^2/R^2)^2 \f$ within R, and 0 beyond.
+template <std::floating_point T>
+struct BlobT {
+    Vec3T<T> center{T(0)}; ///< C, in scene units.
+    T radius = T(1);       ///< R, above 0: where its field ends, in scene units.
+    T weight = T(1);       ///< w; negative carves.
+};
+using Blob = BlobT<float>; ///< BlobT in float.
+
+/// The largest slope of \f$ (1 - q^2)^2 \f$, at \f$ q = 1/\sqrt 3 \f$.
+template <std::floating_point T>
+inline constexpr T steepest_blob = T(8) / (T(3) * std::numbers::sqrt3_v<T>);
+
+/// A blob as a ray sees it: \f$ s(t) = h - k (t - m)^2 \f$, and its field is w s^2
+/// where s > 0.
+// [strand]
+template <std::floating_point C>
+struct StrandT {
+    C enter = C(0);             ///< Where s becomes positive.
+    C offset_ray_origin = C(0); ///< Where it ends to be.
+    C middle = C(0);            ///< m, where the ray is nearest to the centre.
+    C height = C(0);            ///< h = 1 - p^2/R^2 there.
+    C bend = C(0);              ///< k = D.D / R^2.
+    C weight = C(1);            ///< w.
+};
+// [strand]
+
+/// A blob on a ray, in the way of chord(): the difference of vectors before the square.
+/// \param ray   The ray; its range is ignored.
+/// \param blob  The blob.
+/// \return In double; nothing if the ray passes by, and nothing for data that are not
+///         finite, a zero direction, or a radius not above 0.
+// [on_ray]
+template <std::floating_point T>
+[[nodiscard]] std::optional<StrandT<WideT<T>>> strand(const RayT<T>& ray,
+                                                      const BlobT<T>& blob) noexcept {
+    using C = WideT<T>;
+    const Vec3T<C> d{ray.direction};
+    const Vec3T<C> oc = Vec3T<C>{ray.origin} - Vec3T<C>{blob.center};
+    const C r{blob.radius}, inverse_r = C(1) / r;
+    const C a = glm::dot(d, d);
+    const C middle = -glm::dot(oc, d) / a;
+    const Vec3T<C> p = (oc + middle * d) * inverse_r;
+    const C height = C(1) - glm::dot(p, p);
+    const C bend = a * inverse_r * inverse_r;
+    const C half = std::sqrt(height / bend);
+    constexpr C max = std::numeric_limits<C>::max();
+    const bool met = height > C(0) && half <= max && half > C(0) && r > C(0) &&
+                     std::abs(middle) <= max && std::isfinite(C(blob.weight));
+    if (!met) return std::nullopt;
+    return StrandT<C>{middle - half, middle + half, middle,
+                      height,        bend,          C(blob.weight)};
+}
+// [on_ray]
+
+/// The strands of a ray: without the heap for up to 16.
+template <std::floating_point C>
+struct StrandsT {
+    std::array<StrandT<C>, 16> few; ///< The first ones.
+    std::vector<StrandT<C>> many{}; ///< All, once they are more.
+    std::size_t count = 0;          ///< How many.
+    /// Appends one.
+    void add(const StrandT<C>& strand) {
+        if (count < few.size())
+            few[count] = strand;
+        else {
+            if (many.empty()) many.assign(few.begin(), few.end());
+            many.push_back(strand);
+        }
+        ++count;
+    }
+    /// All of them.
+    [[nodiscard]] std::span<const StrandT<C>> all() const noexcept {
+        return {many.empty() ? few.data() : many.data(), count};
+    }
+};
+
+/// The field of metaballs along a ray: value, slope and bounds of both, as the solvers
+/// for isosurfaces ask.
+template <std::floating_point C>
+struct MetaballLineT {
+    std::span<const StrandT<C>> strands{}; ///< The blobs that the ray meets.
+    C level = C(0);                        ///< L.
+    C enter = C(0);                        ///< Where the first of them begins.
+    C offset_ray_origin = C(-1);           ///< Where the last of them ends.
+
+    /// f(O + tD).
+    [[nodiscard]] C value(C t) const noexcept {
+        C sum = -level;
+        for (const auto& b : strands) {
+            const C s = b.height - b.bend * (t - b.middle) * (t - b.middle);
+            if (s > C(0)) sum += b.weight * s * s;
+        }
+        return sum;
+    }
+    /// A bound of |df/dt| on this ray: each strand is a blob of its own,
+    /// one-dimensional.
+    [[nodiscard]] C steepest() const noexcept {
+        C sum = C(0);
+        for (const auto& b : strands)
+            sum += std::abs(b.weight) * b.height * std::sqrt(b.height * b.bend);
+        return sum * steepest_blob<C>;
+    }
+    /// What rounding may have done to value().
+    [[nodiscard]] C rounding() const noexcept {
+        C sum = level;
+        for (const auto& b : strands) sum += std::abs(b.weight);
+        return C(8) * std::numeric_limits<C>::epsilon() * sum;
+    }
+    /// All values in [from, to]; exact but for rounding where one strand is alone.
+    [[nodiscard]] IntervalT<C> range(C from, C to) const noexcept {
+        const C doubt = rounding();
+        IntervalT<C> sum{-level - doubt, -level + doubt};
+        for (const auto& b : strands) {
+            const auto s = height_in(b, from, to);
+            const C low = b.weight * s.low * s.low, high = b.weight * s.high * s.high;
+            sum.low += glm::min(low, high);
+            sum.high += glm::max(low, high);
+        }
+        return sum;
+    }
+    /// All slopes df/dt in [from, to], and more: -4 w k (t - m) s.
+    [[nodiscard]] IntervalT<C> slope(C from, C to) const noexcept {
+        IntervalT<C> sum;
+        for (const auto& b : strands) {
+            const auto s = height_in(b, from, to);
+            const C x = C(-4) * b.weight * b.bend * (from - b.middle);
+            const C y = C(-4) * b.weight * b.bend * (to - b.middle);
+            const C least = glm::min(x, y), most = glm::max(x, y);
+            const C doubt = rounding() * glm::max(std::abs(x), std::abs(y));
+            sum.low += glm::min(least * s.low, least * s.high) - doubt;
+            sum.high += glm::max(most * s.low, most * s.high) + doubt;
+        }
+        return sum;
+    }
+
+private:
+    // The values of s, at least 0, in [from, to].
+    static IntervalT<C> height_in(const StrandT<C>& b, C from, C to) noexcept {
+        const C near = glm::clamp(b.middle, from, to) - b.middle;
+        const C far = glm::max(std::abs(from - b.middle), std::abs(to - b.middle));
+        return {glm::max(C(0), b.height - b.bend * far * far),
+                glm::max(C(0), b.height - b.bend * near * near)};
+    }
+};
+
+/// The field along a ray from its strands, which it refers to.
+/// \param strands  The strands.
+/// \param level    L.
+/// \return The line; without a strand its `offset_ray_origin` lies before its `enter`.
+template <std::floating_point C>
+[[nodiscard]] MetaballLineT<C> line_of(const StrandsT<C>& strands, C level) noexcept {
+    constexpr C far = std::numeric_limits<C>::infinity();
+    MetaballLineT<C> line{strands.all(), level, far, -far};
+    for (const auto& b : line.strands) {
+        line.enter = glm::min(line.enter, b.enter);
+        line.offset_ray_origin = glm::max(line.offset_ray_origin, b.offset_ray_origin);
+    }
+    return line;
+}
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,88 @@
+#pragma once
+
+/// \file ljus/geometry/detail/quartic_formula.hpp
+/// \brief Ferrari's formula for the quartic, as it is copied from book to book.
+
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <numbers>
+
+#include "ljus/version.hpp"
+
+namespace ljus {
+
+/// \defgroup quartic_formula The quartic formula
+/// \brief Section 2.1: "without having to use numerical algorithms". Chapter:
+/// \ref ch_metaballs.
+/// \{
+
+/// Real roots, in no order.
+template <std::floating_point T>
+struct QuarticRootsT {
+    std::array<T, 4> at{}; ///< The first `count` are roots.
+    std::size_t count = 0; ///< How many.
+    /// The first root.
+    [[nodiscard]] const T* begin() const noexcept { return at.data(); }
+    /// Behind the last root.
+    [[nodiscard]] const T* end() const noexcept { return at.data() + count; }
+};
+
+/// The real roots of c[0] + c[1] x + ... + c[4] x^4 by radicals (Ferrari 1545): kept
+/// for the lesson, not for use; roots() of a BernsteinT holds where this does not.
+///
+/// The quartic becomes \f$ y^4 + p y^2 + q y + r = 0 \f$ with \f$ x = y - b/4 \f$; with
+/// a root z of the resolvent \f$ z^3 - \frac p2 z^2 - r z + \frac{pr}{2} -
+/// \frac{q^2}{8}
+/// \f$ it is the difference of two squares, and so two quadratics. Each step subtracts
+/// what may be nearly equal, and asks of rounded numbers whether they are below zero.
+///
+/// \param c  The coefficients; the last is not 0.
+/// \return What the formula gives: for well separated roots of a quartic whose last
+///         coefficient is not small, the roots to about half of T's digits or better.
+/// \cost One cosine or cube root, up to 4 square roots. No loop.
+/// \report{Section 2.1} \cite schwarze1990
+// [quartic_formula]
+template <std::floating_point T>
+[[nodiscard]] QuarticRootsT<T> quartic_formula(const std::array<T, 5>& c) noexcept {
+    const T b = c[3] / c[4], d = c[2] / c[4], e = c[1] / c[4], f = c[0] / c[4];
+    const T p = d - T(3) / T(8) * b * b;
+    const T q = e - b * d / T(2) + b * b * b / T(8);
+    const T r = f - b * e / T(4) + b * b * d / T(16) - T(3) / T(256) * b * b * b * b;
+
+    // One real root z of the resolvent cubic, by Cardano or by the cosine.
+    const T b3 = -p / T(2), c3 = -r, d3 = r * p / T(2) - q * q / T(8);
+    const T p3 = (c3 - b3 * b3 / T(3)) / T(3);
+    const T q3 = (T(2) / T(27) * b3 * b3 * b3 - b3 * c3 / T(3) + d3) / T(2);
+    const T discriminant = q3 * q3 + p3 * p3 * p3;
+    T z = -b3 / T(3);
+    if (discriminant < T(0)) {
+        const T size = std::sqrt(-p3);
+        z += T(2) * size * std::cos(std::acos(-q3 / (size * size * size)) / T(3));
+    } else {
+        const T root = std::sqrt(discriminant);
+        z += std::cbrt(root - q3) - std::cbrt(root + q3);
+    }
+
+    // (y^2 + z)^2 = (v y - w)^2
+    constexpr T nothing = T(1e-9); // Schwarze's, whatever the size of the quartic
+    const auto positive = [](T x) { return std::abs(x) < nothing ? T(0) : x; };
+    const T u2 = positive(z * z - r), v2 = positive(T(2) * z - p);
+    QuarticRootsT<T> result;
+    if (!(u2 >= T(0) && v2 >= T(0))) return result;
+    const T w = std::copysign(std::sqrt(u2), q), v = std::sqrt(v2);
+    for (const T sign : {T(-1), T(1)}) {
+        const T half = -sign * v / T(2); // of y^2 + sign v y + z - sign w
+        const T under = positive(half * half - (z - sign * w));
+        if (!(under >= T(0))) continue;
+        result.at[result.count++] = half - std::sqrt(under) - b / T(4);
+        result.at[result.count++] = half + std::sqrt(under) - b / T(4);
+    }
+    return result;
+}
+// [quartic_formula]
+
+/// \}
+
+} // namespace ljus

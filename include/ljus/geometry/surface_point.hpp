@@ -1,0 +1,96 @@
+#pragma once
+
+/// \file ljus/geometry/surface_point.hpp
+/// \brief A point of a surface, how well it is known, and how a ray leaves it.
+
+#include <limits>
+
+#include "ljus/geometry/ray.hpp"
+
+namespace ljus {
+
+/// \defgroup surface Leaving a surface
+/// \brief A hit point is rounded: it lies a little in front of its surface or behind
+/// it. Chapter: \ref ch_ray.
+/// \{
+
+/// A point of a surface.
+template <std::floating_point T>
+struct SurfacePointT {
+    Vec3T<T> position{T(0)};           ///< In scene units.
+    Vec3T<T> error{T(0)};              ///< Bound of the rounding of each coordinate.
+    Vec3T<T> normal{T(0), T(0), T(1)}; ///< Unit, geometric, on the outer side.
+};
+using SurfacePoint = SurfacePointT<float>; ///< SurfacePointT in float.
+
+/// The relative error of n roundings in a row, n u / (1 - n u).
+/// \tparam T  The precision; u is its unit roundoff.
+/// \param n   How many roundings, at least 0.
+/// \return The bound, without a unit.
+template <std::floating_point T>
+[[nodiscard]] constexpr T rounding_bound(int n) noexcept {
+    const T nu = T(n) * std::numeric_limits<T>::epsilon() / T(2);
+    return nu / (T(1) - nu);
+}
+
+/// The origin of a ray that leaves a surface: safely on the side the direction points
+/// to, and no farther from the surface than its rounding asks for.
+///
+/// A fixed distance (the report's program has four, from 0.0001 to 0.1) is too long for
+/// a small scene and too short far from the origin. Here the distance is twice the
+/// error of the point, along the normal, and 4 units in the last place of its largest
+/// coordinate for the rounding of the sum. A point of a wall through the origin may
+/// have no coordinate but 0: then the error in the wall's plane gives the scale.
+///
+/// \param point      A point of the surface, with its error.
+/// \param direction  Where the ray goes; its length does not matter.
+/// \return A point on the side of `direction`.
+/// \report{Definition 3.1}
+// [offset_ray_origin]
+template <std::floating_point T>
+[[nodiscard]] Vec3T<T> offset_ray_origin(const SurfacePointT<T>& point,
+                                         const Vec3T<T>& direction) noexcept {
+    const Vec3T<T>& n = point.normal;
+    const T scale = max_component(sizes(point.position) + point.error);
+    const T last_place = glm::max(scale * std::numeric_limits<T>::epsilon(),
+                                  std::numeric_limits<T>::min());
+    const T distance = T(2) * glm::dot(sizes(n), point.error) + T(4) * last_place;
+    return point.position + std::copysign(distance, glm::dot(direction, n)) * n;
+}
+// [offset_ray_origin]
+
+/// A ray that leaves a surface for good.
+/// \param point      Where it starts.
+/// \param direction  Its direction.
+/// \return The ray, its range open to infinity.
+template <std::floating_point T>
+[[nodiscard]] RayT<T> spawn_ray(const SurfacePointT<T>& point,
+                                const Vec3T<T>& direction) noexcept {
+    return {.origin = offset_ray_origin(point, direction), .direction = direction};
+}
+
+/// A ray between two points of surfaces that touches neither surface.
+///
+/// The farther the way, the less is known of where it meets its end: the arithmetic of
+/// an intersection is rounded by the length of the way. Without that, a lamp close to
+/// the origin of the scene shades itself from afar.
+/// \param from  Where it starts.
+/// \param to    Where it ends, at t = 1.
+/// \return The ray; its direction has the length of the way.
+// [spawn_ray_to]
+template <std::floating_point T>
+[[nodiscard]] RayT<T> spawn_ray_to(const SurfacePointT<T>& from,
+                                   const SurfacePointT<T>& to) noexcept {
+    const Vec3T<T> way = to.position - from.position;
+    SurfacePointT<T> seen = to;
+    seen.error += rounding_bound<T>(8) * max_component(sizes(way));
+    const Vec3T<T> origin = offset_ray_origin(from, way);
+    return {.origin = origin,
+            .direction = offset_ray_origin(seen, -way) - origin,
+            .t_max = T(1)};
+}
+// [spawn_ray_to]
+
+/// \}
+
+} // namespace ljus

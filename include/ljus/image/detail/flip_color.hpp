@@ -1,0 +1,90 @@
+#pragma once
+
+/// \file ljus/image/detail/flip_color.hpp
+/// \brief The two colour spaces of FLIP: one to blur in, one to measure in.
+
+#include <cmath>
+
+#include "ljus/image/image.hpp"
+
+namespace ljus {
+
+/// \addtogroup flip
+/// \{
+
+/// The shares of red, green and blue in X, Y and Z, by the primaries of Rec. 709; each
+/// row adds up to 1, because all three are in units of the white point's.
+inline constexpr Vec3T<double> xyz_shares[3] = {
+    Vec3T<double>{10135552, 8788810, 4435075} / 23359437.0,
+    Vec3T<double>{2613072, 8788810, 887015} / 12288897.0,
+    Vec3T<double>{1425312, 8788810, 70074185} / 80288307.0};
+
+/// XYZ of a linear sRGB colour, in units of the white point D65.
+/// \param c  Linear sRGB.
+/// \return X/Xn, Y/Yn, Z/Zn; white is (1, 1, 1).
+[[nodiscard]] inline Vec3T<double> xyz_over_white(const RgbT<double>& c) noexcept {
+    return {glm::dot(xyz_shares[0], c), glm::dot(xyz_shares[1], c),
+            glm::dot(xyz_shares[2], c)};
+}
+
+/// The linear sRGB colour of XYZ: xyz_over_white() the other way round.
+/// \param xyz  X/Xn, Y/Yn, Z/Zn.
+/// \return Linear sRGB, perhaps beside [0, 1].
+[[nodiscard]] inline RgbT<double> rgb_of(const Vec3T<double>& xyz) noexcept {
+    // Cramer's rule: the products of two rows, over the determinant of all three.
+    const auto& [x, y, z] = xyz_shares;
+    const Vec3T<double> yz = glm::cross(y, z);
+    return (xyz.x * yz + xyz.y * glm::cross(z, x) + xyz.z * glm::cross(x, y)) /
+           glm::dot(x, yz);
+}
+
+/// YCxCz, in which light, red-green and blue-yellow are apart, each linear in light so
+/// that it can be blurred.
+/// \param c  Linear sRGB.
+/// \return 116 Y - 16; 500 (X - Y); 200 (Y - Z), in units of white.
+/// \cite andersson2020
+[[nodiscard]] inline Vec3T<double> opponent(const RgbT<double>& c) noexcept {
+    const Vec3T<double> white = xyz_over_white(c);
+    return {116 * white.y - 16, 500 * (white.x - white.y), 200 * (white.y - white.z)};
+}
+
+/// The linear sRGB colour of YCxCz.
+/// \param c  From opponent().
+/// \return Linear sRGB, perhaps beside [0, 1].
+[[nodiscard]] inline RgbT<double> rgb_of_opponent(const Vec3T<double>& c) noexcept {
+    const double y = (c.x + 16) / 116;
+    return rgb_of({y + c.y / 500, y, y - c.z / 200});
+}
+
+/// L*a*b* of a colour, with the Hunt effect: in the dark, colours are weaker.
+/// \param c  Linear sRGB.
+/// \return L*, and a* and b* times L*/100.
+/// \cite andersson2020
+// [hunt_lab]
+[[nodiscard]] inline Vec3T<double> hunt_lab(const RgbT<double>& c) noexcept {
+    const auto root = [](double t) {
+        constexpr double d = 6.0 / 29;
+        return t > d * d * d ? std::cbrt(t) : t / (3 * d * d) + 4.0 / 29;
+    };
+    const Vec3T<double> white = xyz_over_white(c);
+    const double x = root(white.x), y = root(white.y), z = root(white.z);
+    const double lightness = 116 * y - 16;
+    return {lightness, 0.01 * lightness * 500 * (x - y),
+            0.01 * lightness * 200 * (y - z)};
+}
+// [hunt_lab]
+
+/// The distance HyAB, made for large differences: lightness by its amount, colour by
+/// its length.
+/// \param a  From hunt_lab().
+/// \param b  The other one.
+/// \return |L1 - L2| + |(a1, b1) - (a2, b2)|.
+/// \cite andersson2020
+[[nodiscard]] inline double hyab(const Vec3T<double>& a,
+                                 const Vec3T<double>& b) noexcept {
+    return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
+}
+
+/// \}
+
+} // namespace ljus

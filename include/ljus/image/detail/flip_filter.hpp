@@ -1,0 +1,174 @@
+#pragma once
+
+/// \file ljus/image/detail/flip_filter.hpp
+/// \brief What the eye does before it compares: it blurs, and finds edges and
+/// points.
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "ljus/image/detail/flip_color.hpp"
+
+namespace ljus {
+
+/// \addtogroup flip
+/// \{
+
+/// One Gaussian of a contrast sensitivity: a sqrt(pi / b) exp(-pi^2 x^2 / b), x in
+/// degrees.
+struct EyeGaussian {
+    double a; ///< Its weight.
+    double b; ///< Its breadth, in square degrees.
+};
+
+/// What the eye blurs light, red-green and blue-yellow by: the sum of two Gaussians
+/// each \cite andersson2020.
+inline constexpr EyeGaussian eye_gaussians[3][2] = {
+    {{1, 0.0047}, {0, 1e-5}}, {{1, 0.0053}, {0, 1e-5}}, {{34.1, 0.04}, {13.5, 0.025}}};
+
+/// Weights from -radius to radius.
+using Weights = std::vector<double>;
+
+/// Weights of a function at the whole numbers.
+/// \param radius  At least 0.
+/// \param f       Of a double.
+/// \return f(-radius), ..., f(radius).
+template <typename F>
+[[nodiscard]] Weights weights_of(int radius, F f) {
+    Weights weights;
+    for (int i = -radius; i <= radius; ++i) weights.push_back(f(double(i)));
+    return weights;
+}
+
+/// Scales weights so that those above 0 add up to 1 and those below 0 to -1.
+/// \param weights  Any.
+inline void make_unit(Weights& weights) noexcept {
+    double positive = 0, negative = 0;
+    for (const double weight : weights) (weight > 0 ? positive : negative) += weight;
+    for (double& weight : weights) weight /= weight > 0 ? positive : -negative;
+}
+
+/// One channel of an image, blurred along x by one set of weights and along y by
+/// another; the border's pixels go on outside.
+/// \param image    The image.
+/// \param channel  0, 1 or 2.
+/// \param along_x  An odd number of weights.
+/// \param along_y  The same.
+/// \return A number for each pixel.
+// [blurred]
+[[nodiscard]] inline std::vector<double> blurred(const ImageT<double>& image,
+                                                 int channel, const Weights& along_x,
+                                                 const Weights& along_y) {
+    const int width = image.width, height = image.height;
+    const auto radius_x = static_cast<int>(along_x.size() / 2);
+    const auto radius_y = static_cast<int>(along_y.size() / 2);
+    std::vector<double> rows(image.pixels.size()), result(rows.size());
+    const auto at = [width](int x, int y) {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+               static_cast<std::size_t>(x);
+    };
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            for (int i = -radius_x; i <= radius_x; ++i)
+                rows[at(x, y)] +=
+                    along_x[static_cast<std::size_t>(i + radius_x)] *
+                    pixel(image, glm::clamp(x + i, 0, width - 1), y)[channel];
+    for (int y = 0; y < height; ++y)
+        for (int i = -radius_y; i <= radius_y; ++i) {
+            const double weight = along_y[static_cast<std::size_t>(i + radius_y)];
+            const int row = glm::clamp(y + i, 0, height - 1);
+            for (int x = 0; x < width; ++x)
+                result[at(x, y)] += weight * rows[at(x, row)];
+        }
+    return result;
+}
+// [blurred]
+
+/// A picture in YCxCz, as a screen shows it: within [0, 1] of sRGB; NaN is black.
+/// \param image  Linear sRGB.
+/// \return The same in YCxCz.
+template <std::floating_point T>
+[[nodiscard]] ImageT<double> opponent_image(const ImageT<T>& image) {
+    ImageT<double> result = make_image<double>(image.width, image.height);
+    const auto shown = [](T x) { return x > T(0) ? glm::min(double(x), 1.0) : 0.0; };
+    for (std::size_t i = 0; i < result.pixels.size(); ++i) {
+        const RgbT<T>& c = image.pixels[i];
+        result.pixels[i] = opponent({shown(c.x), shown(c.y), shown(c.z)});
+    }
+    return result;
+}
+
+/// What is left of a picture at a distance: each channel is blurred by the sensitivity
+/// of the eye to it.
+/// \param image  In YCxCz.
+/// \param ppd    Pixels in a degree.
+/// \return Linear sRGB within [0, 1].
+/// \cite andersson2020
+// [as_seen]
+[[nodiscard]] inline ImageT<double> as_seen(const ImageT<double>& image, double ppd) {
+    constexpr double pi = std::numbers::pi;
+    // Three standard deviations of the broadest of them.
+    const int radius = static_cast<int>(std::ceil(3 * std::sqrt(0.04 / 2) / pi * ppd));
+    ImageT<double> seen = make_image<double>(image.width, image.height);
+    for (int channel = 0; channel < 3; ++channel) {
+        double total = 0;
+        for (const auto& [a, b] : eye_gaussians[channel]) {
+            const Weights gaussian = weights_of(radius, [&, breadth = b](double i) {
+                return std::exp(-pi * pi * i * i / (ppd * ppd * breadth));
+            });
+            double sum = 0;
+            for (const double weight : gaussian) sum += weight;
+            const double share = a * std::sqrt(pi / b);
+            total += share * sum * sum;
+            if (a == 0) continue;
+            const std::vector<double> part =
+                blurred(image, channel, gaussian, gaussian);
+            for (std::size_t i = 0; i < part.size(); ++i)
+                seen.pixels[i][channel] += share * part[i];
+        }
+        for (Vec3T<double>& c : seen.pixels) c[channel] /= total;
+    }
+    for (Vec3T<double>& c : seen.pixels)
+        c = glm::clamp(rgb_of_opponent(c), RgbT<double>(0), RgbT<double>(1));
+    return seen;
+}
+// [as_seen]
+
+/// The strength of edges and of points at each pixel: the length of the first and of
+/// the second derivative of its light, over the breadth of what the eye takes for an
+/// edge, 0.082 degrees.
+/// \param image  In YCxCz.
+/// \param ppd    Pixels in a degree.
+/// \return Edges in the first channel, points in the second.
+/// \cite andersson2020
+// [features]
+[[nodiscard]] inline ImageT<double> features(const ImageT<double>& image, double ppd) {
+    const double deviation = 0.5 * 0.082 * ppd;
+    const int radius = static_cast<int>(std::ceil(3 * deviation));
+    const auto gaussian = [deviation](double i) {
+        return std::exp(-i * i / (2 * deviation * deviation));
+    };
+    Weights smooth = weights_of(radius, gaussian);
+    Weights edge = weights_of(radius, [&](double i) { return -i * gaussian(i); });
+    Weights point = weights_of(radius, [&](double i) {
+        return (i * i / (deviation * deviation) - 1) * gaussian(i);
+    });
+    for (Weights* weights : {&smooth, &edge, &point}) make_unit(*weights);
+
+    ImageT<double> found = make_image<double>(image.width, image.height);
+    for (int kind = 0; kind < 2; ++kind) {
+        const Weights& derivative = kind == 0 ? edge : point;
+        const std::vector<double> x = blurred(image, 0, derivative, smooth);
+        const std::vector<double> y = blurred(image, 0, smooth, derivative);
+        // Light runs from -16 to 100; a sum of 0 takes no notice of the 16.
+        for (std::size_t i = 0; i < x.size(); ++i)
+            found.pixels[i][kind] = std::hypot(x[i], y[i]) / 116;
+    }
+    return found;
+}
+// [features]
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,62 @@
+#pragma once
+
+/// \file ljus/inspect/bias_variance.hpp
+/// \brief What of an error stays, and what another seed takes away.
+
+#include "ljus/inspect/metrics.hpp"
+
+namespace ljus {
+
+/// \addtogroup metrics
+/// \{
+
+/// The two parts of a mean square error.
+struct BiasVariance {
+    double bias_squared = 0.0; ///< Mean of (expected x - r)^2: remains with more seeds.
+    double variance = 0.0;     ///< Mean variance of x in one run: noise.
+};
+
+/// Splits the mean square error of a method by running it with several seeds.
+///
+/// For each pixel and channel, with m the mean of the M runs:
+/// variance = sum (x - m)^2 / (M - 1) and bias^2 = (m - r)^2 - variance / M, which has
+/// the noise left in m taken off. Their sum is the expected mean square error of a run.
+/// It is the only honest split for photon mapping.
+/// *Trap*: bias^2 is an estimate and comes out negative, by chance, when there is no
+/// bias; it is not clamped, since clamping would itself be a bias.
+/// \param runs       At least 2 pictures of the same size, of independent seeds.
+/// \param reference  The truth, of that size; its own variance is part of the result.
+/// \return Both parts, in units of radiance squared.
+/// \throws std::invalid_argument  for fewer than 2 runs, or as require_same_size().
+// [bias_variance]
+template <std::floating_point T, std::floating_point U>
+[[nodiscard]] BiasVariance bias_variance(const std::vector<ImageT<T>>& runs,
+                                         const ImageT<U>& reference) {
+    if (runs.size() < 2)
+        throw std::invalid_argument("Bias and variance were asked of " +
+                                    std::to_string(runs.size()) +
+                                    " runs; there must be at least 2.");
+    for (const ImageT<T>& run : runs) require_same_size(run, reference);
+
+    const double count = static_cast<double>(runs.size());
+    std::vector<double> biases(reference.pixels.size());
+    std::vector<double> variances(reference.pixels.size());
+    for (std::size_t i = 0; i < reference.pixels.size(); ++i) {
+        RgbT<double> mean(0.0);
+        for (const ImageT<T>& run : runs) mean += RgbT<double>(run.pixels[i]) / count;
+        double squares = 0.0;
+        for (const ImageT<T>& run : runs) {
+            const RgbT<double> difference = RgbT<double>(run.pixels[i]) - mean;
+            squares += glm::dot(difference, difference) / 3.0;
+        }
+        const RgbT<double> shift = mean - RgbT<double>(reference.pixels[i]);
+        variances[i] = squares / (count - 1.0);
+        biases[i] = glm::dot(shift, shift) / 3.0 - variances[i] / count;
+    }
+    return {.bias_squared = detail::mean(biases), .variance = detail::mean(variances)};
+}
+// [bias_variance]
+
+/// \}
+
+} // namespace ljus

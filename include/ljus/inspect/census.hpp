@@ -1,0 +1,84 @@
+#pragma once
+
+/// \file ljus/inspect/census.hpp
+/// \brief How many photons of each kind a map holds, and how much power.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "ljus/photons/photon_map.hpp"
+
+namespace ljus {
+
+/// \defgroup census The census of a photon map
+/// \brief Section 3.2.2.1: the counts behind the report's figures 5 to 8.
+/// \{
+
+/// The photons of one kind.
+struct PhotonCount {
+    std::uint64_t photons = 0; ///< How many.
+    RgbT<double> flux{0}; ///< W, added in double; of shadow photons, what is missing.
+};
+
+/// The photons of a map, kind by kind.
+struct PhotonCensus {
+    std::array<PhotonCount, 4> kinds; ///< In the order of PhotonKind.
+
+    /// The photons of one kind.
+    [[nodiscard]] const PhotonCount& operator[](PhotonKind kind) const noexcept {
+        return kinds[static_cast<std::size_t>(kind)];
+    }
+
+    /// All photons that are light: without the shadow photons.
+    [[nodiscard]] PhotonCount light() const noexcept {
+        PhotonCount sum;
+        for (const PhotonKind kind :
+             {PhotonKind::direct, PhotonKind::caustic, PhotonKind::indirect}) {
+            sum.photons += (*this)[kind].photons;
+            sum.flux += (*this)[kind].flux;
+        }
+        return sum;
+    }
+};
+
+/// The name of a kind, as tables show it.
+/// \param kind  The kind.
+/// \return One word.
+[[nodiscard]] constexpr const char* name_of(PhotonKind kind) noexcept {
+    constexpr std::array<const char*, 4> names{"direct", "caustic", "indirect",
+                                               "shadow"};
+    return names[static_cast<std::size_t>(kind)];
+}
+
+/// Counts photons, whatever holds them.
+/// \param photons  Photons or the records of a map: anything with a kind and a flux.
+/// \return The census.
+/// \cost One pass.
+// [census]
+template <typename Photons>
+requires requires(const Photons& p) {
+    { p.begin()->kind } -> std::convertible_to<PhotonKind>;
+}
+[[nodiscard]] PhotonCensus census(const Photons& photons) {
+    PhotonCensus result;
+    for (const auto& photon : photons) {
+        PhotonCount& count = result.kinds[static_cast<std::size_t>(photon.kind)];
+        ++count.photons;
+        count.flux += RgbT<double>(photon.flux);
+    }
+    return result;
+}
+// [census]
+
+/// Counts the photons of a map.
+/// \param map  The map.
+/// \return The census.
+template <std::floating_point T>
+[[nodiscard]] PhotonCensus census(const PhotonMapT<T>& map) {
+    return census(map.records);
+}
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,211 @@
+#pragma once
+
+/// \file ljus/inspect/explain.hpp
+/// \brief Why a pixel has its colour: its paths in Heckbert's letters.
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <utility>
+
+#include "ljus/render/path_tracing.hpp"
+#include "ljus/render/render.hpp"
+
+namespace ljus {
+
+/// \defgroup explain One pixel explained
+/// \brief What each path of a pixel met, who carried its light, and what that adds up
+/// to.
+///
+/// E is the eye, D a surface that scatters, S a mirror or glass, L a light
+/// \cite heckbert1990.
+/// \{
+
+/// The light of one kind of path within a pixel.
+struct PathSum {
+    std::string path;    ///< Heckbert's letters, as "EDSL".
+    std::string owner;   ///< Who carried it: "emission", "shadow ray", ...
+    glm::dvec3 value{0}; ///< Its part of the pixel's radiance.
+    long long terms = 0; ///< How many terms it is the sum of.
+};
+
+/// A pixel, taken apart.
+template <std::floating_point T>
+struct ExplainedPixelT {
+    RgbT<T> radiance{T(0)};            ///< As render() has it, to the last bit.
+    std::vector<PathSum> sums{};       ///< The brightest first; they add up to it.
+    std::vector<PathLog> first_rays{}; ///< The first few, vertex by vertex.
+    int samples = 0;                   ///< How many rays there were.
+    int rejected = 0;                  ///< Those left out because they were not finite.
+};
+
+/// Takes a pixel apart: renders it again, with a log.
+/// \param renderer  A PathTracer, a PhotonMapper, or anything with a radiance().
+/// \param camera    The camera.
+/// \param picture   Size, rays, seed: the same as in render().
+/// \param x         Column of the pixel, from the left.
+/// \param y         Row of the pixel, from the top.
+/// \param keep      How many rays to keep in full.
+/// \return The pixel's parts.
+/// \throws std::invalid_argument  if the pixel lies outside of the picture.
+// [take_apart]
+template <typename Renderer, std::floating_point T>
+[[nodiscard]] ExplainedPixelT<T>
+take_apart(const Renderer& renderer, const CameraT<T>& camera,
+           const RenderSettings& picture, int x, int y, int keep = 4) {
+    require_image_size(picture.width, picture.height);
+    require(picture.samples >= 1, "samples", static_cast<long long>(picture.samples),
+            "at least 1");
+    require(x >= 0 && x < picture.width, "the pixel's column",
+            static_cast<long long>(x), "at least 0 and below the picture's width");
+    require(y >= 0 && y < picture.height, "the pixel's row", static_cast<long long>(y),
+            "at least 0 and below the picture's height");
+
+    ExplainedPixelT<T> pixel{.samples = picture.samples};
+    const Pattern pattern = make_pattern(picture.sampling, picture.samples);
+    std::map<std::pair<std::string, std::string>, PathSum> sums;
+    Counts counts;
+    RgbT<double> radiance{0};
+    for (int i = 0; i < picture.samples; ++i) {
+        PathLog log;
+        const RgbT<T> sample =
+            sample_pixel(renderer, camera, picture, pattern, x, y, i, counts, log);
+        if (i < keep) pixel.first_rays.push_back(log);
+        if (!is_finite(sample)) {
+            ++pixel.rejected;
+            continue;
+        }
+        radiance += RgbT<double>(sample);
+        for (const PathLogLine& line : log.lines) {
+            if (line.what == "vertex") continue;
+            PathSum& sum = sums[{line.path, line.what}];
+            sum.value += line.value / double(picture.samples);
+            ++sum.terms;
+        }
+    }
+    pixel.radiance = RgbT<T>(radiance / double(picture.samples));
+
+    for (auto& [key, sum] : sums) {
+        sum.path = key.first;
+        sum.owner = key.second;
+        pixel.sums.push_back(std::move(sum));
+    }
+    std::stable_sort(pixel.sums.begin(), pixel.sums.end(),
+                     [](const PathSum& a, const PathSum& b) {
+                         return max_component(a.value) > max_component(b.value);
+                     });
+    return pixel;
+}
+// [take_apart]
+
+namespace detail {
+
+// "EDSL" as "E D S L".
+inline std::string spaced(const std::string& letters) {
+    std::string text;
+    for (const char c : letters) {
+        if (!text.empty() && c != '+' && c != '.' && text.back() != '.') text += ' ';
+        text += c;
+    }
+    return text;
+}
+
+inline std::string three_numbers(const glm::dvec3& v) {
+    char text[96];
+    std::snprintf(text, sizeof text, "%9.4g %9.4g %9.4g", v.x, v.y, v.z);
+    return text;
+}
+
+inline std::string padded(std::string text, std::size_t width) {
+    if (text.size() < width) text.append(width - text.size(), ' ');
+    return text;
+}
+
+} // namespace detail
+
+/// A pixel, taken apart, as a text.
+/// \param pixel  Of take_apart().
+/// \param most   The most sums to print; the rest is put together.
+/// \return Lines of text.
+template <std::floating_point T>
+[[nodiscard]] std::string describe(const ExplainedPixelT<T>& pixel,
+                                   std::size_t most = 16) {
+    using detail::padded;
+    using detail::three_numbers;
+    std::string text;
+    const auto line = [&](const std::string& letters, const std::string& what,
+                          const glm::dvec3& value) {
+        text.append("  ").append(padded(detail::spaced(letters), 26));
+        text.append(" ").append(padded(what, 14)).append(three_numbers(value));
+    };
+    for (std::size_t i = 0; i < pixel.first_rays.size(); ++i) {
+        text.append("ray ").append(std::to_string(i + 1)).append("\n");
+        for (const PathLogLine& step : pixel.first_rays[i].lines) {
+            const bool vertex = step.what == "vertex";
+            line(step.path, vertex ? "throughput" : step.what, step.value);
+            if (vertex) {
+                char place[96];
+                std::snprintf(place, sizeof place, "   at (%.4g, %.4g, %.4g)",
+                              step.position.x, step.position.y, step.position.z);
+                text.append(place);
+                std::snprintf(place, sizeof place, ", pdf %.4g", step.pdf);
+                text.append(step.pdf > 0 ? place : ", delta");
+            }
+            text.append("\n");
+        }
+        if (pixel.first_rays[i].lines.empty()) text.append("  no light\n");
+    }
+    text.append("sums over ").append(std::to_string(pixel.samples)).append(" rays\n");
+    glm::dvec3 rest{0};
+    for (std::size_t i = 0; i < pixel.sums.size(); ++i) {
+        const PathSum& sum = pixel.sums[i];
+        if (i < most) {
+            line(sum.path, sum.owner, sum.value);
+            text.append("\n");
+        } else {
+            rest += sum.value;
+        }
+    }
+    if (pixel.sums.size() > most) {
+        line("", std::to_string(pixel.sums.size() - most) + " more", rest);
+        text.append("\n");
+    }
+    line("", "the pixel", glm::dvec3(pixel.radiance));
+    text.append("\n");
+    if (pixel.rejected > 0)
+        text.append(std::to_string(pixel.rejected))
+            .append(" rays were not finite and are left out\n");
+    return text;
+}
+
+/// Explains one pixel of a picture.
+/// \param renderer  A PathTracer, a PhotonMapper, or anything with a radiance().
+/// \param camera    The camera.
+/// \param picture   Size, rays, seed: the same as in render().
+/// \param x         Column of the pixel, from the left.
+/// \param y         Row of the pixel, from the top.
+/// \return A text: the first rays with each vertex and each term, then the sums by
+///         path, as "E D L   shadow ray   0.31 0.30 0.28".
+/// \throws std::invalid_argument  if the pixel lies outside of the picture.
+template <typename Renderer, std::floating_point T>
+[[nodiscard]] std::string explain(const Renderer& renderer, const CameraT<T>& camera,
+                                  const RenderSettings& picture, int x, int y) {
+    return describe(take_apart(renderer, camera, picture, x, y));
+}
+
+/// Explains one pixel of a scene, as the path tracer finds it by default.
+/// \param scene   The scene.
+/// \param camera  The camera.
+/// \param x       Column of the pixel of a Picture by default, from the left.
+/// \param y       Row of the pixel, from the top.
+/// \return As above.
+/// \throws std::invalid_argument  if the pixel lies outside of the picture.
+template <typename ShapeList, typename MaterialList, std::floating_point T>
+[[nodiscard]] std::string explain(const Scene<ShapeList, MaterialList>& scene,
+                                  const CameraT<T>& camera, int x, int y) {
+    return explain(make_path_tracer(scene), camera, RenderSettings{}, x, y);
+}
+
+/// \}
+
+} // namespace ljus

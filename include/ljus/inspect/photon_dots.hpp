@@ -1,0 +1,162 @@
+#pragma once
+
+/// \file ljus/inspect/photon_dots.hpp
+/// \brief Photons as dots over a drawing of their scene.
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "ljus/image/image.hpp"
+#include "ljus/materials/material.hpp"
+#include "ljus/photons/photon.hpp"
+#include "ljus/scene/camera.hpp"
+#include "ljus/scene/query.hpp"
+
+namespace ljus {
+
+/// \defgroup photon_dots Photons as dots
+/// \brief Section 3.2.2: the visualisations of figures 5 to 8.
+/// \{
+
+/// How a dot looks: a cone of light, the same size wherever its photon lies.
+struct PhotonDotSettings {
+    float radius = 1.0f;     ///< Of the cone's foot, in pixels, above 0.
+    float brightness = 0.8f; ///< Of its tip; dots that overlap add up.
+};
+
+/// A drawing to put photons on: the own colour of what each pixel sees, without any
+/// light, darker where it is seen at a low angle. Mirrors and glass are grey, lamps
+/// bright.
+/// \param scene   The scene.
+/// \param camera  The camera.
+/// \param width   Of the picture, in pixels.
+/// \param height  Of the picture, in pixels.
+/// \return The drawing, dark enough for dots to be seen on it.
+/// \throws std::invalid_argument  if the size is none.
+/// \cost One ray a pixel.
+template <typename Scene, std::floating_point T>
+[[nodiscard]] ImageT<T> scene_drawing(const Scene& scene, const CameraT<T>& camera,
+                                      int width, int height) {
+    ImageT<T> image = make_image<T>(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const Vec2T<T> middle{T(x) + T(0.5), T(y) + T(0.5)};
+            const RayT<T> ray = primary_ray(camera, middle, width, height);
+            const auto hit = closest_hit(scene, ray);
+            if (!hit) continue;
+            const SurfaceT<T> surface = surface_at(scene, ray, *hit);
+            const Vec3T<T> wo = to_local(surface.frame, -ray.direction);
+            const auto own_color = [&](const auto& material) {
+                if (has(lobes(material), Lobes::specular)) return RgbT<T>{T(0.25)};
+                return RgbT<T>(evaluate(material, wo, wo) * std::numbers::pi_v<T>);
+            };
+            const bool emits = !is_black(surface.object.emission) && wo.z > T(0);
+            pixel(image, x, y) = emits
+                                     ? RgbT<T>{T(0.5)}
+                                     : T(0.16) * (T(0.3) + T(0.7) * std::abs(wo.z)) *
+                                           visit_material_of(scene, surface, own_color);
+        }
+    return image;
+}
+
+/// The colour of a photon's dot: that of its flux, as bright as a colour can be; of a
+/// shadow photon, which is no light, the yellow that the report's program drew it in.
+/// \param photon  Any photon.
+/// \return Linear RGB, its largest channel 1; black if there is no flux.
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> dot_color(const PhotonT<T>& photon) noexcept {
+    if (photon.kind == PhotonKind::shadow) return {T(1), T(0.8), T(0.1)};
+    const T largest = max_component(photon.flux);
+    return largest > T(0) ? photon.flux / largest : RgbT<T>{T(0)};
+}
+
+/// Where a camera sees a photon: nothing may stand in front of it, glass neither, and
+/// it has to lie on the side of its surface that faces the camera. What hides a photon
+/// is nearer by more than a thousandth of the way.
+/// \param scene   The scene of the photon.
+/// \param camera  The camera.
+/// \param photon  The photon.
+/// \param width   Of the picture, in pixels.
+/// \param height  Of the picture, in pixels.
+/// \return The place in pixels, from the upper left corner; nothing if it is not seen.
+/// \cost One ray.
+// [photon_in_sight]
+template <typename Scene, std::floating_point T>
+[[nodiscard]] std::optional<Vec2T<T>>
+photon_in_sight(const Scene& scene, const CameraT<T>& camera, const PhotonT<T>& photon,
+                int width, int height) {
+    const auto place = project(camera, photon.position, width, height);
+    if (!place || !(place->x >= T(0) && place->x < T(width) && place->y >= T(0) &&
+                    place->y < T(height)))
+        return std::nullopt;
+    const RayT<T> ray{.origin = camera.position,
+                      .direction = photon.position - camera.position};
+    const auto hit = closest_hit(scene, ray);
+    if (!hit || std::abs(hit->at.t - T(1)) > T(1e-3)) return std::nullopt;
+    const Vec3T<T> normal = surface_at(scene, ray, *hit).point.normal;
+    if (photon_side(photon.direction, normal) != photon_side(ray.direction, normal))
+        return std::nullopt;
+    return place;
+}
+// [photon_in_sight]
+
+/// Adds a dot to a picture.
+/// \param image  The picture.
+/// \param place  The dot's middle, in pixels from the upper left corner.
+/// \param color  Of its tip.
+/// \param look   Its size and brightness.
+template <std::floating_point T>
+void add_dot(ImageT<T>& image, const Vec2T<T>& place, const RgbT<T>& color,
+             const PhotonDotSettings& look) {
+    const T radius = T(look.radius);
+    const auto first = [&](T at) { return std::max(0, int(std::floor(at - radius))); };
+    const auto last = [&](T at, int size) {
+        return std::min(size - 1, int(std::floor(at + radius)));
+    };
+    for (int y = first(place.y); y <= last(place.y, image.height); ++y)
+        for (int x = first(place.x); x <= last(place.x, image.width); ++x) {
+            const T distance =
+                std::hypot(T(x) + T(0.5) - place.x, T(y) + T(0.5) - place.y);
+            const T cone = std::max(T(0), T(1) - distance / radius);
+            pixel(image, x, y) += T(look.brightness) * cone * color;
+        }
+}
+
+/// Draws photons over a picture of their scene.
+/// \param image    The picture, as scene_drawing() makes it.
+/// \param scene    The scene of the photons.
+/// \param camera   The camera of the picture.
+/// \param photons  The photons, of any kind.
+/// \param look     How a dot looks.
+/// \param color    Called with each photon; black draws nothing, and saves the ray.
+/// \return How many photons the camera sees, of those that are drawn.
+/// \throws std::invalid_argument  if the radius of a dot is not in (0, 1000].
+/// \cost One ray a photon that is drawn and lies within the picture.
+/// \report{Section 3.2.2, Figs. 5 to 8}
+// [add_photon_dots]
+template <typename Scene, std::floating_point T, typename Color>
+long long add_photon_dots(ImageT<T>& image, const Scene& scene,
+                          const CameraT<T>& camera,
+                          const std::vector<PhotonT<T>>& photons,
+                          const PhotonDotSettings& look, Color color) {
+    require(look.radius > 0 && look.radius <= 1000, "the radius of a dot", look.radius,
+            "above 0 and at most 1000 pixels");
+    long long seen = 0;
+    for (const PhotonT<T>& photon : photons) {
+        const RgbT<T> tip = color(photon);
+        if (is_black(tip)) continue;
+        const auto place =
+            photon_in_sight(scene, camera, photon, image.width, image.height);
+        if (!place) continue;
+        add_dot(image, *place, tip, look);
+        ++seen;
+    }
+    return seen;
+}
+// [add_photon_dots]
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,112 @@
+#pragma once
+
+/// \file ljus/io/detail/byte_reader.hpp
+/// \brief The bytes of an image file, read from the front; for pfm.hpp and hdr.hpp.
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <string_view>
+
+#include "ljus/io/file.hpp"
+
+namespace ljus::detail {
+
+// A number in a file's header, as "-1.0" or "2.5e-3". The library's own strtod depends
+// on the country that the program runs in. NaN if it is no number.
+inline double to_number(std::string_view text) {
+    std::size_t i = 0;
+    const auto digit = [&] {
+        return i < text.size() && text[i] >= '0' && text[i] <= '9';
+    };
+    const auto sign = [&] {
+        const bool minus = i < text.size() && text[i] == '-';
+        if (i < text.size() && (text[i] == '-' || text[i] == '+')) ++i;
+        return minus ? -1.0 : 1.0;
+    };
+    const double sign_of_all = sign();
+    double mantissa = 0.0;
+    double exponent = 0.0;
+    bool digits = false;
+    for (; digit(); ++i, digits = true) mantissa = 10.0 * mantissa + (text[i] - '0');
+    if (i < text.size() && text[i] == '.') {
+        ++i;
+        for (; digit(); ++i, digits = true, exponent -= 1.0)
+            mantissa = 10.0 * mantissa + (text[i] - '0');
+    }
+    if (digits && i < text.size() && (text[i] == 'e' || text[i] == 'E')) {
+        ++i;
+        const double sign_of_exponent = sign();
+        double power = 0.0;
+        for (digits = false; digit(); ++i, digits = true)
+            power = 10.0 * power + (text[i] - '0');
+        exponent += sign_of_exponent * power;
+    }
+    if (!digits || i != text.size()) return std::numeric_limits<double>::quiet_NaN();
+    // Dividing by a power of ten is exact for small ones, multiplying by its inverse
+    // not.
+    return sign_of_all * (exponent < 0.0 ? mantissa / std::pow(10.0, -exponent)
+                                         : mantissa * std::pow(10.0, exponent));
+}
+
+struct ByteReader {
+    std::string path; // for messages
+    Bytes bytes;
+    std::size_t position = 0;
+
+    [[noreturn]] void fail(const std::string& why) const { fail_to_read(path, why); }
+
+    std::size_t left() const noexcept { return bytes.size() - position; }
+
+    unsigned char next() {
+        if (left() == 0) fail("it ends in the middle of its header or pixels");
+        return bytes[position++];
+    }
+
+    // The next word, and the one white space behind it.
+    std::string word() {
+        std::string text;
+        char c = to_char(next());
+        while (is_space(c)) c = to_char(next());
+        for (; !is_space(c); c = to_char(next())) {
+            text += c;
+            if (text.size() > 64) fail("its header has a word of more than 64 letters");
+        }
+        return text;
+    }
+
+    // The characters up to the end of the line, which is taken as well.
+    std::string line() {
+        std::string text;
+        for (char c = to_char(next()); c != '\n'; c = to_char(next())) {
+            text += c;
+            if (text.size() > 4096)
+                fail("its header has a line of more than 4096 letters");
+        }
+        if (!text.empty() && text.back() == '\r') text.pop_back();
+        return text;
+    }
+
+    // The number of pixels that a word of the header says.
+    int size(const std::string& text) const {
+        long long value = 0;
+        for (const char c : text)
+            value = c < '0' || c > '9' || value > max_size ? 2 * max_size
+                                                           : 10 * value + (c - '0');
+        if (value < 1 || value > max_size)
+            fail("its width or height is '" + text +
+                 "', which must be a whole number of at least 1, and not above " +
+                 std::to_string(max_size));
+        return static_cast<int>(value);
+    }
+
+private:
+    static constexpr long long max_size = 1LL << 28;
+    static char to_char(unsigned char byte) noexcept { return static_cast<char>(byte); }
+    static bool is_space(char c) noexcept {
+        return c == ' ' || c == '\n' || c == '\t' || c == '\r';
+    }
+};
+
+} // namespace ljus::detail

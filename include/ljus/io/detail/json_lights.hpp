@@ -1,0 +1,83 @@
+#pragma once
+
+/// \file ljus/io/detail/json_lights.hpp
+/// \brief The lights of a scene file that are no objects.
+
+#include <stdexcept>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "ljus/io/detail/json_materials.hpp"
+#include "ljus/scene/light.hpp"
+
+namespace ljus {
+
+/// \defgroup json_lights Lights in scene files
+/// \brief Optional (nlohmann-json): what a file may say of a light without a size.
+///
+/// | `type` | its fields                                                              |
+/// |--------|-------------------------------------------------------------------------|
+/// | point  | position, intensity: W/sr                                               |
+/// | spot   | position, direction, intensity, inner_deg, outer_deg: see SpotLight     |
+/// | sun    | direction: where it shines to; irradiance: W/m^2                        |
+/// \{
+
+namespace detail {
+
+// A vector that says where to.
+inline glm::dvec3 way_field(const JsonField& field) {
+    const glm::dvec3 way = point_field(field);
+    if (!(glm::dot(way, way) > 0)) refuse_value(field, "a vector that is not 0");
+    return way;
+}
+
+template <typename Scene, std::floating_point T = typename Scene::Scalar>
+void read_light(const JsonField& field, Scene& scene) {
+    if (!field.value.is_object()) refuse_value(field, "an object");
+    const JsonField type = member(field, "type");
+    require_one_of(type, {"point", "spot", "sun"});
+    const auto strength = [&](const char* what) {
+        return RgbT<T>{
+            vector_field(member(field, what), 0, max_radiance, "within [0, 1e12]")};
+    };
+    const auto vector = [&](const char* what, auto read) {
+        return Vec3T<T>{read(member(field, what))};
+    };
+    const auto degrees = [&](const char* what, double most, const char* right) {
+        return number(member(field, what), 0, most, right);
+    };
+    const auto add = [&](const auto& light) {
+        try {
+            scene.add(LightSourceT<T>(light));
+        } catch (const std::invalid_argument& error) {
+            // What is too small or too large for T, though not for the file.
+            refuse(field, std::string("cannot be used: ") + error.what());
+        }
+    };
+    if (text(type) == "point") {
+        require_object(field, {"type", "position", "intensity"});
+        add(PointLightT<T>{.position = vector("position", point_field),
+                           .intensity = strength("intensity")});
+    } else if (text(type) == "sun") {
+        require_object(field, {"type", "direction", "irradiance"});
+        add(SunLightT<T>{.direction = vector("direction", way_field),
+                         .irradiance = strength("irradiance")});
+    } else {
+        require_object(field, {"type", "position", "direction", "intensity",
+                               "inner_deg", "outer_deg"});
+        const double outer = degrees("outer_deg", 180, "within (0, 180] degrees");
+        const double inner = degrees("inner_deg", outer, "within [0, outer_deg]");
+        add(SpotLightT<T>{.position = vector("position", point_field),
+                          .direction = vector("direction", way_field),
+                          .intensity = strength("intensity"),
+                          .inner_degrees = static_cast<T>(inner),
+                          .outer_degrees = static_cast<T>(outer)});
+    }
+}
+
+} // namespace detail
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,157 @@
+#pragma once
+
+/// \file ljus/io/detail/json_objects.hpp
+/// \brief The objects of scene files.
+
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "ljus/accel/mesh.hpp"
+#include "ljus/accel/pair_triangles.hpp"
+#include "ljus/io/detail/json_field.hpp"
+#include "ljus/io/detail/json_materials.hpp"
+#include "ljus/scene/scene.hpp"
+
+namespace ljus {
+
+/// \defgroup json_objects Objects in scene files
+/// \brief Optional (nlohmann-json): spheres, triangles, meshes.
+///
+/// | `type` of an object | its fields, besides material, name and emission         |
+/// |---------------------|---------------------------------------------------------|
+/// | sphere              | center, radius                                          |
+/// | triangles           | vertices, indices: three numbers a triangle, from 0     |
+/// | mesh                | file: OBJ, beside the scene's; scale (1); normals (file, |
+/// |                     | smooth or flat); see ObjMeshes                          |
+///
+/// Emission is radiance: of a sphere outwards, of a triangle towards
+/// \f$(V_2 - V_1) \times (V_3 - V_1)\f$.
+/// \{
+
+/// A scene of whatever a scene file may hold.
+template <std::floating_point T>
+using FileSceneT =
+    Scene<Shapes<QuadT<T>, SphereT<T>, TriangleT<T>, MeshT<T>>, FileMaterialsT<T>>;
+
+/// Reads no meshes: what load_json() does unless it is given an ObjMeshes.
+struct NoMeshes {
+    /// \throws std::runtime_error  always.
+    [[noreturn]] void operator()(const std::string& file, double,
+                                 const std::string&) const {
+        throw std::runtime_error(
+            file +
+            ": meshes are not read here; load_json() must be given ObjMeshes, of "
+            "ljus/io/load_obj.hpp, which needs tinyobjloader.");
+    }
+};
+
+namespace detail {
+
+// The triangles of an object, as quads where two of them are one.
+template <std::floating_point T>
+FlatShapesT<T> read_triangles(const JsonField& field) {
+    const JsonField vertices = member(field, "vertices");
+    std::vector<glm::dvec3> points;
+    for (std::size_t i = 0; i < list_size(vertices); ++i)
+        points.push_back(point_field(entry(vertices, i)));
+
+    const JsonField indices = member(field, "indices");
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (std::size_t i = 0; i < list_size(indices); ++i) {
+        const JsonField triple = entry(indices, i);
+        if (list_size(triple) != 3) refuse_value(triple, "a list of three numbers");
+        std::array<std::uint32_t, 3> corners{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const JsonField index = entry(triple, k);
+            if (points.empty()) refuse(index, "names a vertex, but there are none");
+            corners[k] = static_cast<std::uint32_t>(
+                whole_number(index, 0, static_cast<long long>(points.size()) - 1));
+        }
+        const glm::dvec3& a = points[corners[0]];
+        const glm::dvec3 normal =
+            glm::cross(points[corners[1]] - a, points[corners[2]] - a);
+        if (!(glm::dot(normal, normal) > 0))
+            refuse(triple, "is a triangle without an area");
+        triangles.push_back(corners);
+    }
+    return pair_triangles<T>(points, triangles);
+}
+
+// The meshes of an object's file.
+template <std::floating_point T, typename LoadMeshes>
+std::vector<MeshT<T>> read_meshes(const JsonField& field, LoadMeshes& load_meshes) {
+    const std::string file = text(member(field, "file"));
+    const auto scale = find(field, "scale");
+    const auto normals = find(field, "normals");
+    if (normals) require_one_of(*normals, {"file", "smooth", "flat"});
+    const double factor = scale ? number(*scale, 1e-9, 1e9, "within [1e-9, 1e9]") : 1.0;
+    const std::size_t slash = field.file.find_last_of("/\\");
+    const bool beside = slash != std::string::npos && file.substr(0, 1) != "/";
+    const std::string path = beside ? field.file.substr(0, slash + 1) + file : file;
+    if constexpr (std::is_same_v<std::remove_cvref_t<LoadMeshes>, NoMeshes>)
+        load_meshes(path, factor, normals ? text(*normals) : "file");
+    else
+        return load_meshes(path, factor, normals ? text(*normals) : "file");
+}
+
+template <std::floating_point T, typename LoadMeshes>
+void read_object(const JsonField& field,
+                 const std::map<std::string, MaterialId>& materials,
+                 FileSceneT<T>& scene, LoadMeshes& load_meshes) {
+    const JsonField type = member(field, "type");
+    require_one_of(type, {"sphere", "triangles", "mesh"});
+    const bool sphere = text(type) == "sphere";
+    const bool mesh = text(type) == "mesh";
+    if (sphere)
+        require_object(field,
+                       {"type", "name", "material", "emission", "center", "radius"});
+    else if (mesh)
+        require_object(field, {"type", "name", "material", "emission", "file", "scale",
+                               "normals"});
+    else
+        require_object(field,
+                       {"type", "name", "material", "emission", "vertices", "indices"});
+    if (const auto name = find(field, "name")) (void)text(*name);
+
+    const JsonField material = member(field, "material");
+    const auto known = materials.find(text(material));
+    if (known == materials.end()) {
+        std::vector<std::string> names;
+        for (const auto& [name, id] : materials) names.push_back(name);
+        refuse_value(material,
+                     std::string("one of the materials ") + in_a_row(names, "or"));
+    }
+    RgbT<T> emission{T(0)};
+    const auto emitted = find(field, "emission");
+    if (emitted)
+        emission = RgbT<T>{vector_field(*emitted, 0, max_radiance, "within [0, 1e12]")};
+
+    const auto add = [&](const auto& shape) {
+        try {
+            scene.add(shape, known->second, emission);
+        } catch (const std::invalid_argument& error) {
+            // What is too small or too large for T, though not for the file.
+            refuse(field, std::string("cannot be used: ") + error.what());
+        }
+    };
+    if (sphere) {
+        const JsonField radius = member(field, "radius");
+        const double length = number(radius, -max_length, max_length, "at most 1e9");
+        if (!(static_cast<T>(length) > T(0))) refuse_value(radius, "above 0");
+        add(SphereT<T>{.center{point_field(member(field, "center"))},
+                       .radius = static_cast<T>(length)});
+    } else if (mesh) {
+        for (const MeshT<T>& part : read_meshes<T>(field, load_meshes)) add(part);
+    } else {
+        const FlatShapesT<T> shapes = read_triangles<T>(field);
+        for (const QuadT<T>& quad : shapes.quads) add(quad);
+        for (const TriangleT<T>& triangle : shapes.triangles) add(triangle);
+    }
+}
+
+} // namespace detail
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,96 @@
+#pragma once
+
+/// \file ljus/io/detail/obj_material.hpp
+/// \brief What mesh files say of materials.
+
+#include <sstream>
+
+#include <tiny_obj_loader.h>
+
+#include "ljus/io/detail/obj_text.hpp"
+#include "ljus/io/file.hpp"
+#include "ljus/io/obj_report.hpp"
+
+namespace ljus {
+
+/// \addtogroup obj_reader
+/// \{
+
+/// The largest file that load_obj() takes, in bytes.
+inline constexpr std::size_t max_obj_file = std::size_t(1) << 30;
+
+/// What a material file says of a material; numbers as in the file, clamped to what
+/// they may be.
+struct ObjMaterial {
+    std::string name{};      ///< Empty for faces without a material.
+    glm::dvec3 diffuse{0.5}; ///< Kd, in [0, 1].
+    glm::dvec3 specular{0};  ///< Ks, in [0, 1].
+    glm::dvec3 emission{0};  ///< Ke, W/(m^2 sr), at least 0.
+    double index = 1.5;      ///< Ni, within [0.001, 1000].
+    double dissolve = 1;     ///< d: 0 is clear.
+    int illumination = 2;    ///< illum: 3, 5 and 8 mirror; 4, 6, 7 and 9 are glass.
+
+    /// Whether it is glass: by illum, or because d says that it is mostly clear.
+    [[nodiscard]] bool is_glass() const noexcept {
+        const int i = illumination;
+        return i == 4 || i == 6 || i == 7 || i == 9 || dissolve < 0.5;
+    }
+    /// Whether it is a mirror.
+    [[nodiscard]] bool is_mirror() const noexcept {
+        return illumination == 3 || illumination == 5 || illumination == 8;
+    }
+};
+
+namespace detail {
+
+inline ObjMaterial material_of(const tinyobj::material_t& from) {
+    const auto within = [](double x, double low, double high) { // NaN: low
+        return x > low ? (x < high ? x : high) : low;
+    };
+    const auto color = [&](const tinyobj::real_t* c, double most) {
+        return glm::dvec3(within(double(c[0]), 0, most), within(double(c[1]), 0, most),
+                          within(double(c[2]), 0, most));
+    };
+    return {.name = from.name,
+            .diffuse = color(from.diffuse, 1),
+            .specular = color(from.specular, 1),
+            .emission = color(from.emission, 1e12),
+            .index = within(double(from.ior), 1e-3, 1e3),
+            .dissolve = within(double(from.dissolve), 0, 1),
+            .illumination = from.illum};
+}
+
+// The materials of all files that a mesh file names; the first of a name counts.
+inline std::map<std::string, ObjMaterial>
+read_materials(std::string_view text, const std::string& folder, ObjReport& report) {
+    std::map<std::string, ObjMaterial> materials;
+    LineEnd end{};
+    for (long long number = 1; end.next < text.size(); ++number) {
+        const std::size_t begin = end.next;
+        end = line_end(text, begin);
+        const auto words = words_of(text.substr(begin, end.last - begin));
+        if (words.empty() || words[0] != "mtllib") continue;
+        for (std::size_t i = 1; i < words.size(); ++i) {
+            try {
+                const Bytes bytes =
+                    load_file(folder + std::string(words[i]), max_obj_file);
+                std::istringstream stream(std::string(bytes.begin(), bytes.end()));
+                std::map<std::string, int> names;
+                std::vector<tinyobj::material_t> found;
+                std::string warning, error;
+                tinyobj::LoadMtl(&names, &found, &stream, &warning, &error);
+                for (const auto& material : found)
+                    materials.try_emplace(material.name, material_of(material));
+            } catch (const std::runtime_error&) {
+                report.add(ObjTrouble::no_library, number);
+            }
+        }
+    }
+    return materials;
+}
+
+} // namespace detail
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,138 @@
+#pragma once
+
+/// \file ljus/io/detail/parse_json.hpp
+/// \brief JSON read strictly: no member twice, no endless depth, no number without end.
+
+#include <nlohmann/json.hpp>
+
+#include "ljus/io/detail/json_field.hpp"
+
+namespace ljus {
+
+/// \defgroup parse_json Reading JSON
+/// \brief Optional (nlohmann-json): an error in the text names line and column.
+/// \{
+
+/// The deepest nesting of lists and objects that parse_json() takes.
+inline constexpr std::size_t max_json_depth = 32;
+
+namespace detail {
+
+// Receives what nlohmann's parser reads, piece by piece, and keeps it as one value.
+struct JsonBuilder {
+    using number_integer_t = nlohmann::json::number_integer_t;
+    using number_unsigned_t = nlohmann::json::number_unsigned_t;
+    using number_float_t = nlohmann::json::number_float_t;
+
+    std::string_view source;             // the whole file, to count lines in
+    const std::string& file;             // its name
+    nlohmann::json root{};               // what has been read
+    std::vector<nlohmann::json*> open{}; // the lists and objects around this place
+    std::vector<std::string> keys{};     // of the objects around, the members' names
+
+    bool null() { return put(nullptr); }
+    bool boolean(bool value) { return put(value); }
+    bool number_integer(number_integer_t value) { return put(value); }
+    bool number_unsigned(number_unsigned_t value) { return put(value); }
+    bool number_float(number_float_t value, const std::string&) { return put(value); }
+    bool string(std::string& value) { return put(std::move(value)); }
+    bool binary(nlohmann::json::binary_t&) { return false; }
+    bool start_object(std::size_t) { return begin(nlohmann::json::object()); }
+    bool start_array(std::size_t) { return begin(nlohmann::json::array()); }
+    bool end_object() { return end(); }
+    bool end_array() { return end(); }
+
+    bool key(std::string& name) {
+        keys.back() = name;
+        if (open.back()->contains(name))
+            throw std::runtime_error(file + ": " + path() + " is there twice.");
+        return true;
+    }
+
+    template <typename Exception>
+    bool parse_error(std::size_t position, const std::string& token,
+                     const Exception& error) {
+        std::size_t line = 1;
+        std::size_t column = 0;
+        for (const char c : source.substr(0, position)) {
+            column = c == '\n' ? 0 : column + 1;
+            line += c == '\n' ? 1 : 0;
+        }
+        std::string message = file + ": line " + std::to_string(line) + ", column " +
+                              std::to_string(column == 0 ? 1 : column) + ": ";
+        std::string why = error.what();
+        if (error.id == 406) { // a number beyond the range of double
+            why = path() + " is " + token + "; it must be finite";
+        } else if (const auto at = why.find(" - "); at != std::string::npos) {
+            why = why.substr(at + 3);
+        }
+        for (char& c : why)
+            if (static_cast<unsigned char>(c) >= 0x80) c = '?';
+        throw std::runtime_error(message.append(shown(why, 160)).append("."));
+    }
+
+private:
+    // The path of the value that comes next.
+    std::string path() const {
+        std::string all;
+        for (std::size_t i = 0; i < open.size(); ++i) {
+            if (open[i]->is_object())
+                all = path_of_member(all, keys[i]);
+            else
+                all.append("[")
+                    .append(
+                        std::to_string(open[i]->size() - (i + 1 < open.size() ? 1 : 0)))
+                    .append("]");
+        }
+        return all.empty() ? "the file" : all;
+    }
+
+    bool put(nlohmann::json value) { return (void(place(std::move(value))), true); }
+
+    nlohmann::json* place(nlohmann::json&& value) {
+        if (open.empty()) return &(root = std::move(value));
+        if (open.back()->is_array()) {
+            open.back()->push_back(std::move(value));
+            return &open.back()->back();
+        }
+        return &((*open.back())[keys.back()] = std::move(value));
+    }
+
+    bool begin(nlohmann::json value) {
+        if (open.size() == max_json_depth)
+            throw std::runtime_error(
+                file + ": " + shown(path(), 96) + " is nested too deeply; at most " +
+                std::to_string(max_json_depth) + " levels are allowed.");
+        open.push_back(place(std::move(value)));
+        keys.emplace_back();
+        return true;
+    }
+
+    bool end() {
+        open.pop_back();
+        keys.pop_back();
+        return true;
+    }
+};
+
+} // namespace detail
+
+/// Reads JSON.
+/// \param source  The text.
+/// \param file    What messages call it: the name of the file.
+/// \return The value.
+/// \throws std::runtime_error  with line and column: "scene.json: line 3, column 7:
+///         unexpected end of input; expected '}'."; or with the path of a member that
+///         is there twice, or of a value that is nested too deeply.
+[[nodiscard]] inline nlohmann::json parse_json(std::string_view source,
+                                               const std::string& file) {
+    if (source.find_first_not_of(" \t\r\n") == std::string_view::npos)
+        throw std::runtime_error(file + ": the file is empty.");
+    detail::JsonBuilder builder{.source = source, .file = file};
+    nlohmann::json::sax_parse(source.begin(), source.end(), &builder);
+    return std::move(builder.root);
+}
+
+/// \}
+
+} // namespace ljus

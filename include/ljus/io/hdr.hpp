@@ -1,0 +1,182 @@
+#pragma once
+
+/// \file ljus/io/hdr.hpp
+/// \brief Radiance files (.hdr, RGBE): linear radiance in four bytes a pixel.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "ljus/image/image.hpp"
+#include "ljus/io/detail/byte_reader.hpp"
+#include "ljus/io/file.hpp"
+
+namespace ljus {
+
+/// \defgroup hdr HDR
+/// \brief Three mantissas share an exponent: 76 decades, at 0.4 % of the largest
+/// channel.
+/// \{
+
+/// The four bytes of a colour: round(256 c / 2^e) and e + 128, where 2^e is the least
+/// power of two above the largest channel \cite ward1991.
+/// \param c  Every channel at least 0 and below 1.69e38.
+/// \return R, G, B, E; zeros below 2.9e-39. Decoded, a channel is off by at most 1/256
+///         of the largest one, without a preferred direction.
+// [to_rgbe]
+[[nodiscard]] inline std::array<unsigned char, 4>
+to_rgbe(const RgbT<double>& c) noexcept {
+    const double largest = max_component(c);
+    int exponent = 0;
+    std::frexp(largest, &exponent);
+    // Rounded up to 256, the largest mantissa would not fit its byte.
+    if (std::ldexp(largest, 8 - exponent) >= 255.5) ++exponent;
+    if (!(largest > 0.0) || exponent < -127) return {0, 0, 0, 0};
+    const auto mantissa = [exponent](double channel) {
+        return static_cast<unsigned char>(std::ldexp(channel, 8 - exponent) + 0.5);
+    };
+    return {mantissa(c.x), mantissa(c.y), mantissa(c.z),
+            static_cast<unsigned char>(exponent + 128)};
+}
+// [to_rgbe]
+
+/// The colour of four bytes, without the half step that Ward's own programs add to
+/// their mantissas, which they round down.
+/// \param rgbe  R, G, B, E.
+/// \return (R, G, B) 2^(E - 136), or black if E is 0.
+[[nodiscard]] inline RgbT<double>
+from_rgbe(const std::array<unsigned char, 4>& rgbe) noexcept {
+    if (rgbe[3] == 0) return RgbT<double>(0.0);
+    const double unit = std::ldexp(1.0, int{rgbe[3]} - 136);
+    return {rgbe[0] * unit, rgbe[1] * unit, rgbe[2] * unit};
+}
+
+/// Saves an image as a Radiance file, without run-length coding.
+/// \param image  Linear colours, every channel finite, at least 0 and below 1.69e38.
+/// \param path   The file; an older one is replaced at the very end (save_file()).
+/// \throws std::invalid_argument  as check(), or for a channel that four bytes cannot
+///         hold (PFM can); std::runtime_error as save_file().
+template <std::floating_point T>
+void save_hdr(const ImageT<T>& image, const std::string& path) {
+    check(image);
+    const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " +
+                               std::to_string(image.height) + " +X " +
+                               std::to_string(image.width) + "\n";
+    Bytes bytes(header.begin(), header.end());
+    bytes.reserve(bytes.size() + 4 * image.pixels.size());
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const RgbT<double> c(pixel(image, x, y));
+            for (const double channel : {c.x, c.y, c.z})
+                if (!(channel >= 0.0 && channel < 1.69e38))
+                    throw std::invalid_argument(
+                        "Pixel (" + std::to_string(x) + ", " + std::to_string(y) +
+                        ") has a channel of " + std::to_string(channel) + "; for '" +
+                        path +
+                        "' it must be at least 0 and below 1.69e38 (a .pfm file holds "
+                        "anything).");
+            for (const unsigned char byte : to_rgbe(c)) bytes.push_back(byte);
+        }
+    save_file(path, bytes);
+}
+
+namespace detail {
+
+// A coded row: each of the four parts on its own, in runs of one byte or of different
+// bytes.
+inline void read_rgbe_runs(ByteReader& reader,
+                           std::vector<std::array<unsigned char, 4>>& row) {
+    for (std::size_t part = 0; part < 4; ++part)
+        for (std::size_t x = 0; x < row.size();) {
+            const std::size_t code = reader.next();
+            const bool same = code > 128;
+            const std::size_t count = same ? code - 128 : code;
+            if (count == 0 || count > row.size() - x)
+                reader.fail("a run of its coded pixels is empty or leaves its row");
+            unsigned char byte = same ? reader.next() : static_cast<unsigned char>(0);
+            for (std::size_t i = 0; i < count; ++i) {
+                if (!same) byte = reader.next();
+                row[x++][part] = byte;
+            }
+        }
+}
+
+inline void read_rgbe_row(ByteReader& reader,
+                          std::vector<std::array<unsigned char, 4>>& row,
+                          std::size_t width) {
+    // A coded row begins with 2, 2 and its width, which is no colour that anyone
+    // writes.
+    const unsigned char* const first = reader.bytes.data() + reader.position;
+    if (width >= 8 && width <= 0x7fff && reader.left() >= 4 && first[0] == 2 &&
+        first[1] == 2 && first[2] < 128) {
+        if (std::size_t{first[2]} * 256 + first[3] != width)
+            reader.fail("a row says that its width is another than the header's");
+        reader.position += 4;
+        row.resize(width);
+        return read_rgbe_runs(reader, row);
+    }
+    if (reader.left() / 4 < width) reader.fail("it ends before its last row does");
+    row.resize(width);
+    for (auto& rgbe : row) {
+        for (unsigned char& byte : rgbe) byte = reader.next();
+        if (rgbe[0] == 1 && rgbe[1] == 1 && rgbe[2] == 1)
+            reader.fail(
+                "it has the run-length coding of before 1991, which is not read");
+    }
+}
+
+} // namespace detail
+
+/// Loads a Radiance file: RGBE, rows from the top, plain or run-length coded.
+/// \param path  The file.
+/// \return Its image, divided by the EXPOSURE lines of the header, which gives
+///     radiance.
+/// \throws std::runtime_error  with path and reason, if it cannot be read, is of
+///     another kind (XYZE, other orders of the pixels, the run-length coding of before
+///     1991), or is shorter or longer than its header says.
+template <std::floating_point T = float>
+[[nodiscard]] ImageT<T> load_hdr(const std::string& path) {
+    detail::ByteReader reader{path, load_file(path, 8 * std::size_t(max_pixels), "#?")};
+    double exposure = 1.0;
+    for (std::string line = reader.line(); !line.empty(); line = reader.line()) {
+        if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe")
+            reader.fail("its header says " + line + "; only 32-bit_rle_rgbe is read");
+        if (!line.starts_with("EXPOSURE=")) continue;
+        std::string text = line.substr(9);
+        text.erase(0, std::min(text.find_first_not_of(' '), text.size()));
+        const double number = detail::to_number(text);
+        if (!(number > 0.0) || !std::isfinite(number))
+            reader.fail("its header says " + line + ", which is no number above 0");
+        exposure *= number;
+    }
+    const std::string y_word = reader.word();
+    const std::string y_size = reader.word();
+    const std::string x_word = reader.word();
+    const int height = reader.size(y_size);
+    const int width = reader.size(reader.word());
+    if (y_word != "-Y" || x_word != "+X")
+        reader.fail("its rows go " + y_word + " " + x_word + "; only -Y +X is read");
+    if (width > max_pixels / height) reader.fail("its image is too large");
+
+    // The image grows by rows, so that a short file with a large size takes no memory.
+    ImageT<T> image{.width = width, .height = height, .pixels = {}};
+    std::vector<std::array<unsigned char, 4>> row;
+    for (int y = 0; y < height; ++y) {
+        detail::read_rgbe_row(reader, row, static_cast<std::size_t>(width));
+        for (const auto& rgbe : row)
+            image.pixels.push_back(RgbT<T>(from_rgbe(rgbe) / exposure));
+    }
+    if (reader.left() != 0)
+        reader.fail("it has " + std::to_string(reader.left()) +
+                    " bytes more than its pixels require");
+    return image;
+}
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,147 @@
+#pragma once
+
+/// \file ljus/io/load_json.hpp
+/// \brief Scenes from JSON files.
+
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "ljus/image/image.hpp"
+#include "ljus/io/detail/json_lights.hpp"
+#include "ljus/io/detail/json_objects.hpp"
+#include "ljus/io/detail/parse_json.hpp"
+#include "ljus/io/file.hpp"
+#include "ljus/scene/camera.hpp"
+
+namespace ljus {
+
+/// \defgroup load_json Scene files
+/// \brief Optional (nlohmann-json): a scene, its camera and the size of its picture.
+///
+///     {"name": "a ball", "image": {"width": 200, "height": 200},
+///      "camera": {"position": [0, 1, 4], "look_at": [0, 1, 0], "up": [0, 1, 0],
+///                 "vfov_deg": 40},
+///      "materials": {"grey": {"type": "lambertian", "albedo": [0.5, 0.5, 0.5]}},
+///      "objects": [{"type": "sphere", "material": "grey", "center": [0, 1, 0],
+///                   "radius": 1, "emission": [2, 2, 2]}]}
+///
+/// The materials are those of \ref json_materials, the objects those of
+/// \ref json_objects. A list `lights` may follow, of points, spots and suns:
+/// \ref json_lights. Lengths are within 1e9, radiance within 1e12.
+/// \{
+
+/// What a scene file says.
+template <std::floating_point T>
+struct LoadedSceneT {
+    FileSceneT<T> scene; ///< Shapes, materials and lights.
+    CameraT<T> camera;   ///< Where it is seen from.
+    std::string name;    ///< Of the scene; empty if it has none.
+    int width = 0;       ///< Of its picture, in pixels.
+    int height = 0;      ///< Of its picture, in pixels.
+};
+using LoadedScene = LoadedSceneT<float>; ///< LoadedSceneT in float.
+
+/// The largest file that load_json() takes, in bytes.
+inline constexpr std::size_t max_scene_file = std::size_t(1) << 28;
+
+namespace detail {
+
+template <std::floating_point T>
+CameraT<T> read_camera(const JsonField& field) {
+    require_object(field, {"position", "look_at", "up", "vfov_deg"});
+    const ViewT<T> view{
+        .position{point_field(member(field, "position"))},
+        .target{point_field(member(field, "look_at"))},
+        .up{point_field(member(field, "up"))},
+        .vfov_degrees = static_cast<T>(number(member(field, "vfov_deg"), 1e-3, 179.99,
+                                              "within [0.001, 179.99] degrees"))};
+    const Vec3T<T> way = view.target - view.position;
+    if (!(glm::dot(way, way) > T(0)))
+        refuse_value(member(field, "look_at"), "another point than camera.position");
+    try {
+        return look_at(view);
+    } catch (const std::invalid_argument&) {
+        refuse_value(member(field, "up"), "a direction that is not along the view");
+    }
+}
+
+} // namespace detail
+
+/// Reads a scene from the text of a scene file.
+/// \param source  The text.
+/// \param file    What messages call it: the name of the file.
+/// \param load_meshes  Called as load_meshes(path, scale, normals) for each mesh;
+///         returns a vector of meshes.
+/// \return The scene. Two triangles that are one parallelogram have become one quad.
+/// \throws std::runtime_error  with one sentence that names the file, the path of the
+///         field, its value and what would be right: "scene.json: objects[3].radius is
+///         -1; it must be above 0."
+template <std::floating_point T = float, typename LoadMeshes = NoMeshes>
+[[nodiscard]] LoadedSceneT<T> read_json_scene(std::string_view source,
+                                              const std::string& file,
+                                              LoadMeshes load_meshes = {}) {
+    const nlohmann::json root = parse_json(source, file);
+    const JsonField top{root, file, ""};
+    require_object(top, {"format", "name", "description", "camera", "image",
+                         "materials", "objects", "lights"});
+    for (const char* field : {"format", "name", "description"})
+        if (const auto comment = find(top, field)) (void)text(*comment);
+
+    LoadedSceneT<T> loaded;
+    if (const auto name = find(top, "name")) loaded.name = text(*name);
+    loaded.camera = detail::read_camera<T>(member(top, "camera"));
+
+    const JsonField image = member(top, "image");
+    require_object(image, {"width", "height", "pixel_filter"});
+    loaded.width =
+        static_cast<int>(whole_number(member(image, "width"), 1, max_pixels));
+    loaded.height =
+        static_cast<int>(whole_number(member(image, "height"), 1, max_pixels));
+    if (loaded.width > max_pixels / loaded.height)
+        refuse(image, std::string("has more than ").append(std::to_string(max_pixels)) +
+                          " pixels");
+    if (const auto filter = find(image, "pixel_filter");
+        filter && text(*filter).substr(0, 3) != "box")
+        refuse_value(*filter, "\"box\", the only filter that there is");
+
+    std::map<std::string, MaterialId> materials;
+    const JsonField list = member(top, "materials");
+    if (!list.value.is_object()) refuse_value(list, "an object");
+    for (const auto& [name, value] : list.value.items())
+        materials[name] = detail::read_material(
+            {value, file, path_of_member(list.path, name)}, loaded.scene);
+
+    const JsonField objects = member(top, "objects");
+    for (std::size_t i = 0; i < list_size(objects); ++i)
+        detail::read_object(entry(objects, i), materials, loaded.scene, load_meshes);
+    if (const auto lights = find(top, "lights"))
+        for (std::size_t i = 0; i < list_size(*lights); ++i)
+            detail::read_light(entry(*lights, i), loaded.scene);
+    if (loaded.scene.lights.empty())
+        refuse(objects, "has no light; at least one needs an emission above 0, or "
+                        "there must be lights");
+    if (loaded.scene.lights.size() > 65535)
+        refuse(objects, std::string("has ")
+                            .append(std::to_string(loaded.scene.lights.size()))
+                            .append(" lights; it must have at most 65535"));
+    return loaded;
+}
+
+/// Loads a scene file.
+/// \param path  The file.
+/// \param load_meshes  As for read_json_scene(): ObjMeshes, or nothing.
+/// \return The scene.
+/// \throws std::runtime_error  as read_json_scene(); or, if the file cannot be read,
+///         with its name and the reason.
+template <std::floating_point T = float, typename LoadMeshes = NoMeshes>
+[[nodiscard]] LoadedSceneT<T> load_json(const std::string& path,
+                                        LoadMeshes load_meshes = {}) {
+    const Bytes bytes = load_file(path, max_scene_file);
+    return read_json_scene<T>(
+        {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path, load_meshes);
+}
+
+/// \}
+
+} // namespace ljus

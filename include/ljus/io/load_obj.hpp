@@ -1,0 +1,186 @@
+#pragma once
+
+/// \file ljus/io/load_obj.hpp
+/// \brief Meshes from OBJ files.
+
+#include <sstream>
+
+#include <tiny_obj_loader.h>
+
+#include "ljus/accel/mesh.hpp"
+#include "ljus/io/detail/obj_reader.hpp"
+#include "ljus/materials/glass.hpp"
+#include "ljus/materials/lambertian.hpp"
+#include "ljus/materials/mirror.hpp"
+#include "ljus/scene/scene.hpp"
+
+namespace ljus {
+
+/// \defgroup load_obj Mesh files
+/// \brief Optional (tinyobjloader, its library is linked too): OBJ files and their MTL
+/// files.
+///
+///     const auto teapot = load_obj("teapot.obj", {.scale = 0.1});
+///     std::fputs(to_text(teapot.report).c_str(), stderr);
+///     add_obj(scene, teapot);                          // colours of the file
+///     scene.add(teapot.parts[0].mesh, scene.add(Glass{}));  // or one's own
+/// \{
+
+/// All faces of one material.
+template <std::floating_point T>
+struct ObjPartT {
+    MeshT<T> mesh;        ///< Its triangles.
+    ObjMaterial material; ///< What the file says that it is made of.
+};
+
+/// What a mesh file holds.
+template <std::floating_point T>
+struct LoadedObjT {
+    std::vector<ObjPartT<T>> parts{}; ///< One a material, in order of first use.
+    ObjReport report{};               ///< What is wrong with it.
+};
+using LoadedObj = LoadedObjT<float>; ///< LoadedObjT in float.
+
+/// Reads meshes from the text of an OBJ file. Faces of one material, wherever they
+/// stand, are one mesh; those of more than three corners are cut by cut_polygon().
+/// \param text      The text.
+/// \param file      What messages call it: its name; material files are looked for
+///                  beside it.
+/// \param settings  Scale and normals.
+/// \return The meshes, and what is wrong with the file: what cannot be used is left
+///         out, and counted.
+/// \throws std::runtime_error  with one sentence, if no face can be used, or if a mesh
+///         cannot be made: "box.obj: there is no face that can be used; the first
+///         trouble: line 7: 12 faces name a vertex or a normal that is not there; ..."
+/// \throws std::invalid_argument  for a scale that is not finite and above 0.
+template <std::floating_point T = float>
+[[nodiscard]] LoadedObjT<T> read_obj(std::string text, const std::string& file,
+                                     const ObjSettings& settings = {}) {
+    require_positive("the scale of a mesh file", settings.scale);
+    std::istringstream stream(std::move(text));
+    using Reader = detail::ObjReader<T>;
+    Reader reader{.settings = settings, .line{.stream = stream}};
+    const std::size_t slash = file.find_last_of("/\\");
+    reader.materials = detail::read_materials(
+        stream.view(), slash == file.npos ? std::string() : file.substr(0, slash + 1),
+        reader.report);
+
+    using Real = tinyobj::real_t;
+    tinyobj::callback_t calls;
+    calls.vertex_cb = [](void* data, Real, Real, Real, Real) {
+        static_cast<Reader*>(data)->vertex();
+    };
+    calls.normal_cb = [](void* data, Real, Real, Real) {
+        static_cast<Reader*>(data)->normal();
+    };
+    calls.index_cb = [](void* data, tinyobj::index_t* corners, int count) {
+        static_cast<Reader*>(data)->face(corners, static_cast<std::size_t>(count));
+    };
+    calls.usemtl_cb = [](void* data, const char* name, int) {
+        static_cast<Reader*>(data)->use(name);
+    };
+    std::string warning, error;
+    tinyobj::LoadObjWithCallback(stream, calls, &reader, nullptr, &warning, &error);
+
+    if (reader.parts.empty()) {
+        const std::string report = to_text(reader.report);
+        throw std::runtime_error(
+            file + ": there is no face that can be used" +
+            (report.empty()
+                 ? std::string("; a mesh file has lines such as 'v 0 0 1' and "
+                               "'f 1 2 3'.")
+                 : "; the first trouble: " + report.substr(0, report.find('\n'))));
+    }
+    count_edges(reader.whole, reader.lines, reader.report);
+    LoadedObjT<T> loaded{.report = reader.report};
+    for (auto& part : reader.parts) {
+        if (!part.smooth) part.data.normals.clear();
+        if (settings.normals == ObjNormals::smooth) smooth(part.data);
+        try {
+            loaded.parts.push_back(
+                {MeshT<T>(std::move(part.data)), std::move(part.material)});
+        } catch (const std::invalid_argument& wrong) {
+            throw std::runtime_error(file + ": " + wrong.what());
+        }
+    }
+    return loaded;
+}
+
+/// Loads an OBJ file.
+/// \param path      The file.
+/// \param settings  Scale and normals.
+/// \return As read_obj().
+/// \throws std::runtime_error  as read_obj(); or, if the file cannot be read, with its
+///         name and the reason.
+template <std::floating_point T = float>
+[[nodiscard]] LoadedObjT<T> load_obj(const std::string& path,
+                                     const ObjSettings& settings = {}) {
+    const Bytes bytes = load_file(path, max_obj_file);
+    return read_obj<T>(std::string(bytes.begin(), bytes.end()), path, settings);
+}
+
+/// Adds all meshes of a file to a scene, each made of what the file says: glass and
+/// mirrors where the scene lists them, and else Lambert's surface with the colour Kd.
+/// What glows, glows by Ke.
+/// \param scene   A scene with meshes and Lambert's surface.
+/// \param loaded  What load_obj() returned.
+template <typename Scene, std::floating_point T>
+void add_obj(Scene& scene, const LoadedObjT<T>& loaded) {
+    for (const ObjPartT<T>& part : loaded.parts) {
+        const ObjMaterial& is = part.material;
+        const GlassT<T> glass{.index = static_cast<T>(is.index)};
+        const MirrorT<T> mirror{.reflectance = RgbT<T>(is.specular)};
+        MaterialId id = [&] {
+            if constexpr (requires { scene.add(glass); })
+                if (is.is_glass()) return scene.add(glass);
+            if constexpr (requires { scene.add(mirror); })
+                if (is.is_mirror()) return scene.add(mirror);
+            return scene.add(LambertianT<T>{.albedo = RgbT<T>(is.diffuse)});
+        }();
+        scene.add(part.mesh, id, RgbT<T>(is.emission));
+    }
+}
+
+/// Adds all meshes of a file to a scene, all made of one material.
+/// \param scene     A scene with meshes.
+/// \param loaded    What load_obj() returned.
+/// \param material  What add() returned for it.
+/// \param radiance  What all of them emit, W/(m^2 sr).
+template <typename Scene, std::floating_point T>
+void add_obj(Scene& scene, const LoadedObjT<T>& loaded, MaterialId material,
+             const RgbT<T>& radiance = RgbT<T>{0}) {
+    for (const ObjPartT<T>& part : loaded.parts)
+        scene.add(part.mesh, material, radiance);
+}
+
+/// Reads the meshes of a scene file: load_json("scene.json", ObjMeshes{}). They are
+/// made of what the scene file says; the colours of the mesh file are not used.
+template <std::floating_point T>
+struct ObjMeshesT {
+    std::string* report = nullptr; ///< Takes what is wrong, a line a trouble.
+
+    /// Reads one file.
+    /// \param path     The file.
+    /// \param scale    Every coordinate is multiplied by this.
+    /// \param normals  "file", "smooth" or "flat".
+    /// \return All its meshes.
+    /// \throws std::runtime_error  as load_obj().
+    [[nodiscard]] std::vector<MeshT<T>> operator()(const std::string& path,
+                                                   double scale,
+                                                   const std::string& normals) const {
+        const ObjNormals which = normals == "smooth" ? ObjNormals::smooth
+                                 : normals == "flat" ? ObjNormals::flat
+                                                     : ObjNormals::file;
+        auto loaded = load_obj<T>(path, {.scale = scale, .normals = which});
+        std::vector<MeshT<T>> meshes;
+        for (auto& part : loaded.parts) meshes.push_back(std::move(part.mesh));
+        const std::string text = to_text(loaded.report);
+        if (report != nullptr && !text.empty()) *report += path + ":\n" + text;
+        return meshes;
+    }
+};
+using ObjMeshes = ObjMeshesT<float>; ///< ObjMeshesT in float.
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,142 @@
+#pragma once
+
+/// \file ljus/io/obj_report.hpp
+/// \brief What is wrong with a mesh file, though not wrong enough to refuse it.
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ljus/accel/mesh_data.hpp"
+
+namespace ljus {
+
+/// \defgroup obj_report What a mesh file lacks
+/// \brief Counts, each with the first line where it was seen.
+/// \{
+
+/// What may be wrong with a mesh file.
+enum class ObjTrouble : std::uint8_t {
+    bad_number,   ///< A coordinate that is none, or not finite; its faces are left out.
+    bad_normal,   ///< A normal that is none; its faces are flat.
+    bad_index,    ///< A face with a vertex that is not there, left out.
+    few_corners,  ///< A face with fewer than three corners, left out.
+    many_corners, ///< A face with more than 1000 corners, left out.
+    no_area,      ///< A face without an area, left out.
+    turned,       ///< A face whose normals point to its inner side; they are not used.
+    edge_of_many, ///< An edge of three faces or more: no side is inside.
+    edge_turned,  ///< An edge whose two faces are wound in different ways.
+    edge_open,    ///< An edge of one face: the mesh is not closed, no good for glass.
+    no_material,  ///< A material that is not there.
+    no_library,   ///< A material file that cannot be read.
+};
+
+/// How many there are.
+inline constexpr std::size_t obj_troubles = 12;
+
+/// How often, and where first.
+struct ObjCount {
+    long long count = 0; ///< How often.
+    long long line = 0;  ///< The first line, from 1.
+};
+
+/// All of it.
+struct ObjReport {
+    std::array<ObjCount, obj_troubles> counts{}; ///< By ObjTrouble.
+
+    /// Counts one more.
+    void add(ObjTrouble trouble, long long line) {
+        ObjCount& at = counts[static_cast<std::size_t>(trouble)];
+        if (at.count++ == 0 || line < at.line) at.line = line;
+    }
+    /// How often, and where first.
+    [[nodiscard]] const ObjCount& operator[](ObjTrouble trouble) const {
+        return counts[static_cast<std::size_t>(trouble)];
+    }
+};
+
+/// A report, one line a trouble: "line 12: 3 faces without an area are left out."
+/// \param report  The report.
+/// \return Lines that end with a line feed; empty if nothing is wrong.
+[[nodiscard]] inline std::string to_text(const ObjReport& report) {
+    constexpr std::array<const char*, obj_troubles> words{
+        "vertices have coordinates that are no finite numbers; faces there are left "
+        "out",
+        "normals are no finite numbers; faces there are flat",
+        "faces name a vertex or a normal that is not there; they are left out",
+        "faces have fewer than three corners; they are left out",
+        "faces have more than 1000 corners; they are left out",
+        "faces have no area; they are left out",
+        "faces have normals that point to their inner side; they are shaded flat",
+        "edges belong to three faces or more; no side there is the inside",
+        "edges have faces that are wound in opposite ways; one of them is inside out",
+        "edges belong to one face only; such a mesh is not closed, no good for glass",
+        "uses of a material that no material file has; the default is taken",
+        "material files cannot be read; the default material is taken"};
+    std::string text;
+    for (std::size_t i = 0; i < obj_troubles; ++i)
+        if (report.counts[i].count > 0)
+            text.append("line ")
+                .append(std::to_string(report.counts[i].line))
+                .append(": ")
+                .append(std::to_string(report.counts[i].count))
+                .append(" ")
+                .append(words[i])
+                .append(".\n");
+    return text;
+}
+
+/// Counts the edges of a mesh that a closed surface does not have. Vertices at the same
+/// place count as one.
+/// \param data    The mesh.
+/// \param lines   Of each triangle.
+/// \param report  Takes the counts.
+/// \cost O(n log n).
+// [count_edges]
+template <std::floating_point T>
+void count_edges(const MeshDataT<T>& data, const std::vector<long long>& lines,
+                 ObjReport& report) {
+    std::map<std::array<T, 3>, std::uint32_t> places;
+    std::vector<std::uint32_t> place;
+    for (const Vec3T<T>& p : data.positions)
+        place.push_back(
+            places
+                .try_emplace({p.x, p.y, p.z}, static_cast<std::uint32_t>(places.size()))
+                .first->second);
+    struct Edge {
+        std::uint32_t low, high; // its ends
+        bool forwards;           // as its triangle has it
+        std::uint32_t triangle;
+        bool operator<(const Edge& other) const {
+            return std::pair{low, high} < std::pair{other.low, other.high};
+        }
+    };
+    std::vector<Edge> edges;
+    for (std::uint32_t i = 0; i < data.triangles.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t a = place[data.triangles[i][k]];
+            const std::uint32_t b = place[data.triangles[i][(k + 1) % 3]];
+            if (a != b) edges.push_back({std::min(a, b), std::max(a, b), a < b, i});
+        }
+    std::sort(edges.begin(), edges.end());
+    for (std::size_t i = 0, next = 0; i < edges.size(); i = next) {
+        while (next < edges.size() && !(edges[i] < edges[next])) ++next;
+        long long line = lines[edges[i].triangle];
+        for (std::size_t k = i; k < next; ++k)
+            line = std::min(line, lines[edges[k].triangle]);
+        if (next - i > 2)
+            report.add(ObjTrouble::edge_of_many, line);
+        else if (next - i == 1)
+            report.add(ObjTrouble::edge_open, line);
+        else if (edges[i].forwards == edges[i + 1].forwards)
+            report.add(ObjTrouble::edge_turned, line);
+    }
+}
+// [count_edges]
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,101 @@
+#pragma once
+
+/// \file ljus/io/pfm.hpp
+/// \brief PFM files: linear radiance in float, as it is.
+
+#include <bit>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "ljus/image/image.hpp"
+#include "ljus/io/detail/byte_reader.hpp"
+#include "ljus/io/file.hpp"
+
+namespace ljus {
+
+/// \defgroup pfm PFM
+/// \brief Three lines of text, then the floats, the bottom row first.
+/// \{
+
+/// Saves an image as PFM: every float comes back with the same bits, NaN and infinity
+/// too; double is rounded to float once. Little-endian on every machine.
+/// \param image  Linear colours.
+/// \param path   The file; an older one is replaced at the very end (save_file()).
+/// \throws std::invalid_argument  as check(); std::runtime_error as save_file().
+// [save_pfm]
+template <std::floating_point T>
+void save_pfm(const ImageT<T>& image, const std::string& path) {
+    check(image);
+    const std::string header = "PF\n" + std::to_string(image.width) + " " +
+                               std::to_string(image.height) + "\n-1.0\n";
+    Bytes bytes(header.begin(), header.end());
+    bytes.reserve(bytes.size() + 12 * image.pixels.size());
+    for (int y = image.height - 1; y >= 0; --y)
+        for (int x = 0; x < image.width; ++x) {
+            const RgbT<T>& c = pixel(image, x, y);
+            for (const T channel : {c.x, c.y, c.z}) {
+                const auto bits =
+                    std::bit_cast<std::uint32_t>(static_cast<float>(channel));
+                for (int shift = 0; shift < 32; shift += 8)
+                    bytes.push_back(static_cast<unsigned char>(bits >> shift & 0xffu));
+            }
+        }
+    save_file(path, bytes);
+}
+// [save_pfm]
+
+/// Loads a PFM file, of colours or of grey, of either byte order.
+/// \param path  The file.
+/// \return Its image; values are multiplied by the size of the header's scale, which is
+///         1 in files of save_pfm().
+/// \throws std::runtime_error  with path and reason, if it cannot be read, is no PFM
+///         file, or is shorter or longer than its header says.
+template <std::floating_point T = float>
+[[nodiscard]] ImageT<T> load_pfm(const std::string& path) {
+    detail::ByteReader reader{path,
+                              load_file(path, 12 * std::size_t(max_pixels) + 256, "P")};
+    const std::string kind = reader.word();
+    if (kind != "PF" && kind != "Pf") reader.fail("it does not begin with PF or Pf");
+    const int width = reader.size(reader.word());
+    const int height = reader.size(reader.word());
+    const double scale = detail::to_number(reader.word());
+    if (!std::isfinite(scale) || scale == 0.0)
+        reader.fail("the third line of its header is not a finite number other than 0");
+    if (width > max_pixels / height) reader.fail("its image is too large");
+
+    // Compared before any memory is taken for the pixels.
+    const std::size_t channels = kind == "PF" ? 3 : 1;
+    const std::size_t expected = 4 * channels * static_cast<std::size_t>(width) *
+                                 static_cast<std::size_t>(height);
+    if (reader.left() != expected)
+        reader.fail("its " + std::to_string(width) + " x " + std::to_string(height) +
+                    " pixels require " + std::to_string(expected) +
+                    " bytes after the header, but there are " +
+                    std::to_string(reader.left()));
+
+    const bool little_endian = scale < 0.0;
+    const auto next_channel = [&] {
+        std::uint32_t bits = 0;
+        for (int i = 0; i < 4; ++i)
+            bits |= std::uint32_t(reader.next()) << 8 * (little_endian ? i : 3 - i);
+        const float value = std::bit_cast<float>(bits);
+        if (std::abs(scale) == 1.0) return static_cast<T>(value);
+        return static_cast<T>(std::abs(scale) * static_cast<double>(value));
+    };
+    auto image = make_image<T>(width, height);
+    for (int y = height - 1; y >= 0; --y)
+        for (int x = 0; x < width; ++x) {
+            const T first = next_channel();
+            const T second = channels == 3 ? next_channel() : first;
+            const T third = channels == 3 ? next_channel() : first;
+            pixel(image, x, y) = {first, second, third};
+        }
+    return image;
+}
+
+/// \}
+
+} // namespace ljus

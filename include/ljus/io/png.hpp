@@ -1,0 +1,129 @@
+#pragma once
+
+/// \file ljus/io/png.hpp
+/// \brief Pictures for a screen: PNG files of 8 bits a channel, sRGB.
+///
+/// The work is done by stb_image_write, whose implementation this header makes for
+/// itself, invisible to other files. A program with its own implementation in the
+/// *same* file includes that one before this header (ours then steps back), or defines
+/// `LJUS_NO_STB` to have none of it; in another file there is nothing to do.
+
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+
+#if !defined(LJUS_NO_STB)
+#if defined(INCLUDE_STB_IMAGE_WRITE_H)
+#define LJUS_HAS_STB 1 // the program's own
+#elif __has_include(<stb/stb_image_write.h>) || __has_include(<stb_image_write.h>)
+#define LJUS_HAS_STB 1
+#if defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#pragma GCC diagnostic ignored "-Wold-style-cast"
+#pragma GCC diagnostic ignored "-Wcast-qual"
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+#elif defined(_MSC_VER)
+#pragma warning(push, 0)
+#pragma warning(disable : 4505 4996)
+#endif
+#define STB_IMAGE_WRITE_STATIC
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#if __has_include(<stb/stb_image_write.h>)
+#include <stb/stb_image_write.h>
+#else
+#include <stb_image_write.h>
+#endif
+#undef STB_IMAGE_WRITE_STATIC
+#undef STB_IMAGE_WRITE_IMPLEMENTATION
+#if defined(__GNUC__)
+#pragma GCC diagnostic pop
+#elif defined(_MSC_VER)
+#pragma warning(pop)
+#endif
+#endif
+#endif
+
+#include "ljus/image/color.hpp"
+#include "ljus/image/image.hpp"
+#include "ljus/io/file.hpp"
+
+namespace ljus {
+
+/// \defgroup png PNG
+/// \brief The picture as one sees it; hdr and pfm keep what one can compute with.
+/// \{
+
+/// How save_png() develops a picture.
+struct PngSettings {
+    double exposure = 0.0; ///< In stops: +1 doubles the light. Finite.
+};
+
+/// The bytes of a PNG file.
+/// \param image    Linear colours; NaN and negative channels turn black, what exceeds 1
+///                 after exposure turns 255.
+/// \param options  Exposure.
+/// \return The file, 8 bits a channel, sRGB.
+/// \throws std::invalid_argument  for an image without pixels or an exposure that is
+///         not finite.
+template <std::floating_point T>
+[[nodiscard]] Bytes encode_png(const ImageT<T>& image,
+                               const PngSettings& options = {}) {
+#ifdef LJUS_HAS_STB
+    check(image);
+    if (!std::isfinite(options.exposure))
+        throw std::invalid_argument("The exposure of a PNG file is " +
+                                    std::to_string(options.exposure) +
+                                    "; it must be a finite number of stops.");
+    const double scale = std::exp2(options.exposure);
+    Bytes screen;
+    screen.reserve(image.pixels.size() * 3);
+    for (const RgbT<T>& c : image.pixels)
+        for (const T channel : {c.x, c.y, c.z})
+            screen.push_back(srgb_byte(scale * static_cast<double>(channel)));
+
+    Bytes file;
+    const auto append = [](void* context, void* data, int size) {
+        const auto* first = static_cast<const unsigned char*>(data);
+        auto& bytes = *static_cast<Bytes*>(context);
+        bytes.insert(bytes.end(), first, first + size);
+    };
+    if (stbi_write_png_to_func(append, &file, image.width, image.height, 3,
+                               screen.data(), 3 * image.width) == 0)
+        throw std::runtime_error("PNG: no memory for an image of " +
+                                 std::to_string(image.width) + " x " +
+                                 std::to_string(image.height) + " pixels.");
+    return file;
+#elif defined(LJUS_NO_STB)
+    static_assert(sizeof(T) == 0, "LJUS_NO_STB switches PNG off: save a .pfm or .hdr "
+                                  "file, or do not define it.");
+    return (void(image), void(options), Bytes{});
+#else
+    static_assert(
+        sizeof(T) == 0,
+        "PNG needs stb_image_write.h: apt-get install libstb-dev, or put it on "
+        "the include path.");
+    return (void(image), void(options), Bytes{});
+#endif
+}
+
+/// Saves an image as PNG.
+/// \param image    As for encode_png().
+/// \param path     The file; an older one is replaced at the very end (save_file()).
+/// \param options  Exposure.
+/// \throws std::invalid_argument  as encode_png(); std::runtime_error as save_file().
+template <std::floating_point T>
+void save_png(const ImageT<T>& image, const std::string& path,
+              const PngSettings& options = {}) {
+    save_file(path, encode_png(image, options));
+}
+
+/// \}
+
+} // namespace ljus

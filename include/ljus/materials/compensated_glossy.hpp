@@ -1,0 +1,169 @@
+#pragma once
+
+/// \file ljus/materials/compensated_glossy.hpp
+/// \brief Gloss with the light that goes from facet to facet.
+
+#include <algorithm>
+
+#include "ljus/materials/detail/multiple_scattering.hpp"
+#include "ljus/materials/glossy.hpp"
+#include "ljus/optics/energy_loss.hpp"
+
+namespace ljus {
+
+/// \defgroup compensated_glossy Gloss that keeps its light
+/// \brief Section 3.2.4, rough mirrors: what a facet sends to its neighbours comes out.
+/// \{
+
+/// Gloss, and beside it the light that it loses, given back as \ref multiple_scattering says.
+/// Made by compensated_glossy(). White facets return 0.9996 to 1.00001 of a constant sky, at
+/// any roughness and angle; coloured ones grow richer, as after several reflections.
+/// \tparam Facet  As GlossyT has it.
+template <std::floating_point T, typename Facet = RgbT<T>>
+struct CompensatedGlossyT {
+    using Scalar = T;                         ///< The precision of its numbers.
+    static constexpr bool glossy_lobe = true; ///< See Glossy_.
+    GlossyT<T, Facet> first{};                ///< One reflection.
+    EnergyLossT<T> loss{};                    ///< What it loses; of bake_energy_loss().
+    RgbT<T> mean{T(0)}; ///< A facet's mean reflectance; of mean_reflectance().
+};
+using CompensatedGlossy = CompensatedGlossyT<float>; ///< Of a colour, in float.
+using FullRoughMetal =
+    CompensatedGlossyT<float, ConductorIndexT<float>>; ///< Of metal, in float.
+
+/// The mean of facet_reflectance() over the angles, \f$ 2 \int F(\mu)\,\mu\,d\mu \f$.
+/// \param facet  A colour straight on, or a metal's index.
+/// \return In [0, 1] for each channel.
+template <std::floating_point T, typename Facet>
+[[nodiscard]] RgbT<T> mean_reflectance(const Facet& facet) noexcept {
+    constexpr int steps = 256; // even in mu^2, so that each counts the same
+    RgbT<T> sum{T(0)};
+    for (int i = 0; i < steps; ++i)
+        sum += facet_reflectance(facet, std::sqrt((T(i) + T(0.5)) / T(steps)));
+    return sum / T(steps);
+}
+
+/// Makes gloss keep its light.
+/// \param first  The gloss.
+/// \return The material; with roughness 0 the same mirror.
+/// \throws std::invalid_argument as check() of the gloss.
+/// \cost bake_energy_loss(), once.
+// [full glossy]
+template <std::floating_point T, typename F>
+[[nodiscard]] CompensatedGlossyT<T, F> compensated_glossy(const GlossyT<T, F>& first) {
+    check(first);
+    return {.first = first,
+            .loss = bake_energy_loss(first.roughness * first.roughness),
+            .mean = mean_reflectance<T>(first.reflectance)};
+}
+// [full glossy]
+
+/// What there is: as of the gloss.
+template <std::floating_point T, typename F>
+[[nodiscard]] constexpr Lobes lobes(const CompensatedGlossyT<T, F>& gloss) noexcept {
+    return lobes(gloss.first);
+}
+
+/// The BRDF: what one reflection returns, and what all others do.
+/// \param gloss  The surface.
+/// \param wo     Towards where the light goes.
+/// \param wi     Towards where it comes from.
+/// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
+/// \cost evaluate() of the gloss, and lost_at() twice.
+/// \cite kulla2017
+// [full evaluate]
+template <std::floating_point T, typename F>
+[[nodiscard]] RgbT<T> evaluate(const CompensatedGlossyT<T, F>& gloss,
+                               const Vec3T<T>& wo, const Vec3T<T>& wi) noexcept {
+    const EnergyLossT<T>& loss = gloss.loss;
+    const RgbT<T> first = evaluate(gloss.first, wo, wi);
+    if (!same_side(wo, wi) || !(loss.mean > T(0))) return first;
+    const T out = lost_at(loss, std::abs(wo.z)), in = lost_at(loss, std::abs(wi.z));
+    const T again = out * in / loss.mean * std::numbers::inv_pi_v<T>;
+    return first + again * multiple_scattering(gloss.mean, loss.mean);
+}
+// [full evaluate]
+
+/// How often sample() takes the first reflection: as much as it carries of the light.
+/// \param gloss  The surface.
+/// \param wo     Towards where the light goes.
+/// \return In [0, 1]; 1 where nothing is lost.
+template <std::floating_point T, typename F>
+[[nodiscard]] T chance_of_first(const CompensatedGlossyT<T, F>& gloss,
+                                const Vec3T<T>& wo) noexcept {
+    const T lost = lost_at(gloss.loss, std::abs(wo.z));
+    const T first = (T(1) - lost) * max_component(gloss.mean);
+    const T again =
+        lost * max_component(multiple_scattering(gloss.mean, gloss.loss.mean));
+    return again > T(0) ? first / (first + again) : T(1);
+}
+
+/// The density of sample().
+/// \param gloss  The surface.
+/// \param wo     Towards where the light goes.
+/// \param wi     Towards where it comes from.
+/// \param which  The parts to sample from.
+/// \return Per steradian on the side of `wo`; 0 elsewhere.
+template <std::floating_point T, typename F>
+[[nodiscard]] T pdf(const CompensatedGlossyT<T, F>& gloss, const Vec3T<T>& wo,
+                    const Vec3T<T>& wi, Lobes which = Lobes::all) noexcept {
+    const T first = pdf(gloss.first, wo, wi, which);
+    const T chance = chance_of_first(gloss, wo);
+    if (!has(which & lobes(gloss), Lobes::diffuse) || !same_side(wo, wi) ||
+        chance >= T(1))
+        return first;
+    return chance * first + (T(1) - chance) * pdf_lost(gloss.loss, std::abs(wi.z));
+}
+
+/// The mirror direction of a facet that is seen, or a direction as light is lost.
+/// \param gloss  The surface.
+/// \param wo     Towards where the light goes.
+/// \param u      Point of [0,1)^3; z chooses between the two.
+/// \param transport  Radiance or flux: the same.
+/// \param which  The parts to sample from.
+/// \return The sample; nothing if `wo` lies on the surface, if the direction would lead
+///         into it, or without the part.
+/// \cost Up to twice sample() of the gloss.
+// [full sample]
+template <std::floating_point T, typename F>
+[[nodiscard]] std::optional<BsdfSampleT<T>>
+sample(const CompensatedGlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& u,
+       Transport transport, Lobes which = Lobes::all) noexcept {
+    const T chance = chance_of_first(gloss, wo);
+    if (chance >= T(1) || !has(which & lobes(gloss), Lobes::diffuse))
+        return sample(gloss.first, wo, u, transport, which);
+    if (!(wo.z > T(0) || wo.z < T(0))) return std::nullopt;
+    Vec3T<T> wi;
+    if (u.z < chance) {
+        const auto first = sample(gloss.first, wo, u, transport, which);
+        if (!first) return std::nullopt;
+        wi = first->wi;
+    } else {
+        const T z = sample_lost(gloss.loss, u.y);
+        const T phi = T(2) * std::numbers::pi_v<T> * u.x;
+        const T sine = std::sqrt((T(1) - z) * (T(1) + z));
+        wi = {sine * std::cos(phi), sine * std::sin(phi), std::copysign(z, wo.z)};
+    }
+    const T density = pdf(gloss, wo, wi, which);
+    if (!(density > T(0))) return std::nullopt;
+    const RgbT<T> f = evaluate(gloss, wo, wi);
+    return diffuse_sample(wi, f * (std::abs(wi.z) / density), density);
+}
+// [full sample]
+
+/// Refuses gloss that cannot be, and a table that is not its own.
+/// \param gloss  The surface.
+/// \throws std::invalid_argument naming the member.
+template <std::floating_point T, typename F>
+void check(const CompensatedGlossyT<T, F>& gloss) {
+    check(gloss.first);
+    require_unit("compensated_glossy.mean", gloss.mean);
+    const T alpha = gloss.first.roughness * gloss.first.roughness;
+    require(gloss.loss.alpha == alpha, "compensated_glossy.loss.alpha",
+            gloss.loss.alpha,
+            "first.roughness squared: make it with compensated_glossy()");
+}
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,54 @@
+#pragma once
+
+/// \file ljus/materials/detail/cosine_lobe.hpp
+/// \brief Cosine-weighted directions on either side: how matt surfaces are sampled.
+
+#include "ljus/materials/material.hpp"
+#include "ljus/math/sampling.hpp"
+
+namespace ljus {
+
+/// \defgroup cosine_lobe Sampling matt surfaces
+/// \brief Section 3.2.4: cosine-weighted sampling, for every f that is close to a
+/// constant.
+/// \{
+
+/// The density of sample_cosine_lobe().
+/// \param wo     Towards where the light goes.
+/// \param wi     Towards where it comes from.
+/// \param which  The parts to sample from.
+/// \return |cos(theta)|/pi per steradian on the side of `wo`; 0 elsewhere, and 0
+///         without Lobes::diffuse.
+/// \report{Section 3.2.4}
+template <std::floating_point T>
+[[nodiscard]] constexpr T pdf_cosine_lobe(const Vec3T<T>& wo, const Vec3T<T>& wi,
+                                          Lobes which) noexcept {
+    if (!has(which, Lobes::diffuse) || !same_side(wo, wi)) return T(0);
+    return (wi.z < T(0) ? -wi.z : wi.z) * std::numbers::inv_pi_v<T>;
+}
+
+/// A direction on the side of `wo`, with density cos/pi.
+/// \param wo      Towards where the light goes.
+/// \param u       Point of [0,1)^3; z is not used.
+/// \param which   The parts to sample from.
+/// \param weight  Called with `wi`; returns f cos/pdf, which is pi f.
+/// \return The sample; nothing if `wo` lies on the surface or without Lobes::diffuse.
+/// \cost One sine, one cosine, one square root, and weight().
+/// \report{Section 3.2.4}
+// [cosine lobe]
+template <std::floating_point T, typename Weight>
+[[nodiscard]] std::optional<BsdfSampleT<T>>
+sample_cosine_lobe(const Vec3T<T>& wo, const Vec3T<T>& u, Lobes which,
+                   Weight weight) noexcept {
+    if (!has(which, Lobes::diffuse)) return std::nullopt;
+    if (!(wo.z > T(0) || wo.z < T(0))) return std::nullopt;
+    Vec3T<T> wi = sample_cosine_hemisphere(Vec2T<T>{u.x, u.y});
+    const T density = pdf_cosine_hemisphere(wi);
+    wi.z = std::copysign(wi.z, wo.z);
+    return diffuse_sample(wi, weight(wi), density);
+}
+// [cosine lobe]
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,199 @@
+#pragma once
+
+/// \file ljus/materials/material.hpp
+/// \brief What a material is: six functions, and the sample that one of them returns.
+
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <optional>
+
+#include "ljus/math/vector.hpp"
+
+namespace ljus {
+
+/// \defgroup bsdf What a material is
+/// \brief Section 3.2.1: how a surface scatters light.
+///
+/// A material is a struct with public members and a `Scalar`, and free functions beside
+/// it. It works in a local frame with z along the shading normal; `wi` and `wo` are
+/// unit vectors that point *away* from the surface: `wo` to where light is going, `wi`
+/// to where it comes from. z > 0 is outside.
+///
+///     Lobes lobes(m);                   // which parts there are
+///     Rgb   evaluate(m, wo, wi);        // f in 1/sr, no cosine; deltas left out
+///     float pdf(m, wo, wi, which);      // per steradian, of what sample() returns
+///     std::optional<BsdfSample> sample(m, wo, u, transport, which);
+///     void  check(m);                   // throws, and names what is wrong
+///
+/// and, if it has any, `Rgb absorption(m)` and `Rgb emission(m)`. The `which` of pdf()
+/// and sample() are the parts to choose from, all unless told otherwise.
+/// \{
+
+/// The parts of a material, as a set. A part is *specular* if it sends a ray into one
+/// direction (a delta); rough gloss, which has an f and a pdf, counts as diffuse.
+enum class Lobes : std::uint8_t {
+    none = 0,     ///< Nothing.
+    diffuse = 1,  ///< What evaluate() knows.
+    specular = 2, ///< Mirrors and clear boundaries.
+    all = 3,      ///< Both.
+};
+
+/// The parts that are in both sets.
+[[nodiscard]] constexpr Lobes operator&(Lobes a, Lobes b) noexcept {
+    return static_cast<Lobes>(static_cast<unsigned>(a) & static_cast<unsigned>(b));
+}
+
+/// The parts that are in one set or the other.
+[[nodiscard]] constexpr Lobes operator|(Lobes a, Lobes b) noexcept {
+    return static_cast<Lobes>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
+}
+
+/// Whether a set contains a part.
+/// \param set   The set.
+/// \param part  `diffuse` or `specular`; for `all`, whether it contains either.
+[[nodiscard]] constexpr bool has(Lobes set, Lobes part) noexcept {
+    return (set & part) != Lobes::none;
+}
+
+/// What a path carries. Radiance that crosses into index n scales by n^2, because the
+/// same light is squeezed into a narrower cone; the flux of a photon does not
+/// \cite veach1997.
+enum class Transport : std::uint8_t {
+    radiance, ///< Paths from the camera.
+    flux,     ///< Photons.
+};
+
+/// One scattered direction.
+template <std::floating_point T>
+struct BsdfSampleT {
+    Vec3T<T> wi{T(0), T(0), T(1)}; ///< Where the light comes from; unit vector.
+    RgbT<T> weight{T(0)};          ///< f |cos|/pdf: what the path is multiplied by.
+    T pdf = T(0);          ///< Per steradian, choice of lobe included; 0: delta.
+    bool specular = false; ///< Whether `wi` is a delta's direction.
+    T eta_scale =
+        T(1); ///< What of the weight is (n_i/n_t)^2: light squeezed into another
+              ///< cone, not lost, so that roulette leaves it out.
+};
+using BsdfSample = BsdfSampleT<float>; ///< BsdfSampleT in float.
+
+/// A sample of a delta: its density is infinite, and says nothing.
+/// \param wi       Where the light comes from.
+/// \param share    Of that light which goes on, over the lobe's probability.
+/// \param squeeze  (n_i/n_t)^2 for radiance that crosses a boundary; else 1.
+template <std::floating_point T>
+[[nodiscard]] constexpr BsdfSampleT<T>
+specular_sample(const Vec3T<T>& wi, const RgbT<T>& share, T eta_scale = T(1)) noexcept {
+    return {.wi = wi,
+            .weight = share * eta_scale,
+            .pdf = T(0),
+            .specular = true,
+            .eta_scale = eta_scale};
+}
+
+/// A sample of a lobe with a density.
+/// \param wi       Where the light comes from.
+/// \param weight   f |cos|/pdf.
+/// \param density  Per steradian, times the lobe's probability.
+template <std::floating_point T>
+[[nodiscard]] constexpr BsdfSampleT<T>
+diffuse_sample(const Vec3T<T>& wi, const RgbT<T>& weight, T density) noexcept {
+    return {.wi = wi, .weight = weight, .pdf = density, .specular = false};
+}
+
+/// A material as the renderers see it; see the head of this page for the functions.
+template <typename M>
+concept Material = std::floating_point<typename M::Scalar> &&
+    requires(const M& m, const Vec3T<typename M::Scalar>& v, Transport transport,
+             Lobes which) {
+    { lobes(m) } -> std::same_as<Lobes>;
+    { evaluate(m, v, v) } -> std::same_as<RgbT<typename M::Scalar>>;
+    { pdf(m, v, v, which) } -> std::same_as<typename M::Scalar>;
+    {
+        sample(m, v, v, transport, which)
+        } -> std::same_as<std::optional<BsdfSampleT<typename M::Scalar>>>;
+    check(m);
+};
+
+/// A material without an f in 1/sr: it sends light into single directions, and says so
+/// by `static constexpr bool only_specular = true`. What it need not say then:
+template <typename M>
+concept OnlySpecular = std::floating_point<typename M::Scalar> && M::only_specular;
+
+/// What there is: specular parts.
+template <OnlySpecular M>
+[[nodiscard]] constexpr Lobes lobes(const M&) noexcept {
+    return Lobes::specular;
+}
+
+/// Almost every pair of directions sees nothing.
+/// \return 0.
+template <OnlySpecular M>
+[[nodiscard]] constexpr RgbT<typename M::Scalar>
+evaluate(const M&, const Vec3T<typename M::Scalar>& /*wo*/,
+         const Vec3T<typename M::Scalar>& /*wi*/) noexcept {
+    return RgbT<typename M::Scalar>{0};
+}
+
+/// The density of the parts that have one.
+/// \return 0.
+template <OnlySpecular M>
+[[nodiscard]] constexpr typename M::Scalar
+pdf(const M&, const Vec3T<typename M::Scalar>& /*wo*/,
+    const Vec3T<typename M::Scalar>& /*wi*/, Lobes = Lobes::all) noexcept {
+    return 0;
+}
+
+/// The absorption inside, for every material that says nothing else: none.
+/// \return 0 per scene unit.
+template <typename M>
+requires std::floating_point<typename M::Scalar>
+[[nodiscard]] constexpr RgbT<typename M::Scalar> absorption(const M&) noexcept {
+    return RgbT<typename M::Scalar>{0};
+}
+
+/// The emitted radiance, for every material that says nothing else: none.
+/// \return 0 W/(m^2 sr).
+template <typename M>
+requires std::floating_point<typename M::Scalar>
+[[nodiscard]] constexpr RgbT<typename M::Scalar> emission(const M&) noexcept {
+    return RgbT<typename M::Scalar>{0};
+}
+
+/// A material as it is at a point: itself, or `at_point(m, position)` of one that is
+/// not the same everywhere.
+/// \param m         The material; must outlive the result.
+/// \param position  The point.
+/// \return Something to sample().
+template <typename M>
+[[nodiscard]] constexpr decltype(auto)
+material_at(const M& m, const Vec3T<typename M::Scalar>& position) noexcept {
+    if constexpr (requires { at_point(m, position); })
+        return at_point(m, position);
+    else
+        return (m);
+}
+
+/// A blurred mirror: it sends rays on, and they find the lamps. It says so by
+/// `static constexpr bool glossy_lobe = true`.
+template <typename M>
+concept Glossy_ = M::glossy_lobe;
+
+/// Whether a material has specular parts only, so that shadow rays and photon maps have
+/// nothing to ask there.
+/// \param m  The material.
+template <Material M>
+[[nodiscard]] constexpr bool is_specular(const M& m) noexcept {
+    return lobes(m) == Lobes::specular;
+}
+
+/// Whether two directions leave the same side of the surface; false on the surface.
+template <std::floating_point T>
+[[nodiscard]] constexpr bool same_side(const Vec3T<T>& a, const Vec3T<T>& b) noexcept {
+    // Not a.z * b.z > 0, which underflows.
+    return (a.z > T(0) && b.z > T(0)) || (a.z < T(0) && b.z < T(0));
+}
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,234 @@
+#pragma once
+
+/// \file ljus/materials/rough_diffuse.hpp
+/// \brief The relatives of the qualitative Oren-Nayar model: before it, beside it,
+/// after it.
+
+#include "ljus/materials/oren_nayar.hpp"
+
+namespace ljus {
+
+/// \defgroup rough_diffuse Models of rough matt surfaces
+/// \brief Section 3.2.1: which Oren-Nayar?
+/// \{
+
+/// One of the formulas that bear the name. White surfaces return at most this much of a
+/// constant sky, at any angle and roughness.
+enum class RoughModel : std::uint8_t {
+    as_printed, ///< The report's program: 0.57, the angle between wi and wo, a clamp.
+    full,       ///< Oren and Nayar 1994 with light from facet to facet: 1.05.
+    fujii, ///< Fujii's first improvement \cite fujii2012, with its 0.17 term: 1.03.
+    fon    ///< Fujii's second, which never gains: 1. Its roughness is in [0, 1].
+};
+
+/// A matt surface by one of the models, two-sided.
+/// \report{Section 3.2.1}
+template <std::floating_point T>
+struct RoughDiffuseT {
+    using Scalar = T;                   ///< The precision of its numbers.
+    RgbT<T> albedo{T(0.5)};             ///< Of a facet, in [0, 1].
+    T sigma = T(0.3);                   ///< Radians; for `fon` a number in [0, 1].
+    RoughModel model = RoughModel::fon; ///< Which formula.
+};
+using RoughDiffuse = RoughDiffuseT<float>; ///< RoughDiffuseT in float.
+
+/// \name The formulas, over albedo/pi
+/// \{
+
+/// As the report's program has it: the cosine between the directions stands for that
+/// between their azimuths, and the sum is cut at 1.
+/// \param sigma  Radians.
+/// \param wo     Towards where the light goes.
+/// \param wi     Towards where it comes from, on the same side.
+/// \return The ratio to Lambert, in [1/2, 1].
+/// \report{Section 3.2.1}
+template <std::floating_point T>
+[[nodiscard]] T rough_as_printed(T sigma, const Vec3T<T>& wo,
+                                 const Vec3T<T>& wi) noexcept {
+    const T s2 = sigma * sigma;
+    const T a = T(1) - s2 / (T(2) * (s2 + T(0.57)));
+    const T b = T(0.45) * s2 / (s2 + T(0.09));
+    const T sines = std::hypot(wi.x, wi.y) * std::hypot(wo.x, wo.y);
+    const T cosine = std::max(T(0), glm::dot(wi, wo));
+    const T tangent = sines / std::max(std::abs(wi.z), std::abs(wo.z));
+    return std::min(T(1), a + b * cosine * tangent);
+}
+
+/// What one reflection and what two reflections give.
+template <std::floating_point T>
+struct RoughRatiosT {
+    T single{}; ///< To be multiplied by albedo/pi.
+    T twice{};  ///< To be multiplied by albedo^2/pi.
+};
+
+/// The full model of 1994, equations (30) and (31) of \cite orennayar1994.
+///
+/// \f[ C_1 + \cos\phi\,C_2 \tan\beta +
+///     (1 - |\cos\phi|)\,C_3 \tan\frac{\alpha+\beta}{2},
+///     \quad 0.17 \frac{\sigma^2}{\sigma^2 + 0.13}
+///     \left(1 - \cos\phi \left(\frac{2\beta}{\pi}\right)^2\right) \f]
+///
+/// with alpha the larger of the two angles to the normal, and beta the smaller.
+/// \param sigma  Radians.
+/// \param wo     Towards where the light goes.
+/// \param wi     Towards where it comes from, on the same side.
+/// \return Both parts.
+/// \cost Two arc tangents and nine divisions.
+// [full]
+template <std::floating_point T>
+[[nodiscard]] RoughRatiosT<T> rough_full(T sigma, const Vec3T<T>& wo,
+                                         const Vec3T<T>& wi) noexcept {
+    constexpr T two_over_pi = T(2) * std::numbers::inv_pi_v<T>;
+    const T s2 = sigma * sigma;
+    const T sin_i = std::hypot(wi.x, wi.y), sin_o = std::hypot(wo.x, wo.y);
+    const T cos_i = std::abs(wi.z), cos_o = std::abs(wo.z);
+    const T sines = sin_i * sin_o;
+    const T cos_phi = sines > T(0) ? (wi.x * wo.x + wi.y * wo.y) / sines : T(1);
+    const T theta_i = std::atan2(sin_i, cos_i), theta_o = std::atan2(sin_o, cos_o);
+    const T alpha = std::max(theta_i, theta_o), beta = std::min(theta_i, theta_o);
+    const T sin_alpha = std::max(sin_i, sin_o);
+    const T tan_beta = std::min(sin_i, sin_o) / std::max(cos_i, cos_o);
+    const T tan_mean = (sin_i + sin_o) / (cos_i + cos_o);
+
+    const T steep = two_over_pi * beta;
+    const T masked = cos_phi >= T(0) ? T(0) : steep * steep * steep;
+    const T both = two_over_pi * two_over_pi * alpha * beta;
+    const T c1 = T(1) - s2 / (T(2) * (s2 + T(0.33)));
+    const T c2 = T(0.45) * s2 / (s2 + T(0.09)) * (sin_alpha - masked);
+    const T c3 = T(0.125) * s2 / (s2 + T(0.09)) * both * both;
+    return {.single = c1 + cos_phi * c2 * tan_beta +
+                      (T(1) - std::abs(cos_phi)) * c3 * tan_mean,
+            .twice = T(0.17) * s2 / (s2 + T(0.13)) * (T(1) - cos_phi * steep * steep)};
+}
+// [full]
+
+/// s/t of Fujii: the sines and the cosine of the azimuths in one product; behind the
+/// normal, where it is negative, it is not divided.
+/// \param wo  Towards where the light goes.
+/// \param wi  Towards where it comes from, on the same side.
+/// \return At least -1.
+// [fujii]
+template <std::floating_point T>
+[[nodiscard]] T fujii_term(const Vec3T<T>& wo, const Vec3T<T>& wi) noexcept {
+    const T s = wi.x * wo.x + wi.y * wo.y;
+    return s > T(0) ? s / std::max(std::abs(wi.z), std::abs(wo.z)) : s;
+}
+
+/// Fujii's improved model.
+/// \param sigma  Radians.
+/// \param wo     Towards where the light goes.
+/// \param wi     Towards where it comes from, on the same side.
+/// \return Both parts.
+/// \cite fujii2012
+template <std::floating_point T>
+[[nodiscard]] RoughRatiosT<T> rough_fujii(T sigma, const Vec3T<T>& wo,
+                                          const Vec3T<T>& wi) noexcept {
+    const T s2 = sigma * sigma;
+    return {.single = T(1) - s2 / (T(2) * (s2 + T(0.33))) +
+                      T(0.45) * s2 / (s2 + T(0.09)) * fujii_term(wo, wi),
+            .twice = T(0.17) * s2 / (s2 + T(0.13))};
+}
+
+/// The constant of Fujii's second model: 1/2 - 2/(3 pi).
+template <std::floating_point T>
+inline constexpr T fon_constant = T(0.5) - T(2) / T(3) * std::numbers::inv_pi_v<T>;
+
+/// Fujii's second model, called FON by \cite eon2025.
+/// \param roughness  In [0, 1].
+/// \param wo         Towards where the light goes.
+/// \param wi         Towards where it comes from, on the same side.
+/// \return The ratio to Lambert.
+/// \cost Two divisions.
+template <std::floating_point T>
+[[nodiscard]] T rough_fon(T roughness, const Vec3T<T>& wo,
+                          const Vec3T<T>& wi) noexcept {
+    return (T(1) + roughness * fujii_term(wo, wi)) /
+           (T(1) + roughness * fon_constant<T>);
+}
+// [fujii]
+
+/// \}
+
+/// Pi times the BRDF: what a cosine-weighted sample is multiplied by.
+/// \param surface  The surface.
+/// \param wo       Towards where the light goes.
+/// \param wi       Towards where it comes from, on the same side.
+/// \return At least 0.
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> rough_weight(const RoughDiffuseT<T>& surface, const Vec3T<T>& wo,
+                                   const Vec3T<T>& wi) noexcept {
+    const auto both = [&](const RoughRatiosT<T>& ratios) {
+        return surface.albedo * (ratios.single + ratios.twice * surface.albedo);
+    };
+    switch (surface.model) {
+    case RoughModel::as_printed:
+        return surface.albedo * rough_as_printed(surface.sigma, wo, wi);
+    case RoughModel::full:
+        return both(rough_full(surface.sigma, wo, wi));
+    case RoughModel::fujii:
+        return both(rough_fujii(surface.sigma, wo, wi));
+    case RoughModel::fon:
+        break;
+    }
+    return surface.albedo * rough_fon(surface.sigma, wo, wi);
+}
+
+/// What there is: a diffuse part, even if it is black.
+template <std::floating_point T>
+[[nodiscard]] constexpr Lobes lobes(const RoughDiffuseT<T>&) noexcept {
+    return Lobes::diffuse;
+}
+
+/// The BRDF of the surface's model.
+/// \param surface  The surface.
+/// \param wo       Towards where the light goes.
+/// \param wi       Towards where it comes from.
+/// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> evaluate(const RoughDiffuseT<T>& surface, const Vec3T<T>& wo,
+                               const Vec3T<T>& wi) noexcept {
+    if (!same_side(wo, wi)) return RgbT<T>{T(0)};
+    return std::numbers::inv_pi_v<T> * rough_weight(surface, wo, wi);
+}
+
+/// The density of sample(): pdf_cosine_lobe().
+/// \return Per steradian.
+template <std::floating_point T>
+[[nodiscard]] constexpr T pdf(const RoughDiffuseT<T>&, const Vec3T<T>& wo,
+                              const Vec3T<T>& wi, Lobes which = Lobes::all) noexcept {
+    return pdf_cosine_lobe(wo, wi, which);
+}
+
+/// A direction with density cos/pi.
+/// \param surface  The surface.
+/// \param wo       Towards where the light goes.
+/// \param u        Point of [0,1)^3; z is not used.
+/// \param which    The parts to sample from.
+/// \return The sample; nothing if `wo` lies on the surface, if the albedo is black, or
+///         without Lobes::diffuse.
+template <std::floating_point T>
+[[nodiscard]] std::optional<BsdfSampleT<T>>
+sample(const RoughDiffuseT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
+       Transport /*transport*/, Lobes which = Lobes::all) noexcept {
+    if (is_black(surface.albedo)) return std::nullopt;
+    return sample_cosine_lobe(wo, u, which, [&](const Vec3T<T>& wi) {
+        return rough_weight(surface, wo, wi);
+    });
+}
+
+/// Refuses an albedo outside [0, 1], a roughness that is no angle, and for `fon` one
+/// above 1.
+/// \param surface  The surface.
+/// \throws std::invalid_argument naming the member.
+template <std::floating_point T>
+void check(const RoughDiffuseT<T>& surface) {
+    require_unit("rough_diffuse.albedo", surface.albedo);
+    if (surface.model == RoughModel::fon)
+        require_unit("rough_diffuse.sigma", surface.sigma);
+    else
+        require_roughness("rough_diffuse.sigma", surface.sigma);
+}
+
+/// \}
+
+} // namespace ljus

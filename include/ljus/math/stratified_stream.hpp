@@ -1,0 +1,110 @@
+#pragma once
+
+/// \file ljus/math/stratified_stream.hpp
+/// \brief Random numbers that the rays of a pixel share out among themselves.
+
+#include <limits>
+
+#include "ljus/math/sampling_pattern.hpp"
+
+namespace ljus {
+
+/// \defgroup stratified_stream Stratified streams
+/// \brief Section 2.1, distributed rays: the rays of a pixel spread evenly over the
+/// pixel, the lens, the time, each light and each lobe \cite cook1984. Chapter:
+/// \ref ch_distributed_rays.
+/// \{
+
+/// The numbers of one ray of a pixel. In each draw the pixel's n rays share out the
+/// interval, or the square, by the pattern of the picture. Which ray has which place is
+/// another order for each draw, so that nothing ties the time to the place on the lens.
+struct StratifiedStream {
+    Pattern pattern{};           ///< Of the rays of a pixel.
+    int ray = 0;                 ///< Which of them, in [0, pattern.points).
+    std::uint64_t key = 0;       ///< Of the pixel.
+    std::uint64_t dimension = 0; ///< The next draw.
+    RandomStream rest{};         ///< Where in its cell.
+};
+
+/// Sets a stream to the numbers of one ray of a pixel.
+/// \param stream   The stream.
+/// \param seed     The user's seed.
+/// \param pixel    The pixel's number within the picture.
+/// \param ray      The ray's number within the pixel.
+/// \param pattern  make_pattern() for the rays of a pixel; with Sampling::random all
+///                 numbers are independent.
+constexpr void start_ray(StratifiedStream& stream, std::uint64_t seed,
+                         std::uint64_t pixel, int ray,
+                         const Pattern& pattern) noexcept {
+    const auto path = pixel * static_cast<std::uint64_t>(pattern.points) +
+                      static_cast<std::uint64_t>(ray);
+    stream = {.pattern = pattern,
+              .ray = ray,
+              .key = random_stream(~seed, Pass::camera, 0, pixel).key,
+              .rest = random_stream(seed, Pass::camera, 0, path)};
+}
+
+/// Moves a stream to the start of a bounce, whatever was drawn in the one before.
+/// \param stream  The stream.
+/// \param bounce  Which bounce; 0 is the camera.
+constexpr void start_bounce(StratifiedStream& stream, std::uint64_t bounce) noexcept {
+    stream.dimension = bounce << 16;
+    start_bounce(stream.rest, bounce);
+}
+
+/// The ray's number in the order of the next draw, and the draw's key.
+/// \param stream  Moves on by one draw.
+/// \param key     Set to the draw's key.
+/// \return In [0, pattern.points).
+[[nodiscard]] constexpr std::uint32_t next_cell(StratifiedStream& stream,
+                                                std::uint64_t& key) noexcept {
+    key = mix_bits(stream.key + 0x9e3779b97f4a7c15u * ++stream.dimension);
+    return shuffled(static_cast<std::uint32_t>(stream.ray),
+                    static_cast<std::uint32_t>(stream.pattern.points), key);
+}
+
+/// What rounding may have put onto 1, put below it again.
+template <std::floating_point T>
+[[nodiscard]] constexpr T below_one(T x) noexcept {
+    constexpr T last = T(1) - std::numeric_limits<T>::epsilon() / T(2);
+    return x < last ? x : last;
+}
+
+/// The next number, uniform in [0, 1): each of the pixel's rays has a part of its own.
+/// \param stream  Moves on by one draw.
+/// \return The number.
+// [next 1d]
+template <std::floating_point T = float>
+[[nodiscard]] constexpr T next_1d(StratifiedStream& stream) noexcept {
+    std::uint64_t key = 0;
+    const T cell = T(next_cell(stream, key)), u = next_1d<T>(stream.rest);
+    if (stream.pattern.sampling == Sampling::random) return u;
+    return below_one((cell + u) / T(stream.pattern.points));
+}
+// [next 1d]
+
+/// The next point of the unit square: each of the pixel's rays has a place of its own.
+/// \param stream  Moves on by one draw.
+/// \return The point.
+// [next 2d]
+template <std::floating_point T = float>
+[[nodiscard]] constexpr Vec2T<T> next_2d(StratifiedStream& stream) noexcept {
+    std::uint64_t key = 0;
+    const auto cell = static_cast<int>(next_cell(stream, key));
+    const Vec2T<T> u = spread(stream.pattern, cell, ~key, next_2d<T>(stream.rest));
+    return {below_one(u.x), below_one(u.y)};
+}
+// [next 2d]
+
+/// The next point of the unit cube: a direction, and the choice of a lobe.
+/// \param stream  Moves on by two draws.
+/// \return A stratified point of the square, and a stratified number.
+template <std::floating_point T = float>
+[[nodiscard]] constexpr Vec3T<T> next_3d(StratifiedStream& stream) noexcept {
+    const Vec2T<T> xy = next_2d<T>(stream);
+    return {xy.x, xy.y, next_1d<T>(stream)};
+}
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,42 @@
+#pragma once
+
+/// \file ljus/path/counts.hpp
+/// \brief What a picture cost, in rays and photons.
+
+#include <cstdint>
+
+namespace ljus {
+
+/// \defgroup counts Counts
+/// \brief What the renderers count: the same on every machine.
+/// \{
+
+/// Rays and photons of a rendering.
+struct Counts {
+    std::uint64_t camera_rays = 0; ///< Primary rays.
+    std::uint64_t bounce_rays = 0; ///< Reflected, refracted and indirect rays.
+    std::uint64_t shadow_rays = 0; ///< Rays to lights.
+    std::uint64_t map_queries = 0; ///< Estimates asked of a photon map.
+    std::uint64_t map_photons = 0; ///< Photons summed in them.
+    std::uint64_t rejected = 0;    ///< Samples that were not finite and left out.
+
+    /// All rays.
+    [[nodiscard]] constexpr std::uint64_t rays() const noexcept {
+        return camera_rays + bounce_rays + shadow_rays;
+    }
+
+    /// Adds another account.
+    constexpr Counts& operator+=(const Counts& other) noexcept {
+        camera_rays += other.camera_rays;
+        bounce_rays += other.bounce_rays;
+        shadow_rays += other.shadow_rays;
+        map_queries += other.map_queries;
+        map_photons += other.map_photons;
+        rejected += other.rejected;
+        return *this;
+    }
+};
+
+/// \}
+
+} // namespace ljus

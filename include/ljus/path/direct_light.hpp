@@ -1,0 +1,82 @@
+#pragma once
+
+/// \file ljus/path/direct_light.hpp
+/// \brief Light that comes straight from a light: shadow rays.
+
+#include "ljus/math/sampling_pattern.hpp"
+#include "ljus/path/counts.hpp"
+#include "ljus/path/shading.hpp"
+#include "ljus/path/thin_surfaces.hpp"
+
+namespace ljus {
+
+/// \defgroup direct_light Direct light
+/// \brief Section 3.2.3: a shadow ray toward each light source.
+/// \{
+
+/// The light of one light at a surface, by one shadow ray to one point of it:
+/// \f$ f\,|\cos|\,L_e\,V / p \f$.
+/// \param scene     The scene.
+/// \param light     One of its lights.
+/// \param at        The surface.
+/// \param material  What it is made of.
+/// \param u         Point of the unit square: which point of the light.
+/// \param weigh     Called with the sample, the direction in the surface's frame, and
+///                  its cosine; returns the factor of multiple importance sampling, or
+///                  1.
+/// \param counts    Counts the ray; none is cast where the surface cannot reflect.
+/// \return Radiance towards wo.
+/// \report{Section 3.2.3}
+/// \erratum{The report's program divides the sum over the lights by their number, so
+///          that a second lamp dims the first.}
+// [direct_light]
+template <typename Scene, std::floating_point T, typename Material, typename Weigh>
+[[nodiscard]] RgbT<T> direct_light(const Scene& scene, const LightT<T>& light,
+                                   const ShadingT<T>& at, const Material& material,
+                                   const Vec2T<T>& u, Weigh weigh, Counts& counts) {
+    const SurfacePointT<T>& point = at.surface.point;
+    const auto sampled = sample_light(scene, light, point.position, u);
+    if (!sampled) return RgbT<T>{T(0)};
+    const Vec3T<T> wi = to_local(at.surface.frame, sampled->wi);
+    const RgbT<T> f = evaluate(material, at.wo, wi);
+    if (is_black(f) || !agrees(at.surface, wi, sampled->wi)) return RgbT<T>{T(0)};
+
+    ++counts.shadow_rays;
+    const RgbT<T> visible = visibility(scene, point, sampled->point);
+    if (is_black(visible)) return RgbT<T>{T(0)};
+    const T distance = glm::distance(point.position, sampled->point.position);
+    return std::abs(wi.z) * weigh(*sampled, wi) * f * sampled->weight *
+           transmittance(at.medium, distance) * visible;
+}
+// [direct_light]
+
+/// The light of all lights at a surface, by shadow rays to each.
+/// \param scene     The scene.
+/// \param at        The surface.
+/// \param material  What it is made of.
+/// \param rays      Shadow rays to each light, at least 1, spread evenly over it.
+/// \param stream    Two numbers a ray.
+/// \param counts    Counts the rays.
+/// \return Radiance towards wo.
+/// \report{Section 3.2.3}
+template <typename Scene, std::floating_point T, typename Material>
+[[nodiscard]] RgbT<T> sample_all_lights(const Scene& scene, const ShadingT<T>& at,
+                                        const Material& material, int rays,
+                                        RandomStream& stream, Counts& counts) {
+    const Strata strata = strata_for(rays);
+    const auto unweighted = [](const LightSampleT<T>&, const Vec3T<T>&) {
+        return T(1);
+    };
+    const std::uint64_t key = mix_bits(stream.key + stream.counter);
+    RgbT<T> sum{T(0)};
+    for (const LightT<T>& light : scene.lights)
+        for (int i = 0; i < rays; ++i) {
+            const Vec2T<T> u = stratified(strata, i, key, next_2d<T>(stream));
+            sum += direct_light(scene, light, at, material, u, unweighted, counts);
+        }
+    return sum / T(rays);
+}
+
+/// \}
+
+} // namespace ljus

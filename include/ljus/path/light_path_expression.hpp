@@ -1,0 +1,167 @@
+#pragma once
+
+/// \file ljus/path/light_path_expression.hpp
+/// \brief Sets of light paths, written in Heckbert's letters: E S*D?L.
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "ljus/version.hpp"
+
+namespace ljus {
+
+/// \defgroup light_path_expression Classes of light paths
+/// \brief Eq. 1 is a sum over paths; a renderer is known by those it leaves out.
+/// Chapter: \ref ch_light_transport.
+///
+/// A path is a word: E the eye, D a diffuse or a glossy surface, S a mirror or a
+/// boundary of glass, L the light. A class of paths is a regular expression over these
+/// letters, after Heckbert \cite heckbert1990, who writes from the light to the eye.
+/// \{
+
+/// A class of paths, ready to be asked: the automaton of Glushkov, in which each letter
+/// of the expression is a state and a bit.
+struct LightPathExpression {
+    std::array<std::uint64_t, 64> follow{}; ///< What may come after each; 0 begins.
+    std::array<char, 64> letter{};          ///< Of each state: E, D, S, L or '.'.
+    std::uint64_t last = 0;                 ///< The states in which a path may end.
+    std::string_view expression{};          ///< What it was made of.
+
+    /// The states after one more letter of a path.
+    /// \param states  A bit each.
+    /// \param next    E, D, S or L.
+    /// \return Those that are possible; none if the path is not in the class.
+    [[nodiscard]] constexpr std::uint64_t step(std::uint64_t states,
+                                               char next) const noexcept {
+        std::uint64_t possible = 0;
+        for (; states != 0; states &= states - 1)
+            possible |= follow[static_cast<std::size_t>(std::countr_zero(states))];
+        std::uint64_t result = 0;
+        for (; possible != 0; possible &= possible - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(possible));
+            const bool bounce = letter[i] == '.' && (next == 'S' || next == 'D');
+            if (letter[i] == next || bounce) result |= std::uint64_t(1) << i;
+        }
+        return result;
+    }
+};
+
+namespace detail {
+
+// Reads an expression from the left, and notes which letter may follow which.
+struct LightPathExpressionReader {
+    // A part of the expression: where it may begin and end, and whether it may be
+    // empty.
+    struct Part {
+        std::uint64_t first = 0, last = 0;
+        bool empty = true;
+    };
+    LightPathExpression& result;
+    std::string_view rest;
+    std::size_t letters = 0; // so far; state 0 is the beginning
+
+    [[noreturn]] void refuse(const char* what) const {
+        const std::size_t place = result.expression.size() - rest.size();
+        throw std::invalid_argument(
+            std::string("The class of paths '").append(result.expression) + "' has " +
+            what + " at place " + std::to_string(place + 1) +
+            "; it is made of E, D, S, L, '.' for D or S, and | ( ) * + ?.");
+    }
+    [[nodiscard]] constexpr bool at(std::string_view set) const {
+        return !rest.empty() && set.find(rest.front()) != std::string_view::npos;
+    }
+    constexpr char take() {
+        const char c = rest.front();
+        rest.remove_prefix(1);
+        return c;
+    }
+    constexpr void connect(std::uint64_t from, std::uint64_t to) {
+        for (; from != 0; from &= from - 1)
+            result.follow[static_cast<std::size_t>(std::countr_zero(from))] |= to;
+    }
+    constexpr Part alternatives() {
+        Part all = sequence();
+        while (at("|")) {
+            take();
+            const Part other = sequence();
+            all = {all.first | other.first, all.last | other.last,
+                   all.empty || other.empty};
+        }
+        return all;
+    }
+    constexpr Part sequence() {
+        Part all;
+        while (!rest.empty() && !at("|)")) {
+            const Part next = repeated();
+            connect(all.last, next.first);
+            all = {all.first | (all.empty ? next.first : 0),
+                   next.last | (next.empty ? all.last : 0), all.empty && next.empty};
+        }
+        return all;
+    }
+    constexpr Part repeated() {
+        Part part = atom();
+        while (at("*+?")) {
+            const char sign = take();
+            if (sign != '?') connect(part.last, part.first);
+            if (sign != '+') part.empty = true;
+        }
+        return part;
+    }
+    constexpr Part atom() {
+        if (at("(")) {
+            take();
+            const Part inside = alternatives();
+            if (!at(")")) refuse("no closing bracket");
+            take();
+            return inside;
+        }
+        if (!at("EDSL.")) refuse("something else");
+        if (++letters == 64) refuse("its 64th letter");
+        result.letter[letters] = take();
+        const std::uint64_t bit = std::uint64_t(1) << letters;
+        return {bit, bit, false};
+    }
+};
+
+} // namespace detail
+
+/// Makes a class of paths ready.
+/// \param expression  As "ES*D?L": E, D, S, L, '.' for D or S, and | ( ) * + ? as
+///                    usual; at most 63 letters. It must outlive the class.
+/// \return The class; the compiler makes it, if it is constexpr.
+/// \throws std::invalid_argument  for an expression that is none.
+// [light_path_expression]
+[[nodiscard]] constexpr LightPathExpression
+light_path_expression(std::string_view expression) {
+    LightPathExpression result{.expression = expression};
+    detail::LightPathExpressionReader reader{result, expression};
+    const auto whole = reader.alternatives();
+    if (!reader.rest.empty()) reader.refuse("a bracket that closes nothing");
+    result.follow[0] = whole.first;
+    result.last = whole.last | (whole.empty ? 1u : 0u);
+    return result;
+}
+// [light_path_expression]
+
+/// Whether a path belongs to a class.
+/// \param paths  The class.
+/// \param path   As "EDSSL".
+/// \return True if the whole path matches.
+/// \cost A few bit operations a letter; no memory.
+// [contains]
+[[nodiscard]] constexpr bool contains(const LightPathExpression& paths,
+                                      std::string_view path) noexcept {
+    std::uint64_t states = 1;
+    for (const char letter : path) states = paths.step(states, letter);
+    return (states & paths.last) != 0;
+}
+// [contains]
+
+/// \}
+
+} // namespace ljus

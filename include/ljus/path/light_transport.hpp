@@ -1,0 +1,110 @@
+#pragma once
+
+/// \file ljus/path/light_transport.hpp
+/// \brief Renderers that carry some of all light paths, and the g of Eq. 1.
+
+#include "ljus/math/random.hpp"
+#include "ljus/path/counts.hpp"
+#include "ljus/path/light_path_expression.hpp"
+#include "ljus/path/path_log.hpp"
+#include "ljus/scene/query.hpp"
+
+namespace ljus {
+
+/// \defgroup light_transport Light transport
+/// \brief Section 2, Eq. 1: the rendering equation, and renderers that leave something
+/// of it out. Chapter: \ref ch_light_transport.
+/// \{
+
+/// The factor g of Eq. 1: what distance and other things leave of the light between two
+/// points.
+/// \param scene  The scene.
+/// \param x      One point of a surface.
+/// \param other  Another one.
+/// \return 0 if something stands between them, glass too, or if they are the same
+///         point; else 1/r^2, per square of scene units. The same if they are
+///         exchanged.
+/// \report{Eq. (1)}
+/// \erratum{The report has 1/r^2 only, so that no surface casts a shadow.}
+// [transport_factor]
+template <typename Scene, std::floating_point T>
+[[nodiscard]] T transport_factor(const Scene& scene, const SurfacePointT<T>& x,
+                                 const SurfacePointT<T>& other) {
+    const Vec3T<T> way = other.position - x.position;
+    const T squared = glm::dot(way, way);
+    if (!(squared > T(0)) || occluded(scene, spawn_ray_to(x, other))) return T(0);
+    return T(1) / squared;
+}
+// [transport_factor]
+
+/// A log that adds up the terms of one class of paths and forgets all others.
+template <std::floating_point T>
+struct ExpressionLog {
+    const LightPathExpression& wanted; ///< Which paths.
+    RgbT<T> sum{T(0)};                 ///< Of their terms.
+    std::uint64_t states = 0;          ///< Where the path is in the expression.
+
+    /// A path begins, at the eye.
+    void begin() noexcept { states = wanted.step(1, 'E'); }
+
+    /// The path was scattered.
+    void vertex(char letter, const Vec3T<T>&, const RgbT<T>&, T) noexcept {
+        states = wanted.step(states, letter);
+    }
+
+    /// Radiance was added.
+    /// \param letters  From here to the light. Where a photon map answers for a whole
+    ///                 class at once, as "DS+L", its shortest path decides.
+    /// \param value    The radiance.
+    void term(std::string_view, std::string_view letters,
+              const RgbT<T>& value) noexcept {
+        std::uint64_t here = states;
+        for (const char letter : letters) {
+            if (letter == '|') break;
+            if (letter != '+' && letter != '.') here = wanted.step(here, letter);
+        }
+        if ((here & wanted.last) != 0) sum += value;
+    }
+};
+
+/// A renderer that carries only some of the paths of another one.
+template <typename Renderer>
+struct Filtered {
+    Renderer whole;              ///< The renderer that does the work.
+    LightPathExpression carried; ///< Which of its paths count.
+};
+
+/// Cuts a renderer down to a class of paths. With the same picture, classes that share
+/// no path and together hold all of them add up to the whole picture: the random paths
+/// are the same, only what is added differs.
+/// \param whole    A path tracer, a photon mapper, or anything with a radiance().
+/// \param carried  As light_path_expression() takes it, and must outlive the renderer.
+/// \return A renderer for render().
+/// \throws std::invalid_argument  as light_path_expression().
+/// \cost As much as the whole renderer: nothing is left out but the sums.
+// [only]
+template <typename Renderer>
+[[nodiscard]] Filtered<Renderer> only(const Renderer& whole, std::string_view carried) {
+    return {whole, light_path_expression(carried)};
+}
+// [only]
+
+/// The radiance of one camera path, as far as its class is carried.
+/// \param renderer  From only().
+/// \param ray       A primary ray.
+/// \param stream    The numbers of this path.
+/// \param counts    Counts the rays.
+/// \return Radiance, W/(m^2 sr).
+// [truncated]
+template <typename Renderer, std::floating_point T, typename Log = NoLog>
+[[nodiscard]] RgbT<T> radiance(const Filtered<Renderer>& renderer, const RayT<T>& ray,
+                               RandomStream& stream, Counts& counts, Log&& = {}) {
+    ExpressionLog<T> log{.wanted = renderer.carried};
+    (void)radiance(renderer.whole, ray, stream, counts, log);
+    return log.sum;
+}
+// [truncated]
+
+/// \}
+
+} // namespace ljus

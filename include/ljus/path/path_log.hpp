@@ -1,0 +1,78 @@
+#pragma once
+
+/// \file ljus/path/path_log.hpp
+/// \brief What a renderer did for one path, in Heckbert's letters.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ljus/math/vector.hpp"
+
+namespace ljus {
+
+/// \defgroup path_log Path logs
+/// \brief Every renderer reports to a log; most often to one that is not there.
+/// \{
+
+/// Takes nothing and costs nothing: the log of a picture.
+struct NoLog {
+    /// A path begins.
+    constexpr void begin() const noexcept {}
+    /// The path was scattered at a vertex.
+    template <std::floating_point T>
+    constexpr void vertex(char, const Vec3T<T>&, const RgbT<T>&, T) const noexcept {}
+    /// Radiance was added.
+    template <std::floating_point T>
+    constexpr void term(std::string_view, std::string_view,
+                        const RgbT<T>&) const noexcept {}
+};
+
+/// One line of a PathLog.
+struct PathLogLine {
+    std::string path;       ///< Heckbert's letters from the camera, E first.
+    std::string what;       ///< "vertex", or who carried the light.
+    glm::dvec3 value{0};    ///< Throughput at a vertex; radiance of a term.
+    glm::dvec3 position{0}; ///< Of the vertex.
+    double pdf = 0;         ///< Per steradian, of the direction it went on; 0: delta.
+};
+
+/// Keeps every vertex and every term of the paths it is told of.
+struct PathLog {
+    std::vector<PathLogLine> lines; ///< In the order of the path.
+    std::string letters = "E";      ///< Of the path so far.
+
+    /// A path begins.
+    void begin() { letters.assign(1, 'E'); } // g++ 12 warns of = "E" (its bug 105651)
+
+    /// The path was scattered at a vertex.
+    /// \param letter      D or S, by the lobe that was chosen.
+    /// \param position    Of the vertex.
+    /// \param throughput  After the vertex.
+    /// \param pdf         Of the direction; 0 for a delta.
+    template <std::floating_point T>
+    void vertex(char letter, const Vec3T<T>& position, const RgbT<T>& throughput,
+                T pdf) {
+        letters += letter;
+        lines.push_back({letters, "vertex", glm::dvec3(throughput),
+                         glm::dvec3(position), double(pdf)});
+    }
+
+    /// Radiance was added.
+    /// \param owner   Who carried it: "emission", "shadow ray", "caustics map", ...
+    /// \param suffix  The letters from here to the light.
+    /// \param value   Throughput times radiance.
+    template <std::floating_point T>
+    void term(std::string_view owner, std::string_view suffix, const RgbT<T>& value) {
+        if (is_black(value)) return;
+        lines.push_back({letters + std::string(suffix),
+                         std::string(owner),
+                         glm::dvec3(value),
+                         {},
+                         0});
+    }
+};
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,132 @@
+#pragma once
+
+/// \file ljus/photons/detail/photon_records.hpp
+/// \brief What a photon map keeps besides positions: eight photons side by side.
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "ljus/accel/detail/point_block.hpp"
+#include "ljus/photons/photon.hpp"
+
+namespace ljus {
+
+/// \addtogroup photon_map
+/// \{
+
+/// What a photon map keeps of a photon besides its position.
+template <std::floating_point T>
+struct PhotonRecordT {
+    Vec3T<T> direction{T(0)};             ///< Unit, the way it travels.
+    RgbT<T> flux{T(0)};                   ///< W.
+    std::uint16_t light = 0;              ///< The number of its light.
+    PhotonKind kind = PhotonKind::direct; ///< What has happened to it.
+    SmallNormal normal{0};                ///< Of the surface that it met.
+};
+
+/// Eight records, field by field: 256 bytes in float, which an estimate reads at once.
+template <std::floating_point T>
+struct RecordBlockT {
+    BlockT<T> direction;             ///< Unit, the way they travel.
+    BlockT<T> flux;                  ///< W.
+    std::uint16_t light[lane_count]; ///< The numbers of their lights.
+    PhotonKind kind[lane_count];     ///< What has happened to them.
+    std::int8_t nx[lane_count];      ///< The normals of their surfaces: x,
+    std::int8_t ny[lane_count];      ///< y,
+    std::int8_t nz[lane_count];      ///< and z.
+};
+
+/// Records in the order of a tree. To the reader a list of PhotonRecordT.
+template <std::floating_point T>
+class PhotonRecordsT {
+public:
+    /// Walks over the records.
+    class Iterator {
+    public:
+        /// What operator->() gives: a record to look at.
+        struct Arrow {
+            PhotonRecordT<T> record; ///< A copy.
+            /// The record.
+            const PhotonRecordT<T>* operator->() const noexcept { return &record; }
+        };
+        /// \param records  What to walk over.
+        /// \param index    Where to begin.
+        Iterator(const PhotonRecordsT& records, std::size_t index) noexcept
+            : records_(&records), index_(index) {}
+        /// The record here.
+        PhotonRecordT<T> operator*() const noexcept { return (*records_)[index_]; }
+        /// The record here.
+        Arrow operator->() const noexcept { return {(*records_)[index_]}; }
+        /// On to the next one.
+        Iterator& operator++() noexcept {
+            ++index_;
+            return *this;
+        }
+        /// Whether both are at the same place.
+        bool operator==(const Iterator& other) const noexcept {
+            return index_ == other.index_;
+        }
+
+    private:
+        const PhotonRecordsT* records_;
+        std::size_t index_;
+    };
+
+    /// No records.
+    PhotonRecordsT() = default;
+
+    /// The records of photons, in a given order.
+    /// \param photons  The photons.
+    /// \param order    Their numbers, in the order that the records shall have.
+    PhotonRecordsT(std::span<const PhotonT<T>> photons,
+                   std::span<const std::uint32_t> order)
+        : blocks_((order.size() + 7) / 8, RecordBlockT<T>{}), size_(order.size()) {
+        for (std::size_t i = 0; i < size_; ++i) {
+            const PhotonT<T>& photon = photons[order[i]];
+            set(i, {photon.direction, photon.flux, photon.light, photon.kind,
+                    photon.normal});
+        }
+    }
+
+    /// How many there are.
+    [[nodiscard]] std::size_t size() const noexcept { return size_; }
+    /// Whether there are none.
+    [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
+    /// One of them.
+    /// \param index  In the order of the tree, below size().
+    [[nodiscard]] PhotonRecordT<T> operator[](std::size_t index) const noexcept {
+        const RecordBlockT<T>& block = blocks_[index / 8];
+        const std::size_t i = index % 8;
+        return {block.direction[i], block.flux[i], block.light[i], block.kind[i],
+                SmallNormal{block.nx[i], block.ny[i], block.nz[i]}};
+    }
+    /// The first one.
+    [[nodiscard]] Iterator begin() const noexcept { return {*this, 0}; }
+    /// Behind the last one.
+    [[nodiscard]] Iterator end() const noexcept { return {*this, size_}; }
+    /// All of them, eight by eight; what fills up the last eight is 0.
+    [[nodiscard]] const std::vector<RecordBlockT<T>>& blocks() const noexcept {
+        return blocks_;
+    }
+
+private:
+    void set(std::size_t index, const PhotonRecordT<T>& record) noexcept {
+        RecordBlockT<T>& block = blocks_[index / 8];
+        const std::size_t i = index % 8;
+        block.direction.set(i, record.direction);
+        block.flux.set(i, record.flux);
+        block.light[i] = record.light;
+        block.kind[i] = record.kind;
+        block.nx[i] = record.normal.x;
+        block.ny[i] = record.normal.y;
+        block.nz[i] = record.normal.z;
+    }
+
+    std::vector<RecordBlockT<T>> blocks_;
+    std::size_t size_ = 0;
+};
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,180 @@
+#pragma once
+
+/// \file ljus/radiosity/exchange_area.hpp
+/// \brief The form factor between any two flat patches, by an integral along their
+/// edges.
+
+#include "ljus/radiosity/form_factor.hpp"
+
+namespace ljus {
+
+/// \defgroup exchange_area Exchange areas
+/// \brief Section 2.2: the form factor times the area of its patch, the same in both
+/// directions.
+/// \{
+
+namespace detail {
+
+// The integral of ln(sqrt(z^2 + d^2) / unit) over z, from 0; d is at least 0.
+[[nodiscard]] inline double log_once(double z, double d, double unit) noexcept {
+    const double r2 = z * z + d * d;
+    if (!(r2 > 0)) return 0;
+    return z * std::log(r2 / (unit * unit)) / 2 - z + d * std::atan2(z, d);
+}
+
+// The same twice over, but for 3/4 z^2.
+[[nodiscard]] inline double log_twice(double z, double d, double unit) noexcept {
+    const double r2 = z * z + d * d;
+    if (!(r2 > 0)) return 0;
+    return (z - d) * (z + d) * std::log(r2 / (unit * unit)) / 4 +
+           d * z * std::atan2(z, d);
+}
+
+// Nodes within (0, 1) for what ends in s ln s: the double exponential rule.
+struct EdgeRule {
+    static constexpr int count = 49;
+    std::array<double, count> place{};
+    std::array<double, count> weight{};
+
+    EdgeRule() noexcept {
+        for (int i = 0; i < count; ++i) {
+            const double t = (i - count / 2) / 8.0;
+            const double steep = std::numbers::pi * std::sinh(t);
+            const double across = std::cosh(steep / 2);
+            place[static_cast<std::size_t>(i)] = 1 / (1 + std::exp(-steep));
+            weight[static_cast<std::size_t>(i)] =
+                std::numbers::pi * std::cosh(t) / (4 * across * across) / 8;
+        }
+    }
+};
+
+[[nodiscard]] inline const EdgeRule& edge_rule() noexcept {
+    static const EdgeRule rule;
+    return rule;
+}
+
+// The same integral for edges that are far from each other: Gauss's rule of six points
+// on both, which beyond six lengths is exact to the last digit. The closed form would
+// be a small difference of large numbers there.
+[[nodiscard]] inline double edges_apart(const glm::dvec3& way, const glm::dvec3& u,
+                                        const glm::dvec3& v, double unit) noexcept {
+    constexpr std::array place{0.03376524289842397, 0.1693953067668678,
+                               0.38069040695840156, 0.6193095930415985,
+                               0.8306046932331322,  0.966234757101576};
+    constexpr std::array weight{0.08566224618958516, 0.1803807865240693,
+                                0.2339569672863455,  0.2339569672863455,
+                                0.1803807865240693,  0.08566224618958516};
+    double sum = 0;
+    for (std::size_t i = 0; i < place.size(); ++i)
+        for (std::size_t k = 0; k < place.size(); ++k) {
+            const glm::dvec3 r = (way - place[i] * u + place[k] * v) / unit;
+            sum += weight[i] * weight[k] * std::log(glm::dot(r, r)) / 2;
+        }
+    return glm::dot(u, v) * sum;
+}
+
+} // namespace detail
+
+/// The integral of the logarithm of the distance over two edges, times the cosine of
+/// their angle.
+///
+/// In closed form if the edges are parallel, and 0 if they are perpendicular. Else the
+/// inner integral is closed and the outer one is summed by the double exponential rule
+/// \cite takahasi1974, which a singularity at an end does not disturb; one in between,
+/// where the edges come close to each other, is made an end.
+/// \param a     From here
+/// \param u     along this: the first edge.
+/// \param b     From here
+/// \param v     along this: the second edge.
+/// \param unit  Distances are measured in it: some length of this size.
+/// \return \f$\cos\varphi \int\!\!\int \ln(r / \text{unit})\, ds\, dt\f$
+// [edge_pair]
+[[nodiscard]] inline double edge_pair(const glm::dvec3& a, const glm::dvec3& u,
+                                      const glm::dvec3& b, const glm::dvec3& v,
+                                      double unit) noexcept {
+    const double length_u = glm::length(u), length_v = glm::length(v);
+    if (!(length_u > 0 && length_v > 0)) return 0;
+    const glm::dvec3 along = v / length_v;
+    const double cosine = glm::dot(u, along) / length_u;
+    if (std::abs(cosine) < 1e-15) return 0;
+    const glm::dvec3 way = b - a;
+    const double longer = glm::max(length_u, length_v);
+    if (glm::length(way) > 8 * longer) return detail::edges_apart(way, u, v, unit);
+    const double ahead = glm::dot(way, along);
+    if (glm::length(glm::cross(u, along)) <= 1e-14 * length_u) {
+        const double d = glm::length(way - ahead * along);
+        const double back = std::copysign(length_u, cosine);
+        const auto f = [&](double z) { return detail::log_twice(z, d, unit); };
+        return f(ahead + length_v) + f(ahead - back) - f(ahead + length_v - back) -
+               f(ahead) - 1.5 * length_v * back;
+    }
+    // Inner integral: over the second edge, from the point s of the first.
+    const auto inner = [&](double s) {
+        const glm::dvec3 from = way - s * u;
+        const double z = glm::dot(from, along);
+        const double d = glm::length(from - z * along);
+        return detail::log_once(z + length_v, d, unit) - detail::log_once(z, d, unit);
+    };
+    // Where the first edge passes the ends of the second, and its line.
+    const glm::dvec3 off = u - glm::dot(u, along) * along;
+    std::array<double, 5> ends{0, glm::dot(way, u) / (length_u * length_u),
+                               glm::dot(way + v, u) / (length_u * length_u),
+                               glm::dot(way, off) / glm::dot(off, off), 1};
+    for (std::size_t i = 1; i < 4; ++i) {
+        ends[i] = glm::clamp(ends[i], 0.0, 1.0);
+        for (std::size_t k = i; ends[k] < ends[k - 1]; --k)
+            std::swap(ends[k], ends[k - 1]);
+    }
+    const detail::EdgeRule& rule = detail::edge_rule();
+    double sum = 0;
+    for (std::size_t piece = 1; piece < ends.size(); ++piece) {
+        const double first = ends[piece - 1], step = ends[piece] - first;
+        if (!(step > 1e-12)) continue;
+        for (std::size_t i = 0; i < rule.place.size(); ++i)
+            sum += step * rule.weight[i] * inner(first + step * rule.place[i]);
+    }
+    return cosine * length_u * sum;
+}
+// [edge_pair]
+
+/// The exchange area of two facets between which nothing stands: the area of either,
+/// times the form factor from it to the other.
+///
+/// Stokes' theorem, once for each of the two areas, leaves an integral along the edges
+/// \cite goral1984 :
+/// \f[ A_1 F_{12} = \int_{A_1}\!\int_{A_2}
+///     \frac{\cos\theta_1 \cos\theta_2}{\pi r^2}\, dA_2\, dA_1
+///   = \frac{1}{2\pi} \oint\!\oint \ln r\; dx_1 \cdot dx_2. \f]
+/// What of a facet lies behind the plane of the other is cut off first.
+/// \param one  A facet with an area.
+/// \param two  Another.
+/// \return In squared scene units, at least 0.
+/// \cost 1 microsecond for two rectangles along the axes, 40 for two that are turned;
+///       the relative error is about 1e-15 (distance / size)^2.
+/// \report{Section 2.2}
+// [exchange_area]
+[[nodiscard]] inline double exchange_area(const Facet& one, const Facet& two) noexcept {
+    const glm::dvec3 n1 = glm::normalize(area_vector(one));
+    const glm::dvec3 n2 = glm::normalize(area_vector(two));
+    const double unit = glm::distance(one.corners[0], two.corners[0]) +
+                        glm::distance(one.corners[0], one.corners[1]);
+    const Facet a = clipped(one, two.corners[0], n2, 1e-13 * unit);
+    const Facet b = clipped(two, one.corners[0], n1, 1e-13 * unit);
+    double sum = 0;
+    for (int i = 0; i < a.count; ++i) {
+        const glm::dvec3& from = a.corners[static_cast<std::size_t>(i)];
+        const glm::dvec3& to = a.corners[static_cast<std::size_t>((i + 1) % a.count)];
+        for (int k = 0; k < b.count; ++k) {
+            const glm::dvec3& start = b.corners[static_cast<std::size_t>(k)];
+            const glm::dvec3& end =
+                b.corners[static_cast<std::size_t>((k + 1) % b.count)];
+            sum += edge_pair(from, to - from, start, end - start, unit);
+        }
+    }
+    return sum > 0 ? sum * std::numbers::inv_pi / 2 : 0;
+}
+// [exchange_area]
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,169 @@
+#pragma once
+
+/// \file ljus/radiosity/form_factor.hpp
+/// \brief Which share of a surface's light arrives at another: the closed forms.
+
+#include <array>
+#include <numbers>
+
+#include "ljus/geometry/quad.hpp"
+
+namespace ljus {
+
+/// \defgroup form_factor Form factors
+/// \brief Section 2.2: "a form factor, which describes patch visibility, is calculated
+/// for each pair of patches". Chapter: \ref ch_radiosity.
+///
+/// All in double: a form factor is a small difference of larger numbers.
+/// \{
+
+/// A convex polygon in space, its corners counter-clockwise as seen from the side that
+/// it faces.
+struct Facet {
+    std::array<glm::dvec3, 6> corners{}; ///< The first `count` of them.
+    int count = 0;                       ///< At most 6: a quad cut by a plane has 5.
+};
+
+/// \name The facet of a flat shape
+/// \{
+
+/// The facet of a flat shape; it faces along the shape's normal.
+template <std::floating_point T>
+[[nodiscard]] Facet facet_of(const QuadT<T>& quad) noexcept {
+    const glm::dvec3 c(quad.corner), u(quad.edge_u), v(quad.edge_v);
+    return {{c, c + u, c + u + v, c + v}, 4};
+}
+template <std::floating_point T>
+[[nodiscard]] Facet facet_of(const TriangleT<T>& triangle) noexcept {
+    return {{glm::dvec3(triangle.v1), glm::dvec3(triangle.v2), glm::dvec3(triangle.v3)},
+            3};
+}
+/// \}
+
+/// The other side of a facet.
+[[nodiscard]] constexpr Facet turned(const Facet& facet) noexcept {
+    Facet other{.count = facet.count};
+    for (int i = 0; i < facet.count; ++i)
+        other.corners[static_cast<std::size_t>(i)] =
+            facet.corners[static_cast<std::size_t>(facet.count - 1 - i)];
+    return other;
+}
+
+/// The area of a facet as a vector along its normal.
+/// \param facet  Any facet.
+/// \return Normal times area; 0 for fewer than three corners.
+[[nodiscard]] constexpr glm::dvec3 area_vector(const Facet& facet) noexcept {
+    glm::dvec3 sum(0);
+    for (int i = 2; i < facet.count; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        sum += glm::cross(facet.corners[k - 1] - facet.corners[0],
+                          facet.corners[k] - facet.corners[0]);
+    }
+    return 0.5 * sum;
+}
+
+/// The part of a facet in front of a plane.
+/// \param facet   Convex.
+/// \param point   Of the plane.
+/// \param normal  Unit; points to the side that stays.
+/// \param width   What lies as near as this to the plane counts as on it.
+/// \return The part, with at most one corner more; no corner if nothing stays.
+// [clipped]
+[[nodiscard]] inline Facet clipped(const Facet& facet, const glm::dvec3& point,
+                                   const glm::dvec3& normal,
+                                   double width = 0) noexcept {
+    const auto height = [&](const glm::dvec3& corner) {
+        const double h = glm::dot(normal, corner - point);
+        return std::abs(h) <= width ? 0.0 : h;
+    };
+    Facet part;
+    const auto keep = [&](const glm::dvec3& corner) {
+        part.corners[static_cast<std::size_t>(part.count++)] = corner;
+    };
+    for (int i = 0; i < facet.count; ++i) {
+        const glm::dvec3& a = facet.corners[static_cast<std::size_t>(i)];
+        const glm::dvec3& b =
+            facet.corners[static_cast<std::size_t>((i + 1) % facet.count)];
+        const double ha = height(a), hb = height(b);
+        if (ha >= 0) keep(a);
+        if ((ha < 0 && hb > 0) || (ha > 0 && hb < 0))
+            keep(a + ha / (ha - hb) * (b - a));
+    }
+    return part.count < 3 ? Facet{} : part;
+}
+// [clipped]
+
+/// The form factor from a point of a surface to a facet: the share of what the point
+/// sends out, or of what could come to it, that the facet takes.
+///
+/// Lambert's formula: with the unit vectors \f$v_k\f$ to the corners,
+/// \f[ F = \frac1{2\pi} \sum_k \theta_k\,
+///     n \cdot \frac{v_{k+1} \times v_k}{|v_{k+1} \times v_k|}, \f]
+/// where \f$\theta_k\f$ is the angle between \f$v_k\f$ and \f$v_{k+1}\f$: the solid
+/// angle turned into area on the floor of Nusselt's hemisphere, edge by edge.
+/// \param point   Anywhere but on the facet's border.
+/// \param normal  Unit normal at the point.
+/// \param facet   What lies behind the point's horizon does not count.
+/// \return In [0, 1]; 0 if the facet faces away.
+/// \report{Section 2.2}
+/// \cite baum1989
+// [form_factor_at]
+[[nodiscard]] inline double form_factor_at(const glm::dvec3& point,
+                                           const glm::dvec3& normal,
+                                           const Facet& facet) noexcept {
+    const Facet seen = clipped(facet, point, normal);
+    double sum = 0;
+    for (int i = 0; i < seen.count; ++i) {
+        const glm::dvec3 a = seen.corners[static_cast<std::size_t>(i)] - point;
+        const glm::dvec3 b =
+            seen.corners[static_cast<std::size_t>((i + 1) % seen.count)] - point;
+        const glm::dvec3 across = glm::cross(b, a);
+        const double sine = glm::length(across);
+        if (sine > 0)
+            sum += glm::dot(normal, across) / sine * std::atan2(sine, glm::dot(a, b));
+    }
+    return sum > 0 ? sum * std::numbers::inv_pi / 2 : 0;
+}
+// [form_factor_at]
+
+/// The form factor between two equal rectangles that face each other.
+/// \param a         Their one side.
+/// \param b         Their other side.
+/// \param distance  Between them, above 0.
+/// \return The same in both directions: 0.1998249 for unit squares at distance 1.
+/// \cite howell2010
+// [facing]
+[[nodiscard]] inline double form_factor_facing(double a, double b,
+                                               double distance) noexcept {
+    const double x = a / distance, y = b / distance;
+    const double x1 = std::sqrt(1 + x * x), y1 = std::sqrt(1 + y * y);
+    const double corners = std::log(x1 * x1 * y1 * y1 / (1 + x * x + y * y)) / 2;
+    const double sides = x * y1 * std::atan(x / y1) + y * x1 * std::atan(y / x1) -
+                         x * std::atan(x) - y * std::atan(y);
+    return 2 * std::numbers::inv_pi / (x * y) * (corners + sides);
+}
+// [facing]
+
+/// The form factor from a floor to a wall that stands on one of its edges.
+/// \param edge    Length of the common edge, above 0.
+/// \param floor   The floor's other side.
+/// \param height  The wall's other side.
+/// \return From the floor to the wall: 0.2000438 for two unit squares.
+/// \cite howell2010
+// [corner]
+[[nodiscard]] inline double form_factor_corner(double edge, double floor,
+                                               double height) noexcept {
+    const double w = floor / edge, h = height / edge;
+    const double w2 = w * w, h2 = h * h, s = h2 + w2;
+    const double angles = w * std::atan(1 / w) + h * std::atan(1 / h) -
+                          std::sqrt(s) * std::atan(1 / std::sqrt(s));
+    const double logs = std::log((1 + w2) * (1 + h2) / (1 + s)) +
+                        w2 * std::log(w2 * (1 + s) / ((1 + w2) * s)) +
+                        h2 * std::log(h2 * (1 + s) / ((1 + h2) * s));
+    return std::numbers::inv_pi / w * (angles + logs / 4);
+}
+// [corner]
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,150 @@
+#pragma once
+
+/// \file ljus/radiosity/form_factor_matrix.hpp
+/// \brief The form factors between all patches of a scene.
+
+#include "ljus/math/sum.hpp"
+#include "ljus/parallel.hpp"
+#include "ljus/radiosity/exchange_area.hpp"
+#include "ljus/radiosity/patch_rays.hpp"
+
+namespace ljus {
+
+/// \defgroup form_factors All form factors
+/// \brief Section 2.2: "a form factor, which describes patch visibility, is calculated
+/// for each pair of patches". Chapter: \ref ch_radiosity.
+/// \{
+
+/// The form factors of a scene, as exchange areas \f$ A_i F_{ij} = A_j F_{ji} \f$: one
+/// number serves both directions, so that reciprocity is exact.
+struct FormFactors {
+    std::vector<double> area{};     ///< Of each patch, in squared scene units.
+    std::vector<double> exchange{}; ///< Row by row, symmetric: squared scene units.
+
+    /// How many patches there are.
+    [[nodiscard]] std::size_t size() const noexcept { return area.size(); }
+    /// The exchange areas of a patch with all others.
+    [[nodiscard]] std::span<const double> row(std::size_t i) const noexcept {
+        return {exchange.data() + i * size(), size()};
+    }
+    /// The share of what patch i sends out that arrives at patch j.
+    [[nodiscard]] double operator()(std::size_t i, std::size_t j) const noexcept {
+        return row(i)[j] / area[i];
+    }
+    /// The share of what patch i sends out that arrives at any patch: 1 in a closed
+    /// room.
+    [[nodiscard]] double row_sum(std::size_t i) const noexcept {
+        return pairwise_sum(row(i)) / area[i];
+    }
+};
+
+/// How form factors are found.
+struct FormFactorSettings {
+    bool analytic = true;   ///< Closed forms between flat patches; false: rays for all.
+    int rays = 256;         ///< From each patch that rays are cast from.
+    int shadow_rays = 16;   ///< Between two flat patches, unless the scene is convex.
+    bool closed = false;    ///< No light leaves: make each row's sum exactly 1.
+    std::uint64_t seed = 1; ///< Of the random streams.
+    int threads = 0;        ///< 0: all that there are.
+    Progress progress = {}; ///< Called with (done, total); false stops.
+};
+
+/// Scales form factors until each row's sum is 1, as in a room that no light leaves;
+/// symmetry is kept \cite sinkhorn1967. Then the rays' noise neither makes light nor
+/// swallows it, which matters when the albedo is near 1.
+/// \param factors  Changed: each exchange area by a factor of its row and one of its
+///                 column.
+/// \return Whether it could be done: not if a patch sees no other.
+// [close_rows]
+inline bool close_rows(FormFactors& factors) {
+    const std::size_t n = factors.size();
+    std::vector<double> scale(n, 1.0);
+    double worst = 1;
+    for (int round = 0; round < 1000 && worst > 1e-14; ++round) {
+        worst = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            double sum = 0;
+            for (std::size_t j = 0; j < n; ++j) sum += factors.row(i)[j] * scale[j];
+            if (!(sum > 0)) return false;
+            const double ratio = factors.area[i] / (sum * scale[i]);
+            worst = std::max(worst, std::abs(ratio - 1));
+            scale[i] *= std::sqrt(ratio);
+        }
+    }
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < n; ++j)
+            factors.exchange[i * n + j] *= scale[i] * scale[j];
+    return worst <= 1e-10;
+}
+// [close_rows]
+
+/// Finds the form factors between all patches: the closed form between flat ones, times
+/// the visible share; else by rays from both, weighted so that their noise is least.
+/// \param scene     The scene that was cut up.
+/// \param all       Its patches.
+/// \param settings  How.
+/// \return The form factors, symmetric to the last bit, the same for any number of
+///         threads; nothing if the progress callback stopped it.
+/// \throws std::invalid_argument  if a number of rays is below 1, or rows cannot be
+///         closed.
+/// \cost n^2 numbers of 8 bytes; of time see the chapter.
+/// \report{Section 2.2}
+// [make_form_factors]
+template <typename Scene>
+[[nodiscard]] std::optional<FormFactors>
+make_form_factors(const Scene& scene, const Patches& all,
+                  const FormFactorSettings& settings = {}) {
+    require(settings.rays >= 1, "rays", static_cast<long long>(settings.rays),
+            "at least 1");
+    require(settings.shadow_rays >= 1, "shadow_rays",
+            static_cast<long long>(settings.shadow_rays), "at least 1");
+    const IndexedT<Scene> indexed(scene);
+    const std::size_t n = all.patches.size();
+    FormFactors factors{.area = std::vector<double>(n),
+                        .exchange = std::vector<double>(n * n)};
+    for (std::size_t i = 0; i < n; ++i) factors.area[i] = all.patches[i].area;
+    const auto closed_form = [&](std::size_t i) {
+        return settings.analytic && all.patches[i].facet.count > 0;
+    };
+    const auto fill = [&](long long block) {
+        const auto i = static_cast<std::size_t>(block);
+        double* const row = factors.exchange.data() + i * n;
+        const auto number = static_cast<std::uint32_t>(i);
+        if (!closed_form(i)) {
+            shoot_rays(indexed, all, number, settings.rays, settings.seed, {row, n});
+            return;
+        }
+        for (std::size_t j = i + 1; j < n; ++j) {
+            if (!closed_form(j)) continue;
+            row[j] = exchange_area(all.patches[i].facet, all.patches[j].facet);
+            if (row[j] > 0 && !all.convex)
+                row[j] *=
+                    visible_share(indexed, all, number, static_cast<std::uint32_t>(j),
+                                  settings.shadow_rays, settings.seed);
+        }
+    };
+    if (!parallel_blocks(static_cast<long long>(n), fill,
+                         {.threads = settings.threads, .progress = settings.progress}))
+        return std::nullopt;
+
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = i + 1; j < n; ++j) {
+            double& there = factors.exchange[i * n + j];
+            double& back = factors.exchange[j * n + i];
+            const double ai = factors.area[i], aj = factors.area[j];
+            if (!closed_form(i) && !closed_form(j))
+                there = (there * aj + back * ai) / (ai + aj);
+            else if (!closed_form(j))
+                there = back;
+            back = there;
+        }
+    if (settings.closed)
+        require(close_rows(factors), "closed", 1LL,
+                "false in a room with a patch that sees no other");
+    return factors;
+}
+// [make_form_factors]
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,191 @@
+#pragma once
+
+/// \file ljus/radiosity/patch_grid.hpp
+/// \brief One side of a shape, cut into cells.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <numbers>
+
+#include "ljus/radiosity/form_factor.hpp"
+#include "ljus/scene/query.hpp"
+
+namespace ljus {
+
+/// \defgroup patch_grid Grids of patches
+/// \brief Section 2.2: where a patch lies on its shape, and which patch a point is of.
+///
+/// A place on a shape is a point of the unit square: u and v of a flat hit; on a ball
+/// the height and the angle around it, in which equal squares are equal areas.
+/// \{
+
+/// How a shape is cut.
+enum class GridKind : std::uint8_t {
+    quad,     ///< Into columns along u and rows along v.
+    triangle, ///< Into columns squared triangles, all of one size and form.
+    ball,     ///< As a quad whose first and last row meet.
+};
+
+/// The cells of one side of a shape.
+struct PatchGrid {
+    ObjectId object{};              ///< Of the scene.
+    GridKind kind = GridKind::quad; ///< How it is cut.
+    bool back = false;              ///< The side that emission does not leave.
+    bool inward = false;            ///< The side against the shape's own normal.
+    std::uint32_t columns = 1;      ///< At least 1.
+    std::uint32_t rows = 1;         ///< At least 1; as the columns for a triangle.
+    std::uint32_t first = 0;        ///< The number of its first patch.
+
+    /// How many cells there are.
+    [[nodiscard]] constexpr std::uint32_t size() const noexcept {
+        return columns * rows;
+    }
+    /// How many vertices they have.
+    [[nodiscard]] constexpr std::uint32_t vertices() const noexcept {
+        if (kind == GridKind::triangle) return (columns + 1) * (columns + 2) / 2;
+        return kind == GridKind::ball ? (columns - 1) * rows + 2
+                                      : (columns + 1) * (rows + 1);
+    }
+    friend bool operator==(const PatchGrid&, const PatchGrid&) = default; ///< Equal?
+};
+
+namespace detail {
+inline std::uint32_t cells_along(double length, double size) noexcept {
+    // Not all of a long side is asked for: a million cells are refused all the same.
+    return static_cast<std::uint32_t>(
+        std::clamp(std::ceil(length / size * (1 - 1e-9)), 1.0, 1e6));
+}
+} // namespace detail
+
+/// \name How finely a shape is cut
+/// \{
+
+/// How a shape is cut.
+/// \param shape  A quad, a triangle or a sphere.
+/// \param size   The longest that an edge of a cell may be, in scene units.
+/// \return The grid, of the shape's front.
+template <std::floating_point T>
+[[nodiscard]] PatchGrid patch_grid(const QuadT<T>& shape, double size) noexcept {
+    return {.columns = detail::cells_along(double(glm::length(shape.edge_u)), size),
+            .rows = detail::cells_along(double(glm::length(shape.edge_v)), size)};
+}
+template <std::floating_point T>
+[[nodiscard]] PatchGrid patch_grid(const TriangleT<T>& shape, double size) noexcept {
+    const T longest = max_component(Vec3T<T>{glm::distance(shape.v1, shape.v2),
+                                             glm::distance(shape.v2, shape.v3),
+                                             glm::distance(shape.v3, shape.v1)});
+    const std::uint32_t cells = detail::cells_along(double(longest), size);
+    return {.kind = GridKind::triangle, .columns = cells, .rows = cells};
+}
+template <std::floating_point T>
+[[nodiscard]] PatchGrid patch_grid(const SphereT<T>& shape, double size) noexcept {
+    const double half = std::numbers::pi * double(shape.radius);
+    return {.kind = GridKind::ball,
+            .columns = std::max(2u, detail::cells_along(half, size)),
+            .rows = std::max(3u, detail::cells_along(2 * half, size))};
+}
+/// \}
+
+/// A cell by its place: columns along u, rows along v.
+struct CellPlace {
+    std::uint32_t column = 0; ///< Along u.
+    std::uint32_t row = 0;    ///< Along v.
+    bool upper = false;       ///< The triangle that stands on its tip.
+};
+
+/// Where a cell lies.
+[[nodiscard]] constexpr CellPlace place_of(const PatchGrid& grid,
+                                           std::uint32_t cell) noexcept {
+    if (grid.kind != GridKind::triangle)
+        return {cell % grid.columns, cell / grid.columns};
+    std::uint32_t row = 0;
+    while (cell >= 2 * (grid.columns - row) - 1) cell -= 2 * (grid.columns - row++) - 1;
+    return {cell / 2, row, cell % 2 == 1};
+}
+
+/// Which cell a place of the shape belongs to.
+/// \param grid  The grid.
+/// \param at    The place; what rounding put outside belongs to the border.
+/// \param local Takes where in the cell's own square it lies, unless it is null.
+/// \return Its number within the grid.
+// [cell_of]
+[[nodiscard]] inline std::uint32_t cell_of(const PatchGrid& grid, const glm::dvec2& at,
+                                           glm::dvec2* local = nullptr) noexcept {
+    const double u = std::clamp(at.x, 0.0, 1.0) * grid.columns;
+    const double v = std::clamp(at.y, 0.0, 1.0) * grid.rows;
+    std::uint32_t column = std::min(static_cast<std::uint32_t>(u), grid.columns - 1);
+    const std::uint32_t row = std::min(static_cast<std::uint32_t>(v), grid.rows - 1);
+    const bool triangle = grid.kind == GridKind::triangle;
+    if (triangle) column = std::min(column, grid.columns - 1 - row);
+    const glm::dvec2 inside{u - column, v - row};
+    if (local != nullptr) *local = inside;
+    if (!triangle) return row * grid.columns + column;
+    const bool upper = inside.x + inside.y > 1 && column + row + 1 < grid.columns;
+    return row * (2 * grid.columns - row) + 2 * column + (upper ? 1 : 0);
+}
+// [cell_of]
+
+/// The place of a hit on its shape.
+/// \param kind          Of the grid.
+/// \param hit           u and v of a flat shape.
+/// \param outer_normal  The shape's own normal: it tells the place on a ball.
+/// \return Point of the unit square.
+template <std::floating_point T>
+[[nodiscard]] glm::dvec2 place_on(GridKind kind, const FlatHitT<T>& hit,
+                                  const Vec3T<T>& outer_normal) noexcept {
+    if (kind != GridKind::ball) return {double(hit.u), double(hit.v)};
+    const double turn = std::atan2(double(outer_normal.y), double(outer_normal.x)) *
+                        std::numbers::inv_pi / 2;
+    return {(1 - double(outer_normal.z)) / 2, turn < 0 ? turn + 1 : turn};
+}
+
+/// A point of a cell, uniform over its area.
+/// \param grid   The grid.
+/// \param shape  Its shape.
+/// \param cell   Number of the cell.
+/// \param u      Point of the unit square.
+/// \return The point; its normal on the grid's side.
+template <typename S, std::floating_point T>
+[[nodiscard]] SurfacePointT<T> sample_cell(const PatchGrid& grid, const S& shape,
+                                           std::uint32_t cell,
+                                           const Vec2T<T>& u) noexcept {
+    const CellPlace place = place_of(grid, cell);
+    Vec2T<T> at{T(place.column), T(place.row)};
+    SurfacePointT<T> point;
+    if constexpr (std::same_as<S, TriangleT<T>>) {
+        const Vec3T<T> b = sample_uniform_triangle(u);
+        at += place.upper ? Vec2T<T>{T(1) - b.y, T(1) - b.z} : Vec2T<T>{b.y, b.z};
+        point = point_at(shape, at.x / T(grid.columns), at.y / T(grid.columns));
+    } else {
+        point = sample_area(shape, Vec2T<T>{(at.x + u.x) / T(grid.columns),
+                                            (at.y + u.y) / T(grid.rows)});
+    }
+    if (grid.inward) point.normal = -point.normal;
+    return point;
+}
+
+/// The corners of a cell of a flat shape, facing the grid's side.
+/// \param grid  The grid.
+/// \param whole The shape's own facet.
+/// \param cell  Number of the cell.
+[[nodiscard]] inline Facet cell_facet(const PatchGrid& grid, const Facet& whole,
+                                      std::uint32_t cell) noexcept {
+    const CellPlace place = place_of(grid, cell);
+    const glm::dvec3 u = whole.corners[1] - whole.corners[0];
+    const glm::dvec3 v =
+        whole.corners[static_cast<std::size_t>(whole.count) - 1] - whole.corners[0];
+    const auto at = [&](std::uint32_t column, std::uint32_t row) {
+        return whole.corners[0] + double(place.column + column) / grid.columns * u +
+               double(place.row + row) / grid.rows * v;
+    };
+    Facet facet{{at(0, 0), at(1, 0), at(1, 1), at(0, 1)}, 4};
+    if (grid.kind == GridKind::triangle)
+        facet = place.upper ? Facet{{at(1, 0), at(1, 1), at(0, 1)}, 3}
+                            : Facet{{at(0, 0), at(1, 0), at(0, 1)}, 3};
+    return grid.inward ? turned(facet) : facet;
+}
+
+/// \}
+
+} // namespace ljus

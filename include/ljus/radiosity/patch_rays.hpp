@@ -1,0 +1,143 @@
+#pragma once
+
+/// \file ljus/radiosity/patch_rays.hpp
+/// \brief Rays from patches, and between them: form factors where no closed form is.
+
+#include <optional>
+#include <span>
+
+#include "ljus/math/frame.hpp"
+#include "ljus/math/random.hpp"
+#include "ljus/math/sampling_pattern.hpp"
+#include "ljus/radiosity/patches.hpp"
+#include "ljus/scene/index.hpp"
+
+namespace ljus {
+
+/// \defgroup patch_rays Rays between patches
+/// \brief Section 2.2: "a form factor, which describes patch visibility". Chapter:
+/// \ref ch_radiosity.
+/// \{
+
+/// A point of a patch, uniform over its area.
+/// \param scene   The scene.
+/// \param all     Its patches.
+/// \param number  Of the patch.
+/// \param u       Point of the unit square.
+/// \return The point; its normal on the patch's side.
+template <typename Scene, std::floating_point T>
+[[nodiscard]] SurfacePointT<T> sample_patch(const Scene& scene, const Patches& all,
+                                            std::uint32_t number, const Vec2T<T>& u) {
+    const PatchGrid& grid = all.grids[all.patches[number].grid];
+    return scene.visit_shape(grid.object, [&](const auto& shape) {
+        if constexpr (requires { patch_grid(shape, 1.0); })
+            return sample_cell(grid, shape, number - grid.first, u);
+        else
+            return SurfacePointT<T>{}; // such a shape has no patches
+    });
+}
+
+/// The patch that a ray has hit.
+/// \param scene  The scene.
+/// \param all    Its patches.
+/// \param ray    The ray.
+/// \param hit    What closest_hit() returned.
+/// \return Its number; nothing for a side without patches.
+template <typename Scene, std::floating_point T>
+[[nodiscard]] std::optional<std::uint32_t>
+patch_at(const Scene& scene, const Patches& all, const RayT<T>& ray,
+         const SceneHitT<T>& hit) {
+    const Vec3T<T> outer = scene.visit_shape(hit.object, [&](const auto& shape) {
+        return surface_point(shape, ray, hit.at).normal;
+    });
+    const bool inward = glm::dot(ray.direction, outer) > T(0);
+    const bool back = inward != scene.object(hit.object).inside_out;
+    const std::uint32_t number = all.grid_of[hit.object.type][hit.object.index][back];
+    if (number == no_grid) return std::nullopt;
+    const PatchGrid& grid = all.grids[number];
+    return grid.first + cell_of(grid, place_on(grid.kind, hit.at, outer));
+}
+
+/// Shoots rays from a patch, by the cosine, and sees where they arrive: the share that
+/// arrives at a patch is the form factor, visibility included.
+///
+/// Rays *between* two patches have the weight cos cos / r^2, which has no bound where
+/// the patches touch; these have none.
+/// \param scene   The scene.
+/// \param all     Its patches.
+/// \param number  The patch.
+/// \param rays    How many, at least 1.
+/// \param seed    Of the random streams.
+/// \param row     Area / rays is added for each arrival: a row of exchange areas.
+/// \cite malley1988
+// [shoot_rays]
+template <typename Scene>
+void shoot_rays(const Scene& scene, const Patches& all, std::uint32_t number, int rays,
+                std::uint64_t seed, std::span<double> row) {
+    using T = typename Scene::Scalar;
+    const Strata strata = strata_for(rays);
+    const std::uint64_t key = mix_bits(seed) ^ number;
+    const double share = all.patches[number].area / rays;
+    for (int i = 0; i < rays; ++i) {
+        RandomStream stream = random_stream(seed, Pass::form_factors, number,
+                                            static_cast<std::uint64_t>(i));
+        // Places and directions are spread evenly, and paired in a random order.
+        const auto other = static_cast<int>(shuffled(
+            static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(rays), key));
+        const Vec2T<T> place = stratified(strata, other, ~key, next_2d<T>(stream));
+        const auto point = sample_patch(scene, all, number, place);
+        const Vec2T<T> u = stratified(strata, i, key, next_2d<T>(stream));
+        const Vec3T<T> way =
+            to_world(frame_around(point.normal), sample_cosine_hemisphere(u));
+        const RayT<T> ray = spawn_ray(point, way);
+        const auto hit = closest_hit(scene, ray);
+        if (!hit) continue;
+        if (const auto there = patch_at(scene, all, ray, *hit)) row[*there] += share;
+    }
+}
+// [shoot_rays]
+
+/// Which part of the light between two patches nothing stops: by rays between points of
+/// both, each with the weight that the light on its way has.
+/// \param scene   The scene.
+/// \param all     Its patches.
+/// \param one     A flat patch.
+/// \param two     Another one.
+/// \param rays    How many, at least 1.
+/// \param seed    Of the random streams.
+/// \return In [0, 1]: the weights cancel, and the closed form knows them better.
+// [visible_share]
+template <typename Scene>
+[[nodiscard]] double visible_share(const Scene& scene, const Patches& all,
+                                   std::uint32_t one, std::uint32_t two, int rays,
+                                   std::uint64_t seed) {
+    using T = typename Scene::Scalar;
+    const Strata strata = strata_for(rays);
+    const std::uint64_t pair = (std::uint64_t(one) << 32) + two;
+    double total = 0, visible = 0;
+    for (int i = 0; i < rays; ++i) {
+        RandomStream stream = random_stream(seed, Pass::form_factors, pair,
+                                            static_cast<std::uint64_t>(i));
+        const Vec2T<T> u = stratified(strata, i, pair, next_2d<T>(stream));
+        // The same squares on the other patch, in another order.
+        const auto other = static_cast<int>(shuffled(
+            static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(rays), ~pair));
+        const Vec2T<T> v = stratified(strata, other, ~pair, next_2d<T>(stream));
+        const auto a = sample_patch(scene, all, one, u);
+        const auto b = sample_patch(scene, all, two, v);
+        const Vec3T<T> way = b.position - a.position;
+        const double cosines =
+            double(glm::dot(way, a.normal)) * -double(glm::dot(way, b.normal));
+        const double distance2 = double(glm::dot(way, way));
+        if (!(glm::dot(way, a.normal) > T(0) && cosines > 0)) continue;
+        const double weight = cosines / (distance2 * distance2);
+        total += weight;
+        if (!occluded(scene, spawn_ray_to(a, b))) visible += weight;
+    }
+    return total > 0 ? visible / total : 0;
+}
+// [visible_share]
+
+/// \}
+
+} // namespace ljus

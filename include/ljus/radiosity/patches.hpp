@@ -1,0 +1,224 @@
+#pragma once
+
+/// \file ljus/radiosity/patches.hpp
+/// \brief The surfaces of a scene cut into patches.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ljus/materials/lambertian.hpp"
+#include "ljus/radiosity/patch_grid.hpp"
+
+namespace ljus {
+
+/// \defgroup patches Patches
+/// \brief Section 2.2: "radiosity works by subdividing the scene into smaller surface
+/// areas called patches". Chapter: \ref ch_radiosity.
+/// \{
+
+/// A patch: a part of one side of an object, taken as equally bright all over.
+// [patch]
+struct Patch {
+    std::uint32_t grid = 0;  ///< Which of Patches::grids it belongs to.
+    double area = 0;         ///< In squared scene units.
+    RgbT<double> albedo{0};  ///< Share of the light that it sends back.
+    RgbT<double> emitted{0}; ///< Radiosity of its own, W/m^2: pi times the radiance.
+    Facet facet{};           ///< Its corners, facing its own side; none on a ball.
+};
+// [patch]
+
+/// The number of "no grid".
+inline constexpr std::uint32_t no_grid = 0xffffffffu;
+
+/// A scene, cut up.
+struct Patches {
+    std::vector<PatchGrid> grids; ///< One a side of an object.
+    std::vector<Patch> patches;   ///< Grid by grid.
+    bool convex = true;           ///< Whether nothing can stand between two others.
+    std::vector<std::string> left_out; ///< What radiosity cannot carry, in sentences.
+    /// The grid of each side: by type and number of the object, front and back.
+    std::vector<std::vector<std::array<std::uint32_t, 2>>> grid_of;
+};
+
+/// How a scene is cut up.
+struct PatchSettings {
+    double size = 0.25;        ///< The longest that a side of a patch may be.
+    std::uint32_t most = 8192; ///< The most patches; the matrix has their square.
+};
+
+/// The albedo that radiosity can carry: of a material that looks equally bright from
+/// everywhere, in one colour.
+/// \param m  The material.
+template <std::floating_point T>
+[[nodiscard]] constexpr RgbT<double> diffuse_albedo(const LambertianT<T>& m) noexcept {
+    return RgbT<double>(m.albedo);
+}
+
+/// What has a diffuse_albedo().
+template <typename M>
+concept Matt = requires(const M& m) {
+    diffuse_albedo(m);
+};
+
+/// Whether a shape is flat, and its form factors have a closed form.
+template <typename S>
+concept Flat = requires(const S& shape) {
+    facet_of(shape);
+};
+
+namespace detail {
+
+// How far a shape reaches along a normal, at most.
+template <typename S>
+double reach_along(const S& shape, const glm::dvec3& normal) {
+    if constexpr (Flat<S>) {
+        const Facet facet = facet_of(shape);
+        double most = glm::dot(facet.corners[0], normal);
+        for (const auto& corner :
+             std::span(facet.corners).first(static_cast<std::size_t>(facet.count)))
+            most = std::max(most, glm::dot(corner, normal));
+        return most;
+    } else {
+        const auto bound = bounding_sphere(shape);
+        return glm::dot(glm::dvec3(bound.center), normal) + double(bound.radius);
+    }
+}
+
+// Calls f(shape, id) for every shape of a scene.
+template <typename Scene, typename F>
+void each_shape(const Scene& scene, F f) {
+    std::uint32_t type = 0;
+    const auto all = [&](const auto& shapes) {
+        for (std::uint32_t i = 0; i < shapes.size(); ++i)
+            f(shapes[i], ObjectId{type, i});
+        ++type;
+    };
+    std::apply([&](const auto&... shapes) { (all(shapes), ...); }, scene.shapes);
+}
+
+// Whether anything of the scene stands before a side of a shape, for all that its
+// numbers can tell; before the side of a ball that its normal points to, always.
+template <typename Scene, typename S>
+bool anything_before(const Scene& scene, const S& shape, bool inward, bool inside_out) {
+    if constexpr (Flat<S>) {
+        const Facet side = inward ? turned(facet_of(shape)) : facet_of(shape);
+        const glm::dvec3 normal = glm::normalize(area_vector(side));
+        const double plane = glm::dot(side.corners[0], normal);
+        const double unit = std::numeric_limits<typename Scene::Scalar>::epsilon();
+        const double rounding =
+            64 * unit *
+            glm::length(glm::dvec3(glm::abs(scene.low) + glm::abs(scene.high)));
+        bool any = false;
+        each_shape(scene, [&](const auto& other, ObjectId) {
+            any = any || reach_along(other, normal) > plane + rounding;
+        });
+        return any;
+    } else {
+        return inward == inside_out;
+    }
+}
+
+// Cuts one side of an object.
+template <typename S>
+void add_side(Patches& all, const S& shape, const PatchGrid& side, Patch patch,
+              std::uint32_t most) {
+    PatchGrid grid = side;
+    const double total =
+        double(all.patches.size()) + double(grid.columns) * double(grid.rows);
+    require(total <= double(most), "the number of patches", total,
+            "at most " + std::to_string(most) +
+                ", for there is a form factor for each pair of them: take larger ones");
+    grid.first = static_cast<std::uint32_t>(all.patches.size());
+    patch.grid = static_cast<std::uint32_t>(all.grids.size());
+    patch.area = double(area(shape)) / double(grid.size());
+    for (std::uint32_t cell = 0; cell < grid.size(); ++cell) {
+        if constexpr (Flat<S>) {
+            patch.facet = cell_facet(grid, facet_of(shape), cell);
+            patch.area = glm::length(area_vector(patch.facet));
+        }
+        all.patches.push_back(patch);
+    }
+    all.grids.push_back(grid);
+}
+
+inline void say(Patches& all, long long count, const char* one, const char* many) {
+    if (count > 0)
+        all.left_out.push_back(std::to_string(count).append(count == 1 ? one : many));
+}
+
+} // namespace detail
+
+/// Cuts the matt surfaces of a scene into patches: quads, triangles and balls.
+///
+/// A wall is matt on both sides, and each has patches of its own; but a side before
+/// which nothing stands has none, and a ball has them on the side that its normal
+/// points to. What is no patch still stands in the way of light, and sends none back:
+/// `left_out` names it.
+/// \param scene     The scene.
+/// \param settings  How small, and how many at most.
+/// \return The patches.
+/// \throws std::invalid_argument  if `size` is not above 0, if there are more patches
+///         than `most`, or none.
+/// \cost Each pair of objects is looked at once.
+/// \report{Section 2.2}
+template <typename Scene>
+[[nodiscard]] Patches make_patches(const Scene& scene,
+                                   const PatchSettings& settings = {}) {
+    require_positive("patch size", settings.size);
+    require(settings.most <= 65536, "most", static_cast<long long>(settings.most),
+            "at most 65536: their form factors take 34 GB");
+    Patches all;
+    all.grid_of.resize(scene.objects.size());
+    long long unknown = 0, shiny = 0, lamps = 0;
+    const auto cut = [&]<typename S>(const S& shape, ObjectId id) {
+        const auto& object = scene.object(id);
+        std::array<std::uint32_t, 2> sides{no_grid, no_grid};
+        std::array<bool, 2> open{};
+        for (const bool back : {false, true})
+            open[back] = detail::anything_before(
+                scene, shape, back != object.inside_out, object.inside_out);
+        // A wall that sees something on one side only stands between nothing.
+        all.convex =
+            all.convex && (Flat<S> ? !(open[0] && open[1]) : object.inside_out);
+        const bool matt = scene.visit_material(object.material, [&](const auto& m) {
+            using M = std::remove_cvref_t<decltype(m)>;
+            if constexpr (Matt<M> && requires { patch_grid(shape, 1.0); }) {
+                for (const bool back : {false, true}) {
+                    if (!open[back]) continue;
+                    PatchGrid grid = patch_grid(shape, settings.size);
+                    grid.object = id;
+                    grid.back = back;
+                    grid.inward = back != object.inside_out;
+                    sides[back] = static_cast<std::uint32_t>(all.grids.size());
+                    const double shine = back ? 0 : std::numbers::pi;
+                    detail::add_side(all, shape, grid,
+                                     {.albedo = diffuse_albedo(m),
+                                      .emitted = shine * RgbT<double>(object.emission)},
+                                     settings.most);
+                }
+            }
+            return Matt<M>;
+        });
+        if (!matt)
+            ++shiny;
+        else if (!requires { patch_grid(shape, 1.0); })
+            ++unknown;
+        lamps += !is_black(object.emission);
+        all.grid_of[id.type].push_back(sides);
+    };
+    detail::each_shape(scene, cut);
+    detail::say(all, shiny, " object does not look equally bright from everywhere",
+                " objects do not look equally bright from everywhere");
+    detail::say(all, unknown, " object is of a shape that is not cut into patches",
+                " objects are of a shape that is not cut into patches");
+    detail::say(all, static_cast<long long>(scene.lights.size()) - lamps,
+                " light is no surface", " lights are no surfaces");
+    require(!all.patches.empty(), "the number of patches", 0LL,
+            "at least 1: a matt quad, triangle or ball that sees another");
+    return all;
+}
+
+/// \}
+
+} // namespace ljus

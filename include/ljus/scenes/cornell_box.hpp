@@ -1,0 +1,105 @@
+#pragma once
+
+/// \file ljus/scenes/cornell_box.hpp
+/// \brief The Cornell box, with a mirror ball and a glass ball.
+
+#include "ljus/geometry/shape.hpp"
+#include "ljus/materials/glass.hpp"
+#include "ljus/materials/lambertian.hpp"
+#include "ljus/materials/mirror.hpp"
+#include "ljus/scenes/room.hpp"
+
+namespace ljus {
+
+/// \defgroup cornell_box The Cornell box
+/// \brief The box in which renderers are compared \cite goral1984, with balls instead
+/// of blocks \cite jensen1996.
+/// \{
+
+/// Everything that the Cornell box is made of.
+template <std::floating_point T>
+using CornellSceneT = Scene<Shapes<QuadT<T>, SphereT<T>>,
+                            Materials<LambertianT<T>, MirrorT<T>, GlassT<T>>>;
+
+/// Adds five walls, from (-1, 0, -1) to (1, 2, 1), normals inwards; the sixth, towards
+/// the camera, is open. Red is left, green right, all else white.
+/// \param scene  A scene with quads and Lambert's surfaces.
+template <typename Scene, std::floating_point T = typename Scene::Scalar>
+void add_cornell_walls(Scene& scene) {
+    const MaterialId white = scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0.75)}});
+    const MaterialId red =
+        scene.add(LambertianT<T>{.albedo{T(0.63), T(0.06), T(0.05)}});
+    const MaterialId green =
+        scene.add(LambertianT<T>{.albedo{T(0.14), T(0.45), T(0.09)}});
+    const Vec3T<T> x{T(2), T(0), T(0)};
+    const Vec3T<T> y{T(0), T(2), T(0)};
+    const Vec3T<T> z{T(0), T(0), T(2)};
+    const Vec3T<T> corner{T(-1), T(0), T(-1)};
+    scene.add(QuadT<T>{corner, z, x}, white);     // floor
+    scene.add(QuadT<T>{corner + y, x, z}, white); // ceiling
+    scene.add(QuadT<T>{corner, x, y}, white);     // back
+    scene.add(QuadT<T>{corner, y, z}, red);       // left
+    scene.add(QuadT<T>{corner + x, z, y}, green); // right
+}
+
+/// Where the box is looked at from: the whole of it fills the picture.
+/// \return The camera.
+template <std::floating_point T = float>
+[[nodiscard]] CameraT<T> cornell_camera() {
+    return look_at(ViewT<T>{.position{T(0), T(1), T(4.4)},
+                            .target{T(0), T(1), T(0)},
+                            .up{T(0), T(1), T(0)},
+                            .vfov_degrees = T(33)});
+}
+
+/// Adds the lamp below the ceiling, a square of side 0.5.
+/// \param scene  A scene with quads and Lambert's surfaces.
+template <typename Scene, std::floating_point T = typename Scene::Scalar>
+void add_cornell_lamp(Scene& scene) {
+    scene.add(QuadT<T>{.corner{T(-0.25), T(1.99), T(-0.25)},
+                       .edge_u{T(0.5), T(0), T(0)},
+                       .edge_v{T(0), T(0), T(0.5)}},
+              scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0)}}),
+              RgbT<T>{T(17), T(13), T(8)});
+}
+
+/// The box with its lamp and its balls.
+/// \return The scene and its camera.
+// [cornell_box]
+template <std::floating_point T = float>
+[[nodiscard]] Room<CornellSceneT<T>> cornell_box() {
+    Room<CornellSceneT<T>> room;
+    auto& scene = room.scene;
+    add_cornell_walls(scene);
+    scene.add(SphereT<T>{.center{T(-0.42), T(0.38), T(-0.3)}, .radius = T(0.38)},
+              scene.add(MirrorT<T>{.reflectance = RgbT<T>{T(0.95)}}));
+    scene.add(SphereT<T>{.center{T(0.42), T(0.38), T(0.3)}, .radius = T(0.38)},
+              scene.add(GlassT<T>{.index = T(1.5)}));
+    add_cornell_lamp(scene);
+    room.camera = cornell_camera<T>();
+    return room;
+}
+// [cornell_box]
+
+/// The same box with two matt balls in the places of mirror and glass: nothing but
+/// diffuse surfaces, so that all renderers of this book could carry all of its light.
+/// \return The scene and its camera.
+// [matt_cornell_box]
+template <std::floating_point T = float>
+[[nodiscard]] Room<CornellSceneT<T>> matt_cornell_box() {
+    Room<CornellSceneT<T>> room;
+    auto& scene = room.scene;
+    add_cornell_walls(scene);
+    scene.add(SphereT<T>{.center{T(-0.42), T(0.38), T(-0.3)}, .radius = T(0.38)},
+              scene.add(LambertianT<T>{.albedo{T(0.2), T(0.35), T(0.7)}}));
+    scene.add(SphereT<T>{.center{T(0.42), T(0.38), T(0.3)}, .radius = T(0.38)},
+              scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0.7)}}));
+    add_cornell_lamp(scene);
+    room.camera = cornell_camera<T>();
+    return room;
+}
+// [matt_cornell_box]
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,89 @@
+#pragma once
+
+/// \file ljus/scenes/furnaces.hpp
+/// \brief Closed rooms that glow, in which the answer is known.
+
+#include "ljus/geometry/shape.hpp"
+#include "ljus/materials/lambertian.hpp"
+#include "ljus/scenes/room.hpp"
+
+namespace ljus {
+
+/// \defgroup furnaces Furnaces
+/// \brief Inside of a closed surface with emission L and albedo a the radiance is
+///
+/// \f[ L + aL + a^2L + \dots = \frac{L}{1 - a} \f]
+///
+/// everywhere and in every direction, whatever the room's shape, and whatever else of
+/// the same brightness stands in it.
+/// \{
+
+/// A room within a sphere of radius 1 around the origin.
+template <std::floating_point T>
+using SphereFurnaceT = Scene<Shapes<SphereT<T>>, Materials<LambertianT<T>>>;
+
+/// A room within the cube of side 2 around the origin.
+template <std::floating_point T>
+using BoxFurnaceT = Scene<Shapes<QuadT<T>>, Materials<LambertianT<T>>>;
+
+/// The radiance inside of a furnace.
+/// \param emission  Of its walls, W/(m^2 sr).
+/// \param albedo    Of its walls, below 1.
+/// \return W/(m^2 sr), in every direction.
+template <std::floating_point T>
+[[nodiscard]] constexpr RgbT<T> furnace_radiance(const RgbT<T>& emission,
+                                                 const RgbT<T>& albedo) noexcept {
+    return emission / (RgbT<T>{T(1)} - albedo);
+}
+
+namespace detail {
+
+template <std::floating_point T>
+CameraT<T> furnace_camera() {
+    return look_at(ViewT<T>{.position{T(0.3), T(-0.2), T(0.5)},
+                            .target{T(0), T(0), T(-1)},
+                            .up{T(0), T(1), T(0)},
+                            .vfov_degrees = T(90)});
+}
+
+} // namespace detail
+
+/// A furnace within a sphere: light to light, all is area sampling of one object.
+/// \param emission  Of its wall, W/(m^2 sr).
+/// \param albedo    Of its wall, below 1.
+/// \return The scene, and a camera within it.
+/// \throws std::invalid_argument  for a negative emission or an albedo outside [0, 1].
+template <std::floating_point T>
+[[nodiscard]] Room<SphereFurnaceT<T>> sphere_furnace(const RgbT<T>& emission,
+                                                     const RgbT<T>& albedo) {
+    Room<SphereFurnaceT<T>> room{.camera = detail::furnace_camera<T>()};
+    const MaterialId wall = room.scene.add(LambertianT<T>{.albedo = albedo});
+    room.scene.add(SphereT<T>{}, wall, emission, true);
+    return room;
+}
+
+/// A furnace within a box: near an edge the lamps are so close that only multiple
+/// importance sampling keeps the noise within bounds.
+/// \param emission  Of its walls, W/(m^2 sr).
+/// \param albedo    Of its walls, below 1.
+/// \return The scene, and a camera within it.
+/// \throws std::invalid_argument  for a negative emission or an albedo outside [0, 1].
+template <std::floating_point T>
+[[nodiscard]] Room<BoxFurnaceT<T>> box_furnace(const RgbT<T>& emission,
+                                               const RgbT<T>& albedo) {
+    Room<BoxFurnaceT<T>> room{.camera = detail::furnace_camera<T>()};
+    const MaterialId wall = room.scene.add(LambertianT<T>{.albedo = albedo});
+    const Vec3T<T> x{T(2), T(0), T(0)};
+    const Vec3T<T> y{T(0), T(2), T(0)};
+    const Vec3T<T> z{T(0), T(0), T(2)};
+    const Vec3T<T> corner{T(-1), T(-1), T(-1)};
+    for (const QuadT<T>& side : {QuadT<T>{corner, z, x}, QuadT<T>{corner + y, x, z},
+                                 QuadT<T>{corner, x, y}, QuadT<T>{corner + z, y, x},
+                                 QuadT<T>{corner, y, z}, QuadT<T>{corner + x, z, y}})
+        room.scene.add(side, wall, emission);
+    return room;
+}
+
+/// \}
+
+} // namespace ljus

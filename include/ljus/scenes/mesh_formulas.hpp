@@ -1,0 +1,122 @@
+#pragma once
+
+/// \file ljus/scenes/mesh_formulas.hpp
+/// \brief Meshes that need no file: a ball and a ring.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "ljus/accel/mesh_data.hpp"
+#include "ljus/geometry/sphere.hpp"
+
+namespace ljus {
+
+/// \defgroup mesh_formulas Meshes from formulas
+/// \brief Vertices that lie on a surface which is known. Chapter: \ref ch_triangle.
+/// \{
+
+/// A sphere of triangles: an icosahedron, each triangle cut in four again and again,
+/// its vertices on the sphere, with the sphere's normals.
+/// \param sphere  The sphere; check() holds for it.
+/// \param cuts    How often, 0 to 10: 20 * 4^cuts triangles.
+/// \return The data.
+/// \throws std::invalid_argument  for another number of cuts.
+// [icosphere]
+template <std::floating_point T>
+[[nodiscard]] MeshDataT<T> icosphere(const SphereT<T>& sphere, int cuts) {
+    require(cuts >= 0 && cuts <= 10, "the number of cuts", static_cast<long long>(cuts),
+            "within [0, 10]");
+    using Triple = std::array<std::uint32_t, 3>;
+    const double g = std::numbers::phi;
+    std::vector<glm::dvec3> n;
+    for (const double a : {-1.0, 1.0})
+        for (const double b : {-g, g})
+            for (const glm::dvec3& v :
+                 {glm::dvec3(0, a, b), glm::dvec3(a, b, 0), glm::dvec3(b, 0, a)})
+                n.push_back(glm::normalize(v));
+    // The faces are the triples of neighbours, 2 apart where the circumradius is
+    // sqrt(1 + g^2).
+    const double edge = 2.0 / std::sqrt(1 + g * g);
+    const auto near = [&](std::uint32_t a, std::uint32_t b) {
+        return std::abs(glm::distance(n[a], n[b]) - edge) < 1e-9;
+    };
+    std::vector<Triple> triangles;
+    for (std::uint32_t a = 0; a < 12; ++a)
+        for (std::uint32_t b = a + 1; b < 12; ++b)
+            for (std::uint32_t c = b + 1; c < 12; ++c)
+                if (near(a, b) && near(b, c) && near(c, a)) {
+                    const bool outward = glm::dot(glm::cross(n[a], n[b]), n[c]) > 0;
+                    triangles.push_back(outward ? Triple{a, b, c} : Triple{a, c, b});
+                }
+    for (int cut = 0; cut < cuts; ++cut) {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+        const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+            const auto [at, fresh] = middles.try_emplace(
+                std::minmax(a, b), static_cast<std::uint32_t>(n.size()));
+            if (fresh) n.push_back(glm::normalize(n[a] + n[b]));
+            return at->second;
+        };
+        std::vector<Triple> finer;
+        for (const auto& [a, b, c] : triangles) {
+            const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+            for (const Triple& part : {Triple{a, ab, ca}, Triple{ab, b, bc},
+                                       Triple{ca, bc, c}, Triple{ab, bc, ca}})
+                finer.push_back(part);
+        }
+        triangles = std::move(finer);
+    }
+    MeshDataT<T> data{.triangles = std::move(triangles)};
+    for (const glm::dvec3& normal : n) {
+        data.positions.emplace_back(glm::dvec3(sphere.center) +
+                                    double(sphere.radius) * normal);
+        data.normals.emplace_back(normal);
+    }
+    return data;
+}
+// [icosphere]
+
+/// A ring around the y axis, with its normals.
+/// \param center  Its centre.
+/// \param large   From the centre to the middle of the tube.
+/// \param small   The tube's radius, below `large` for a ring with a hole.
+/// \param around  Pieces around the axis, at least 3.
+/// \param across  Pieces around the tube, at least 3.
+/// \return The data: 2 * around * across triangles.
+/// \throws std::invalid_argument  for fewer pieces.
+template <std::floating_point T>
+[[nodiscard]] MeshDataT<T> torus(const Vec3T<T>& center, T large, T small, int around,
+                                 int across) {
+    require(around >= 3 && around <= 10000 && across >= 3 && across <= 10000,
+            "the smaller number of pieces",
+            static_cast<long long>(around < across ? around : across),
+            "within [3, 10000]");
+    MeshDataT<T> data;
+    const auto number = [&](int i, int k) {
+        return static_cast<std::uint32_t>((i % around) * across + k % across);
+    };
+    for (int i = 0; i < around; ++i)
+        for (int k = 0; k < across; ++k) {
+            const double phi = 2 * std::numbers::pi * i / around;
+            const double theta = 2 * std::numbers::pi * k / across;
+            const glm::dvec3 out(std::cos(phi), 0, -std::sin(phi));
+            const glm::dvec3 normal =
+                std::cos(theta) * out + glm::dvec3(0, std::sin(theta), 0);
+            data.positions.emplace_back(glm::dvec3(center) + double(large) * out +
+                                        double(small) * normal);
+            data.normals.emplace_back(normal);
+            const std::uint32_t a = number(i, k), b = number(i + 1, k);
+            const std::uint32_t c = number(i + 1, k + 1), d = number(i, k + 1);
+            data.triangles.push_back({a, b, c});
+            data.triangles.push_back({a, c, d});
+        }
+    return data;
+}
+
+/// \}
+
+} // namespace ljus

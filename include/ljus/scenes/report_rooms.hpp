@@ -1,0 +1,157 @@
+#pragma once
+
+/// \file ljus/scenes/report_rooms.hpp
+/// \brief The three scenes of the report's figures.
+
+#include "ljus/materials/glass.hpp"
+#include "ljus/materials/mirror.hpp"
+#include "ljus/materials/mixture.hpp"
+#include "ljus/optics/absorption.hpp"
+#include "ljus/scenes/report_room.hpp"
+
+namespace ljus {
+
+/// \defgroup report_rooms The report's scenes
+/// \brief Figures 1, 11, 12, 13 and 15: what stands in the report's room.
+///
+/// What the original materials became:
+///
+/// | the report's program                | here                                     |
+/// |-------------------------------------|------------------------------------------|
+/// | matt, colour c, up to 1             | Lambertian, albedo 0.75 c                |
+/// | Oren-Nayar, roughness 0             | the same, for it is the same             |
+/// | mirror, reflectivity 1, colour c    | Mirror, 0.98: the colour was not used    |
+/// | glass, colour c at each boundary    | Glass, same index; the way through the   |
+/// |                                     | middle leaves \f$c^2\f$ (Beer's law)     |
+/// | a channel of 0 in a glass           | 0.05: no absorption is infinite          |
+/// | reflectivity r and transparency 1,  | Mixture, both divided by 1 + r: the      |
+/// | together: up to 1 + r of the light  | mirror's share is r / (1 + r)            |
+/// | index 1.0 (the thin glass)          | kept: what goes in goes straight on      |
+/// | lamp of colour c, no unit           | radiance 30 c, and black                 |
+/// | a lamp 0.00001 below the ceiling    | 0.001 below                              |
+/// \{
+
+/// Everything that the report's rooms are made of.
+template <std::floating_point T>
+using ReportSceneT =
+    Scene<Shapes<QuadT<T>, SphereT<T>, TriangleT<T>>,
+          Materials<LambertianT<T>, GlassT<T>, MirrorT<T>, MixtureT<T>>>;
+
+namespace detail {
+
+// The program tints at both boundaries, so that the way through the middle of a ball
+// leaves the square of the colour: the colour itself belongs to the radius.
+template <std::floating_point T>
+RgbT<T> report_absorption(const RgbT<T>& color, T radius) {
+    return absorption_from_color(glm::max(color, RgbT<T>{T(0.05)}), radius);
+}
+
+template <std::floating_point T>
+void add_report_glass(ReportSceneT<T>& scene, const SphereT<T>& ball, T index,
+                      const RgbT<T>& color) {
+    const GlassT<T> glass{.index = index,
+                          .absorption = report_absorption(color, ball.radius)};
+    scene.add(ball, scene.add(glass));
+}
+
+template <std::floating_point T>
+void add_report_mixture(ReportSceneT<T>& scene, const SphereT<T>& ball, T index,
+                        T reflectivity, const RgbT<T>& color) {
+    const MixtureT<T> mixture{.color = RgbT<T>{T(0)},
+                              .reflectivity = reflectivity / (T(1) + reflectivity),
+                              .transparency = T(1),
+                              .index = index,
+                              .absorption = report_absorption(color, ball.radius)};
+    scene.add(ball, scene.add(mixture));
+}
+
+template <std::floating_point T>
+void add_tetrahedron(ReportSceneT<T>& scene) {
+    const std::array<Vec3T<T>, 4> v{
+        Vec3T<T>{T(7), T(5.09), T(-1)}, Vec3T<T>{T(7), T(3.46), T(0.15)},
+        Vec3T<T>{T(6), T(3.46), T(-1.57)}, Vec3T<T>{T(8), T(3.46), T(-1.57)}};
+    const MaterialId cyan = scene.add(report_matt<T>(0, 1, 1));
+    scene.add(TriangleT<T>{v[0], v[2], v[1]}, cyan);
+    scene.add(TriangleT<T>{v[0], v[3], v[2]}, cyan);
+    scene.add(TriangleT<T>{v[1], v[3], v[0]}, cyan);
+    scene.add(TriangleT<T>{v[2], v[3], v[1]}, cyan);
+}
+
+// The matt balls, the mirror and the tetrahedron of figures 1, 12 and 15.
+template <std::floating_point T>
+void add_report_matt_objects(ReportSceneT<T>& scene) {
+    scene.add(SphereT<T>{.center{T(5), T(-0.5), T(-4)}, .radius = T(0.75)},
+              scene.add(report_matt<T>(1, 0, 0)));
+    scene.add(SphereT<T>{.center{T(10), T(0), T(-0.5)}, .radius = T(1.25)},
+              scene.add(report_matt<T>(1, T(0.2), 1)));
+    scene.add(SphereT<T>{.center{T(6), T(4), T(2)}, .radius = T(1.15)},
+              scene.add(report_matt<T>(1, 1, T(0.2))));
+    scene.add(SphereT<T>{.center{T(8), T(3), T(-3)}, .radius = T(1.15)},
+              scene.add(MirrorT<T>{.reflectance = RgbT<T>{T(0.98)}}));
+    add_tetrahedron(scene);
+}
+
+} // namespace detail
+
+/// The room of figures 1 and 15: two lamps, and every material.
+/// \return The scene and its camera.
+/// \report{Figures 1 and 15}
+// [final_room]
+template <std::floating_point T = float>
+[[nodiscard]] Room<ReportSceneT<T>> final_room() {
+    Room<ReportSceneT<T>> room{.camera = report_camera<T>()};
+    add_report_room(room.scene);
+    detail::add_report_matt_objects(room.scene);
+    detail::add_report_mixture<T>(room.scene, {{T(6), T(-3.5), T(-3.5)}, T(1.15)},
+                                  T(1.15), T(0.6), {T(0.5), T(0.5), T(1)});
+    detail::add_report_glass<T>(room.scene, {{T(6), T(-4), T(1.75)}, T(1.5)}, T(1.47),
+                                {T(1), T(1), T(0)});
+    detail::add_report_glass<T>(room.scene, {{T(7), T(0), T(2.75)}, T(0.5)}, T(1.37),
+                                {T(0.8), T(0.2), T(1)});
+    detail::add_report_glass<T>(room.scene, {{T(6.5), T(-2), T(0.95)}, T(1)}, T(1.47),
+                                {T(0.7), T(1), T(0)});
+    detail::add_ceiling_lamp(room.scene, T(5), T(-1), T(2), RgbT<T>{T(1)});
+    detail::add_ceiling_lamp(room.scene, T(4), T(2), T(1), RgbT<T>{1, 1, T(0.65)});
+    return room;
+}
+// [final_room]
+
+/// The room of figure 12: one lamp, and one of each material.
+/// \return The scene and its camera.
+/// \report{Figure 12, Table 3}
+template <std::floating_point T = float>
+[[nodiscard]] Room<ReportSceneT<T>> all_materials_room() {
+    Room<ReportSceneT<T>> room{.camera = report_camera<T>()};
+    add_report_room(room.scene);
+    detail::add_report_matt_objects(room.scene);
+    detail::add_report_mixture<T>(room.scene, {{T(6), T(-3.5), T(-3.5)}, T(1.15)}, T(1),
+                                  T(0.6), {T(0.5), T(0.5), T(1)});
+    detail::add_report_glass<T>(room.scene, {{T(6), T(-4), T(1.75)}, T(1.5)}, T(1.97),
+                                RgbT<T>{T(1)});
+    detail::add_ceiling_lamp(room.scene, T(5), T(-1), T(2), RgbT<T>{T(1)});
+    return room;
+}
+
+/// The room of figures 11 and 13: one lamp, and four balls of glass. The report's
+/// history does not have it; two of the balls were fitted to its picture.
+/// \return The scene and its camera.
+/// \report{Figures 11 and 13, Tables 2 and 4}
+template <std::floating_point T = float>
+[[nodiscard]] Room<ReportSceneT<T>> four_glass_room() {
+    Room<ReportSceneT<T>> room{.camera = report_camera<T>()};
+    add_report_room(room.scene);
+    detail::add_report_glass<T>(room.scene, {{T(6), T(-4), T(1.75)}, T(1.5)}, T(1.97),
+                                RgbT<T>{T(1)});
+    detail::add_report_mixture<T>(room.scene, {{T(6), T(-3.5), T(-3.5)}, T(1.15)}, T(1),
+                                  T(0.6), {T(0.5), T(0.5), T(1)});
+    detail::add_report_mixture<T>(room.scene, {{T(8), T(0.5), T(-2.5)}, T(1.5)}, T(1.6),
+                                  T(0.5), RgbT<T>{T(1)});
+    detail::add_report_glass<T>(room.scene, {{T(7), T(4.5), T(-3)}, T(1.15)}, T(1.7),
+                                {T(1), T(1), T(0.2)});
+    detail::add_ceiling_lamp(room.scene, T(5), T(-1), T(2), RgbT<T>{T(1)});
+    return room;
+}
+
+/// \}
+
+} // namespace ljus

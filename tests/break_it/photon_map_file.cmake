@@ -1,0 +1,23 @@
+# A file that was cut short or damaged is taken for a map.
+ljus_break_it(NAME map-file-checksum HEADER io/photon_map_file.hpp TEST photon_map_file
+    FROM "checksum != detail::map_checksum(bytes)"
+    TO   "false"
+    CASES "photon_map_file: a file with any bit*")
+
+# The number of photons is believed.
+ljus_break_it(NAME map-file-count HEADER io/photon_map_file.hpp TEST photon_map_file
+    FROM "(bytes.size() - detail::map_header) / photon_bytes != count"
+    TO   "false"
+    CASES "photon_map_file: a file cut short*")
+
+# A map of another version is read as if it were this one's.
+ljus_break_it(NAME map-file-version HEADER io/photon_map_file.hpp TEST photon_map_file
+    FROM "version != detail::map_version"
+    TO   "false"
+    CASES "photon_map_file: what is wrong*")
+
+# Photons in the tree's order: a second save or load has another tree.
+ljus_break_it(NAME map-file-order HEADER io/photon_map_file.hpp TEST photon_map_file
+    FROM "photons[map.tree.order()[i]]"
+    TO   "photons[i]"
+    CASES "photon_map_file: a map comes back*")

@@ -1,0 +1,29 @@
+# A fixed distance is too long for a small scene.
+ljus_break_it(NAME surface-fixed HEADER geometry/surface_point.hpp TEST surface_point
+    FROM "T(2) * glm::dot(sizes(n), point.error) + T(4) * last_place"
+    TO   "T(1e-3)"
+    CASES "surface: at a millionth*")
+
+# The bound of the error alone is 0 on a wall along an axis.
+ljus_break_it(NAME surface-last-place HEADER geometry/surface_point.hpp TEST surface_point
+    FROM " + T(4) * last_place"
+    TO   ""
+    CASES "surface: coordinates of 0*")
+
+# A wall through the origin has no last place of its own.
+ljus_break_it(NAME surface-scale HEADER geometry/surface_point.hpp TEST surface_point
+    FROM "T(4) * last_place"
+    TO   "T(4) * std::numeric_limits<T>::epsilon() * max_component(glm::abs(point.position))"
+    CASES "surface: coordinates of 0*")
+
+# Always to the outer side, whichever way the ray goes.
+ljus_break_it(NAME surface-side HEADER geometry/surface_point.hpp TEST surface_point
+    FROM "std::copysign(distance, glm::dot(direction, n))"
+    TO   "distance"
+    CASES "surface: a ray leaves*")
+
+# A lamp near the origin shades itself from afar.
+ljus_break_it(NAME surface-own-light HEADER geometry/surface_point.hpp TEST surface_point
+    FROM "seen.error += rounding_bound<T>(8) * max_component(sizes(way));"
+    TO   ""
+    CASES "surface: no lamp*")

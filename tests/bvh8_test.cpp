@@ -1,0 +1,309 @@
+// concept: bvh
+// native: fused multiply-adds must not open a leak
+/// \file wide_bvh_test.cpp
+/// \brief The fast trees, against asking everything; and that nothing leaks.
+
+#include "ljus/accel/detail/triangle_bvh.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <limits>
+#include <numbers>
+
+#include "ljus/geometry/shape.hpp"
+#include "ljus/geometry/watertight.hpp"
+#include "support/numbers.hpp"
+
+using namespace ljus;
+using ljus_test::Numbers;
+
+namespace {
+
+constexpr float inf = std::numeric_limits<float>::infinity();
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+using Crowd = std::vector<Triangle>;
+
+struct Found {
+    std::uint32_t number = ~0u;
+    float t = inf, u = 0, v = 0;
+    bool operator==(const Found&) const = default;
+};
+
+Found by_loop(const Crowd& crowd, const Ray& ray) {
+    Found found;
+    for (std::uint32_t i = 0; i < crowd.size(); ++i) {
+        const auto hit = intersect<double>(ray, crowd[i]);
+        if (hit && hit->t < found.t) found = {i, hit->t, hit->u, hit->v};
+    }
+    return found;
+}
+
+/// Where the tree has it, if it has; else where the crowd does.
+template <typename Tree>
+Triangle triangle_at(const Tree& tree, const Crowd& crowd, std::uint32_t place) {
+    if constexpr (requires { tree.triangle(place); })
+        return tree.triangle(place);
+    else
+        return crowd[tree.order()[place]];
+}
+
+template <typename Tree>
+Found by_tree(const Tree& tree, const Crowd& crowd, const Ray& ray) {
+    NearestHit nearest;
+    tree.closest(ray, [&](std::uint32_t place, Ray& rest) {
+        const Triangle triangle = triangle_at(tree, crowd, place);
+        if (const auto hit = intersect<double>(rest, triangle))
+            nearest.offer(*hit, tree.order()[place], rest);
+    });
+    if (!nearest.found) return {};
+    return {nearest.number, nearest.at.t, nearest.at.u, nearest.at.v};
+}
+
+template <typename Tree>
+bool any_by_tree(const Tree& tree, const Crowd& crowd, const Ray& ray) {
+    return tree.any(ray, [&](std::uint32_t place) {
+        return intersect<double>(ray, triangle_at(tree, crowd, place)).has_value();
+    });
+}
+
+/// Both fast trees over a crowd.
+struct Trees {
+    const Crowd& crowd;
+    Bvh8 wide;
+    TriangleBvh triangles;
+    explicit Trees(const Crowd& of, std::uint32_t leaf_size = 3)
+        : crowd(of), triangles(static_cast<std::uint32_t>(of.size()),
+                               [&](std::uint32_t i) { return of[i]; }) {
+        std::vector<Box> boxes;
+        for (const Triangle& triangle : of) boxes.push_back(bounds(triangle));
+        wide = Bvh8(boxes, {.leaf_size = leaf_size});
+    }
+    bool check(const Ray& ray) const {
+        const Found expected = by_loop(crowd, ray);
+        REQUIRE(by_tree(wide, crowd, ray) == expected);
+        REQUIRE(by_tree(triangles, crowd, ray) == expected);
+        const bool any = expected.number != ~0u;
+        REQUIRE(any_by_tree(wide, crowd, ray) == any);
+        REQUIRE(any_by_tree(triangles, crowd, ray) == any);
+        return any;
+    }
+};
+
+Crowd soup(Numbers& n, int count, double room, double size, const Vec3& place) {
+    Crowd crowd;
+    for (int i = 0; i < count; ++i) {
+        const Vec3 at = place + Vec3(n.point(room));
+        crowd.push_back({at, at + Vec3(n.point(size)), at + Vec3(n.point(size))});
+    }
+    return crowd;
+}
+
+/// A ray of any kind: axis-parallel, with zeros of both signs, short, backwards.
+Ray some_ray(Numbers& n, double room, const Vec3& place) {
+    const Vec3 origin = place + Vec3(n.point(2 * room));
+    Ray ray{.origin = origin, .direction = place + Vec3(n.point(room)) - origin};
+    for (int axis = 0; axis < 3; ++axis) {
+        const int what = n.below(12);
+        if (what == 0) ray.direction[axis] = 0.0f;
+        if (what == 1) ray.direction[axis] = -0.0f;
+        if (what == 2) ray.direction[axis] *= 1e-15f;
+    }
+    if (n.below(4) == 0) ray.t_max = float(n.between(0, 2));
+    if (n.below(4) == 0) ray.t_min = float(n.between(0, 1));
+    return ray;
+}
+
+/// A closed ball whose triangles share their corners to the last bit.
+Crowd ball(int rows, const Vec3& center) {
+    const int columns = 2 * rows;
+    std::vector<Vec3>
+        corners; // each computed once: a corner must not have two roundings
+    for (int i = 0; i <= rows; ++i)
+        for (int j = 0; j < columns; ++j) {
+            const float theta = std::numbers::pi_v<float> * float(i) / float(rows);
+            const float phi = 2 * std::numbers::pi_v<float> * float(j) / float(columns);
+            const float r = 1 + 0.1f * std::sin(5 * theta) * std::sin(4 * phi);
+            const bool pole = i == 0 || i == rows;
+            corners.push_back(
+                center +
+                (pole ? Vec3{0, i == 0 ? 1 : -1, 0}
+                      : r * Vec3{std::sin(theta) * std::cos(phi), std::cos(theta),
+                                 std::sin(theta) * std::sin(phi)}));
+        }
+    const auto at = [&](int i, int j) {
+        return corners[static_cast<std::size_t>(i * columns + j % columns)];
+    };
+    Crowd mesh;
+    for (int i = 0; i < rows; ++i)
+        for (int j = 0; j < columns; ++j) {
+            if (i > 0) mesh.push_back({at(i, j), at(i + 1, j), at(i, j + 1)});
+            if (i + 1 < rows)
+                mesh.push_back({at(i, j + 1), at(i + 1, j), at(i + 1, j + 1)});
+        }
+    return mesh;
+}
+
+} // namespace
+
+TEST_CASE("wide bvh: the same answers as asking everything") {
+    Numbers n;
+    int hits = 0;
+    for (const int count : {0, 1, 2, 7, 8, 9, 64, 300, 2000})
+        for (const double size : {0.05, 1.0})
+            for (const double away : {0.0, 100.0, 1e5}) {
+                const Vec3 place(n.point(away));
+                const Crowd crowd = soup(n, count, 5, size, place);
+                const Trees trees(crowd, count % 2 ? 1 : 3);
+                for (int i = 0; i < 300; ++i)
+                    hits += trees.check(some_ray(n, 5, place));
+            }
+    CHECK(hits > 500);
+}
+
+TEST_CASE("wide bvh: the triangles are kept as they were given") {
+    Numbers n(7);
+    const Crowd crowd = soup(n, 500, 1, 0.1, Vec3(1e3f, 0, -0.0f));
+    const TriangleBvh tree(500, [&](std::uint32_t i) { return crowd[i]; });
+    int kept = 0;
+    for (std::uint32_t place = 0; place < tree.order().size(); ++place) {
+        if (tree.order()[place] == Bvh8::hole) continue;
+        const Triangle triangle = tree.triangle(place);
+        const Triangle& given = crowd[tree.order()[place]];
+        REQUIRE(std::memcmp(&triangle, &given, sizeof(Triangle)) == 0);
+        ++kept;
+    }
+    CHECK(kept == 500);
+}
+
+TEST_CASE("wide bvh: rays from the surfaces themselves") {
+    Numbers n;
+    const Crowd crowd = soup(n, 400, 5, 1, Vec3{0});
+    const Trees trees(crowd);
+    for (int i = 0; i < 5000; ++i) {
+        const Triangle& triangle = crowd[std::size_t(n.below(400))];
+        const SurfacePoint point = sample_area(triangle, n.square<float>());
+        trees.check(spawn_ray(point, Vec3(n.direction())));
+        trees.check({.origin = point.position, .direction = Vec3(n.direction())});
+        const Triangle& other = crowd[std::size_t(n.below(400))];
+        trees.check(spawn_ray_to(point, sample_area(other, n.square<float>())));
+    }
+}
+
+TEST_CASE("wide bvh: huge and tiny, flat and equal things") {
+    Numbers n;
+    for (const double scale : {1e-15, 1e-6, 1.0, 1e6, 1e15}) {
+        Crowd crowd = soup(n, 100, 5 * scale, scale, Vec3{0});
+        for (int i = 0; i < 64; ++i) crowd.push_back(crowd[7]); // equal ones
+        for (int i = 0; i < 20; ++i) {                          // in the plane x = 0
+            Triangle flat = crowd[std::size_t(i)];
+            flat.v1.x = flat.v2.x = flat.v3.x = 0;
+            crowd.push_back(flat);
+            flat.v3 = flat.v1; // without an area
+            crowd.push_back(flat);
+        }
+        const Trees trees(crowd);
+        for (int i = 0; i < 1000; ++i) {
+            Ray ray = some_ray(n, 5 * scale, Vec3{0});
+            ray.direction *= float(n.power(-8, 8) / scale);
+            trees.check(ray);
+        }
+    }
+}
+
+TEST_CASE("wide bvh: rays that are no rays meet nothing; absurd ones are not lost") {
+    Numbers n;
+    const Crowd crowd = soup(n, 500, 5, 1, Vec3{0});
+    const Trees trees(crowd);
+    for (const Ray& bad :
+         {Ray{.origin{not_a_number, 0, 0}}, Ray{.direction{0, not_a_number, 0}},
+          Ray{.direction = Vec3{0}}, Ray{.t_max = not_a_number},
+          Ray{.t_min = not_a_number}, Ray{.origin{0, inf, 0}},
+          Ray{.direction{inf, 0, 0}}, Ray{.t_min = 2, .t_max = 1}})
+        CHECK_FALSE(trees.check(bad));
+    for (const float length : {1e-42f, 1e-30f, 1e-20f, 1e-17f, 1e17f, 1e20f, 1e38f})
+        for (int i = 0; i < 100; ++i) {
+            Ray ray = some_ray(n, 5, Vec3{0});
+            ray.direction = length * glm::normalize(ray.direction);
+            trees.check(ray);
+        }
+    trees.check({.origin{1e25f, 0, 0}, .direction{-1, 0, 0}});
+    CHECK_FALSE(Bvh8{}.any(Ray{}, [](std::uint32_t) { return true; }));
+    CHECK_THROWS_AS(Bvh8(std::vector<Box>{}, BvhSettings{.leaf_size = 17}),
+                    std::invalid_argument);
+}
+
+TEST_CASE(
+    "wide bvh: no ray slips through a closed ball, at the origin or far from it") {
+    Numbers n;
+    for (const float away : {0.0f, 100.0f}) {
+        const Vec3 center{away, -away, 2 * away};
+        const Crowd mesh = ball(24, center);
+        const Trees trees(mesh);
+        int leaks = 0, wrong = 0;
+        for (int i = 0; i < 40000; ++i) {
+            // From within, at an edge, at a corner, and along an axis.
+            const Triangle& triangle = mesh[std::size_t(n.below(int(mesh.size())))];
+            const Vec3 origin = center + Vec3(n.point(0.4));
+            const Vec3 at_edge =
+                triangle.v1 + float(n.between(0, 1)) * (triangle.v2 - triangle.v1);
+            Ray ray{.origin = origin,
+                    .direction = (i % 2 ? triangle.v1 : at_edge) - origin};
+            if (i % 5 == 0) {
+                const int axis = n.below(3);
+                ray = {.origin = at_edge, .direction = Vec3{n.below(2) ? 0.0f : -0.0f}};
+                ray.origin[axis] = center[axis];
+                ray.direction[axis] = at_edge[axis] > center[axis] ? 1.0f : -1.0f;
+                // Not where a ray along the axis only touches the ball.
+                if (std::abs(at_edge[axis] - center[axis]) < 0.6f) continue;
+            }
+            const bool hit = by_tree(trees.triangles, mesh, ray).number != ~0u;
+            leaks += !hit;
+            leaks += !trees.triangles.any(ray, [&](std::uint32_t place) {
+                return intersect<Watertight>(ray, mesh[trees.triangles.order()[place]])
+                    .has_value();
+            });
+            leaks += !trees.wide.any(ray, [&](std::uint32_t place) {
+                return intersect<Watertight>(ray, mesh[trees.wide.order()[place]])
+                    .has_value();
+            });
+            if (i % 16) continue;
+            const bool loop = by_loop(mesh, ray).number != ~0u;
+            wrong += hit != loop || any_by_tree(trees.triangles, mesh, ray) != loop ||
+                     any_by_tree(trees.wide, mesh, ray) != loop;
+        }
+        CHECK(wrong == 0);
+        CHECK(leaks == 0);
+    }
+}
+
+TEST_CASE(
+    "wide bvh: at most 100 bytes a triangle, the same for any number of threads") {
+    const Crowd mesh = ball(80, Vec3{0});
+    const auto count = static_cast<std::uint32_t>(mesh.size());
+    const auto at = [&](std::uint32_t i) { return mesh[i]; };
+    const TriangleBvh one(count, at, 1), many(count, at, 5);
+    MESSAGE("bytes a triangle: " << double(one.bytes()) / count);
+    CHECK(double(one.bytes()) / count <= 100);
+    CHECK(one.order() == many.order());
+    REQUIRE(one.tree().nodes().size() == many.tree().nodes().size());
+    CHECK(std::memcmp(one.tree().nodes().data(), many.tree().nodes().data(),
+                      one.tree().nodes().size() * sizeof(Bvh8Node)) == 0);
+}
+
+TEST_CASE("wide bvh: few nodes, for most of their places are taken") {
+    // 22 things, as in the report's room; 3 nodes would have places enough.
+    Numbers n;
+    int most = 0;
+    for (int i = 0; i < 100; ++i) {
+        std::vector<Box> boxes;
+        for (int k = 0; k < 22; ++k) {
+            const Vec3 at(n.point(5));
+            boxes.push_back({at, at + Vec3(0.5f)});
+        }
+        const Bvh8 tree(boxes, {.leaf_size = 1});
+        most = std::max(most, static_cast<int>(tree.nodes().size()));
+    }
+    MESSAGE("nodes at most: " << most);
+    CHECK(most <= 10); // a cut without a choice makes 14
+}

@@ -1,0 +1,126 @@
+/// \file indexed_scene_test.cpp
+/// \brief The index of a scene gives the loop's answers, to the last bit.
+
+#include "ljus/scene/index.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "ljus/geometry/watertight.hpp"
+#include "ljus/materials/lambertian.hpp"
+#include "ljus/render/path_tracing.hpp"
+#include "ljus/render/render.hpp"
+#include "ljus/scenes/report_rooms.hpp"
+#include "support/numbers.hpp"
+
+using namespace ljus;
+using ljus_test::Numbers;
+
+namespace {
+
+template <typename T>
+using CrowdT =
+    Scene<Shapes<SphereT<T>, TriangleT<T>, QuadT<T>>, Materials<LambertianT<T>>>;
+
+template <typename T>
+CrowdT<T> crowd(Numbers& n, int count, double room, double size) {
+    CrowdT<T> scene;
+    const auto grey = scene.add(LambertianT<T>{});
+    const auto at = [&](double where) { return Vec3T<T>(n.point(where)); };
+    for (int i = 0; i < count; ++i) {
+        const Vec3T<T> corner = at(room);
+        switch (n.below(4)) {
+        case 0:
+            scene.add(SphereT<T>{corner, T(n.between(0.1, 1) * size)}, grey);
+            break;
+        case 1:
+            scene.add(TriangleT<T>{corner, corner + at(size), corner + at(size)}, grey);
+            break;
+        case 2:
+            scene.add(QuadT<T>{corner, at(size), at(size)}, grey);
+            break;
+        default: // one of those that are there once more, or a flat quad
+            if (!std::get<0>(scene.shapes).empty() && n.below(2))
+                scene.add(std::get<0>(scene.shapes).front(), grey);
+            else
+                scene.add(QuadT<T>{corner, {T(size), 0, 0}, {0, T(size), 0}}, grey);
+        }
+    }
+    return scene;
+}
+
+template <typename T>
+RayT<T> some_ray(Numbers& n, double room) {
+    const Vec3T<T> origin(n.point(2 * room));
+    RayT<T> ray{.origin = origin, .direction = Vec3T<T>(n.point(room)) - origin};
+    for (int axis = 0; axis < 3; ++axis) {
+        const int what = n.below(10);
+        if (what == 0) ray.direction[axis] = T(0);
+        if (what == 1) ray.direction[axis] = -T(0);
+    }
+    if (n.below(4) == 0) ray.t_max = T(n.between(0, 2));
+    if (n.below(4) == 0) ray.t_min = T(n.between(0, 1));
+    return ray;
+}
+
+template <typename Compute, typename S, typename T>
+bool same(const S& scene, const IndexedScene<S, Compute>& indexed, const RayT<T>& ray) {
+    const auto a = closest_hit<Compute>(scene, ray);
+    const auto b = closest_hit(indexed, ray);
+    REQUIRE(a.has_value() == b.has_value());
+    REQUIRE(occluded<Compute>(scene, ray) == a.has_value());
+    REQUIRE(occluded(indexed, ray) == a.has_value());
+    if (!a) return false;
+    REQUIRE(a->object == b->object);
+    REQUIRE(a->at.t == b->at.t);
+    REQUIRE(a->at.u == b->at.u);
+    REQUIRE(a->at.v == b->at.v);
+    return true;
+}
+
+} // namespace
+
+TEST_CASE_TEMPLATE("indexed scene: the loop's answers", Compute, double, Watertight,
+                   void) {
+    Numbers n;
+    int hits = 0;
+    for (const int count : {0, 1, 2, 4, 8, 9, 16, 40, 64, 256})
+        for (const double scale : {1e-5, 1.0, 1e5})
+            for (const double size : {0.3, 3.0}) {
+                const auto scene = crowd<float>(n, count, 5 * scale, size * scale);
+                const auto indexed = index_scene<Compute>(scene);
+                for (int i = 0; i < 1500; ++i)
+                    hits += same(scene, indexed, some_ray<float>(n, 5 * scale));
+            }
+    CHECK(hits > 10000);
+}
+
+TEST_CASE("indexed scene: in double, and for rays that are none") {
+    Numbers n;
+    for (const int count : {0, 3, 12, 200}) {
+        const auto scene = crowd<double>(n, count, 5, 1);
+        const auto indexed = index_scene(scene);
+        for (int i = 0; i < 1000; ++i) same(scene, indexed, some_ray<double>(n, 5));
+        constexpr double bad = std::numeric_limits<double>::quiet_NaN();
+        CHECK_FALSE(same(scene, indexed, RayT<double>{.origin{bad, 0, 0}}));
+        CHECK_FALSE(same(scene, indexed, RayT<double>{.direction{0, bad, 0}}));
+        CHECK_FALSE(same(scene, indexed, RayT<double>{.t_max = bad}));
+        CHECK_FALSE(same(scene, indexed, RayT<double>{.direction{0, 0, 0}}));
+    }
+}
+
+TEST_CASE(
+    "indexed scene: it stands for the scene in a renderer, which makes its own or "
+    "takes one") {
+    const auto room = all_materials_room();
+    const RenderSettings picture{.width = 16, .height = 12, .samples = 4};
+    const auto by_itself = render(make_path_tracer(room.scene), room.camera, picture);
+    const auto indexed = index_scene(room.scene);
+    const auto tracer = make_path_tracer(indexed);
+    CHECK(&tracer.scene == &indexed);
+    CHECK(render(tracer, room.camera, picture).image.pixels == by_itself.image.pixels);
+    CHECK(indexed.size() == room.scene.size());
+    CHECK(indexed.size() > flat_loop_limit);
+    CHECK(indexed.ids.size() == indexed.size());
+}

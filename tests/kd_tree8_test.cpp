@@ -1,0 +1,156 @@
+// native: fused multiply-adds must not decide on a point at the border of a ball
+/// \file wide_kd_tree_test.cpp
+/// \brief Every search against all points in turn, and what it costs in the worst case.
+
+#include "ljus/accel/kd_tree8.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
+#include "ljus/accel/kd_tree.hpp"
+#include "support/tree_cases.hpp"
+
+using ljus::KdTree8;
+using ljus::KdTree8T;
+using ljus::Neighbor;
+using ljus::Vec3;
+using photon_test::brute_force;
+using photon_test::compare_with_brute_force;
+using photon_test::Numbers;
+using photon_test::point_sets;
+
+TEST_CASE("kd_tree8: every search is what asking all points gives") {
+    photon_test::every_search<KdTree8T>();
+}
+
+TEST_CASE("kd_tree8: also in double, and far from the origin") {
+    photon_test::in_double<KdTree8T>();
+}
+
+TEST_CASE("kd_tree8: ten thousand points at once") {
+    photon_test::ten_thousand<KdTree8T>();
+}
+
+TEST_CASE("kd_tree8: the ball is closed, exactly, and it is no cube") {
+    photon_test::closed_ball<KdTree8T>();
+}
+
+TEST_CASE("kd_tree8: a ball without an inside finds nothing, NaN finds nothing") {
+    photon_test::no_inside<KdTree8T>();
+}
+
+TEST_CASE("kd_tree8: a point that is not finite is refused with a sentence") {
+    photon_test::not_finite<KdTree8T>();
+}
+
+TEST_CASE("kd_tree8: the largest numbers of a float do not overflow") {
+    photon_test::largest_numbers<KdTree8T>();
+}
+
+TEST_CASE("kd_tree8: order() tells where each point came from") {
+    photon_test::order_of_points<KdTree8T>();
+}
+
+TEST_CASE("kd_tree8: trees are values") {
+    photon_test::values<KdTree8T>();
+}
+
+TEST_CASE("kd_tree8: searches on many threads find the same") {
+    photon_test::many_threads<KdTree8T>();
+}
+
+TEST_CASE("kd_tree8: the smallest numbers of a float are told apart") {
+    // Their squares are no floats any more.
+    Numbers numbers{16};
+    for (const double size : {1e-25, 1e-22, 1e-20, 1e20, 1e25})
+        for (const auto& set : point_sets<float>(300, size, 0))
+            compare_with_brute_force<KdTree8>(set, numbers);
+}
+
+TEST_CASE("kd_tree8: more neighbours than are counted go through a heap") {
+    Numbers numbers{17};
+    for (const auto& set : point_sets<float>(3000, 1, 0)) {
+        const KdTree8 tree{std::span<const Vec3>(set.points)};
+        for (const std::size_t k : {511u, 512u, 513u, 700u, 2999u}) {
+            const Vec3 center = set.points[std::size_t(numbers.below(3000))];
+            std::vector<Neighbor> room(k);
+            REQUIRE(tree.nearest(center, 1e9f, room) == k);
+            const auto all = brute_force(tree, center, 1e9f, ljus::AnyPoint{});
+            std::sort(room.begin(), room.end());
+            for (std::size_t i = 0; i < k; ++i)
+                REQUIRE(room[i].distance2 == all[i].distance2);
+        }
+    }
+}
+
+TEST_CASE("kd_tree8: each range is halved by one of the axes") {
+    for (const std::size_t n : {777u, 5000u, 70000u})
+        for (const auto& set : point_sets<float>(n, 1, 0)) {
+            CAPTURE(set.name);
+            CAPTURE(n);
+            const KdTree8 tree{std::span<const Vec3>(set.points)};
+            const auto shape = ljus::KdTree8Shape::of(n);
+            for (int depth = 0; depth < shape.halvings; ++depth)
+                for (std::uint64_t i = 0; i < 1ull << depth; ++i) {
+                    const auto point = [&](std::uint64_t block) {
+                        return std::min<std::uint64_t>(8 * block, n);
+                    };
+                    const auto first = point(shape.first_block(depth, i));
+                    const auto middle = point(shape.first_block(depth + 1, 2 * i + 1));
+                    const auto last = point(shape.first_block(depth, i + 1));
+                    REQUIRE(first < middle);
+                    REQUIRE(middle < last);
+                    Vec3 low{-1e30f}, high{1e30f};
+                    for (auto j = first; j < middle; ++j)
+                        low = glm::max(low, tree.point(j));
+                    for (auto j = middle; j < last; ++j)
+                        high = glm::min(high, tree.point(j));
+                    REQUIRE((low.x <= high.x || low.y <= high.y || low.z <= high.z));
+                }
+        }
+}
+
+TEST_CASE("kd_tree8: the same tree from any number of threads") {
+    for (const auto& set : point_sets<float>(100000, 1, 0)) {
+        const KdTree8 one(set.points, 1);
+        for (const int threads : {2, 3, 8}) {
+            const KdTree8 many(set.points, threads);
+            REQUIRE(one.order() == many.order());
+            REQUIRE(std::memcmp(one.blocks().data(), many.blocks().data(),
+                                one.blocks().size() * sizeof(one.blocks()[0])) == 0);
+        }
+    }
+}
+
+TEST_CASE("kd_tree8: the plain tree finds the same points") {
+    Numbers numbers{18};
+    for (const auto& set : point_sets<float>(3000, 1, 0)) {
+        const ljus::KdTree plain{std::span<const Vec3>(set.points)};
+        const KdTree8 wide{std::span<const Vec3>(set.points)};
+        for (int i = 0; i < 50; ++i) {
+            const Vec3 center = numbers.point<float>(1.2);
+            const auto radius = float(numbers.between(0, 0.5));
+            std::vector<std::uint32_t> a, b;
+            plain.visit_within(center, radius, [&](std::uint32_t j, double) {
+                a.push_back(plain.order()[j]);
+            });
+            wide.visit_within(center, radius, [&](std::uint32_t j, double) {
+                b.push_back(wide.order()[j]);
+            });
+            std::sort(a.begin(), a.end());
+            std::sort(b.begin(), b.end());
+            REQUIRE(a == b);
+        }
+    }
+}
+
+TEST_CASE("kd_tree8: a million points take 17 bytes each") {
+    std::vector<Vec3> points(1'000'000);
+    Numbers numbers{19};
+    for (Vec3& point : points) point = numbers.point<float>(1);
+    const KdTree8 tree{std::span<const Vec3>(points)};
+    CHECK(double(tree.bytes()) / 1e6 < 17.5);
+}

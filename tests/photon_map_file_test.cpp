@@ -1,0 +1,177 @@
+/// \file map_file_test.cpp
+/// \brief A map comes back byte by byte, and nothing else comes back at all.
+
+#include "ljus/io/photon_map_file.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+
+#include "scratch_folder.hpp"
+#include "support/photon_samples.hpp"
+
+using ljus::Bytes;
+using ljus::PhotonMapT;
+using ljus::PhotonT;
+using photon_test::Numbers;
+
+namespace {
+
+template <typename T>
+PhotonMapT<T> some_map(int count) {
+    Numbers numbers{std::uint64_t(count) + 1};
+    std::vector<PhotonT<T>> photons;
+    for (int i = 0; i < count; ++i)
+        photons.push_back({.position = numbers.point<T>(1),
+                           .direction = glm::normalize(numbers.point<T>(1)),
+                           .flux = numbers.point<T>(1e-3) + T(1e-3),
+                           .light = std::uint16_t(i),
+                           .kind = static_cast<ljus::PhotonKind>(i % 4),
+                           .normal = ljus::SmallNormal(1, 2, -i % 128)});
+    return ljus::make_photon_map(photons);
+}
+
+template <typename T>
+bool same(const PhotonMapT<T>& a, const PhotonMapT<T>& b) {
+    const auto bytes = [](const auto& x, const auto& y) {
+        return x.size() == y.size() &&
+               (x.empty() ||
+                std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) == 0);
+    };
+    if (!bytes(a.tree.blocks(), b.tree.blocks()) ||
+        !bytes(a.tree.order(), b.tree.order()) || a.records.size() != b.records.size())
+        return false;
+    for (std::size_t i = 0; i < a.records.size(); ++i) {
+        const auto x = a.records[i];
+        const auto y = b.records[i];
+        if (x.direction != y.direction || x.flux != y.flux || x.light != y.light ||
+            x.kind != y.kind || x.normal != y.normal)
+            return false;
+    }
+    return true;
+}
+
+std::string why_not(const std::string& path) {
+    try {
+        (void)ljus::load_photon_map(path);
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "it was read";
+}
+
+} // namespace
+
+TEST_CASE("photon_map_file: a map comes back, byte by byte") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("a.map");
+    for (const int count : {0, 1, 7, 8, 9, 1000, 40000}) {
+        const auto map = some_map<float>(count);
+        ljus::save_photon_map(path, map);
+        CHECK(same(map, ljus::load_photon_map(path)));
+        CHECK(same(map, ljus::load_photon_map(path, 40000, 2)));
+        CHECK(ljus::load_file(path, 10'000'000).size() == 40 + 42 * std::size_t(count));
+    }
+    const auto precise = some_map<double>(100);
+    ljus::save_photon_map(path, precise);
+    CHECK(same(precise, ljus::load_photon_map<double>(path)));
+    CHECK(why_not(path) == "cannot read '" + path +
+                               "': its numbers have 8 bytes; those asked for have 4.");
+}
+
+TEST_CASE("photon_map_file: a file cut short at any byte is refused") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("a.map");
+    ljus::save_photon_map(path, some_map<float>(5));
+    const Bytes whole = ljus::load_file(path, 10000);
+    for (std::size_t size = 0; size < whole.size(); ++size) {
+        ljus::save_file(path,
+                        Bytes(whole.begin(), whole.begin() + std::ptrdiff_t(size)));
+        const std::string why = why_not(path);
+        CHECK(why.starts_with("cannot read '" + path + "': it "));
+        if (size >= 40)
+            CHECK(why == "cannot read '" + path +
+                             "': it says that it holds 5 photons, which does not go "
+                             "with its " +
+                             std::to_string(size) + " bytes.");
+    }
+    Bytes longer = whole;
+    longer.push_back(0);
+    ljus::save_file(path, longer);
+    CHECK(why_not(path) != "it was read");
+}
+
+TEST_CASE("photon_map_file: a file with any bit turned over is refused") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("a.map");
+    ljus::save_photon_map(path, some_map<float>(3));
+    const Bytes whole = ljus::load_file(path, 10000);
+    for (std::size_t i = 0; i < whole.size(); ++i)
+        for (int bit = 0; bit < 8; ++bit) {
+            Bytes damaged = whole;
+            damaged[i] = static_cast<unsigned char>(damaged[i] ^ 1u << bit);
+            ljus::save_file(path, damaged);
+            REQUIRE(why_not(path) != "it was read");
+        }
+}
+
+TEST_CASE("photon_map_file: what is wrong is said in a sentence") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("a.map");
+    const std::string cannot = "cannot read '" + path + "': ";
+    CHECK(why_not(path) == cannot + "No such file or directory.");
+    const std::string text = "P6 this is a picture, and no map of photons at all";
+    ljus::save_file(path, Bytes(text.begin(), text.end()));
+    CHECK(why_not(path) == cannot + "it does not begin with 'ljus photon map\n', so "
+                                    "that it is another kind of file.");
+    ljus::save_photon_map(path, some_map<float>(3));
+    const Bytes whole = ljus::load_file(path, 10000);
+    Bytes later = whole;
+    later[16] = 2;
+    ljus::save_file(path, later);
+    CHECK(why_not(path) ==
+          cannot + "it is of version 2, and this library reads version 1.");
+    Bytes damaged = whole;
+    damaged[60] = static_cast<unsigned char>(damaged[60] + 1);
+    ljus::save_file(path, damaged);
+    CHECK(why_not(path) ==
+          cannot + "its checksum is wrong, so that it has been damaged.");
+    // More photons than one wants to have.
+    ljus::save_file(path, whole);
+    CHECK_THROWS_AS((void)ljus::load_photon_map(path, 2), std::runtime_error);
+    // A huge number of photons takes no memory before it is found to be wrong.
+    Bytes huge = whole;
+    for (std::size_t i = 24; i < 32; ++i) huge[i] = 255;
+    ljus::save_file(path, huge);
+    CHECK(why_not(path).starts_with(cannot + "it says that it holds"));
+}
+
+TEST_CASE(
+    "photon_map_file: photons that no map would take are refused, checksum or not") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("a.map");
+    ljus::save_photon_map(path, some_map<float>(3));
+    const Bytes whole = ljus::load_file(path, 10000);
+    const auto with = [&](std::size_t at, std::initializer_list<int> values) {
+        Bytes bytes = whole;
+        for (const int value : values) bytes[at++] = static_cast<unsigned char>(value);
+        Bytes sum;
+        ljus::detail::put_number(sum, ljus::detail::map_checksum(bytes));
+        std::copy(sum.begin(), sum.end(), bytes.begin() + 32);
+        ljus::save_file(path, bytes);
+        return why_not(path);
+    };
+    const std::string cannot = "cannot read '" + path + "': ";
+    CHECK(with(40, {0, 0, 128, 127}) == cannot + "it has a photon that is not finite.");
+    CHECK(with(40 + 38, {4}) == cannot + "it has a photon of kind 4.");
+    CHECK(with(40 + 38, {3}) == "it was read");
+}
+
+TEST_CASE("photon_map_file: a save that fails leaves the older file as it was") {
+    const ScratchFolder folder;
+    CHECK_THROWS_AS(
+        ljus::save_photon_map(folder.file("nowhere/a.map"), some_map<float>(3)),
+        std::runtime_error);
+}
