@@ -241,7 +241,7 @@ int main() {
     const auto first_hit = [&](const Ray& ray) -> std::optional<ljus::SurfacePoint> {
         const auto hit = closest_hit(scene, ray);
         if (!hit) return std::nullopt;
-        return surface_at(scene, ray, *hit).point;
+        return vertex_at(scene, ray, *hit).point;
     };
     const ljus::Quad& lamp = std::get<0>(scene.shapes)[scene.lights[0].object->index];
     const Ray middle = primary_ray(room.camera, ljus::Vec2{200, 200}, 400, 400);

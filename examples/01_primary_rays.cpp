@@ -180,6 +180,7 @@ void draw_patterns(const std::string& folder) {
 /// changes smoothly.
 // [test card]
 struct TestCard {
+    using Stream = ljus::RandomStream;
     bool edges = true;
 
     [[nodiscard]] double value(double x, double y) const {
@@ -300,7 +301,9 @@ void plot_errors(const std::string& folder, int pixels, int most) {
 }
 
 /// A floor of tiles to the horizon: what is too fine for the pixels.
-struct Tiles {};
+struct Tiles {
+    using Stream = ljus::RandomStream;
+};
 
 template <typename Log = ljus::NoLog>
 Rgb radiance(const Tiles&, const Ray& ray, ljus::RandomStream&, ljus::Counts&,

@@ -161,6 +161,7 @@ using MattRoom = decltype(matt_room());
 /// light that reaches it from points x'' of the lamp.
 // [area form]
 struct AreaForm {
+    using Stream = ljus::RandomStream;
     const MattRoom& scene;
     bool visibility = true; ///< False: the g of the report, 1/r^2.
 };
@@ -170,7 +171,7 @@ Rgb radiance(const AreaForm& form, const ljus::Ray& ray, ljus::RandomStream& str
              ljus::Counts&, Log&& = {}) {
     const auto hit = closest_hit(form.scene, ray);
     if (!hit) return Rgb{0};
-    const auto here = surface_at(form.scene, ray, *hit);
+    const auto here = vertex_at(form.scene, ray, *hit);
     const ljus::Quad& lamp = std::get<0>(form.scene.shapes).back();
     const ljus::SurfacePoint there = sample_area(lamp, next_2d(stream));
     const Vec3 way = there.position - here.point.position;

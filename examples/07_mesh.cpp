@@ -109,14 +109,14 @@ std::vector<Photon> glass_photons(const Room& room, long long count, bool factor
                                             static_cast<std::uint64_t>(i));
         const auto aimed = aim(room, choice, targets, stream);
         if (!aimed) continue;
-        FlightT<float> flight = aimed->flight;
+        EmittedPhotonT<float> flight = aimed->photon;
         flight.flux /= static_cast<float>(count);
         for (int bounce = 1; bounce <= 100; ++bounce) {
             start_bounce(stream, static_cast<std::uint64_t>(bounce));
             const auto hit = closest_hit(room, flight.ray);
             if (!hit || (bounce == 1 && hit->object != targets[0])) break;
             if (bounce == 1) met += double(flight.flux.x);
-            const auto surface = surface_at(room, flight.ray, *hit);
+            const auto surface = vertex_at(room, flight.ray, *hit);
             if (hit->object != targets[0]) {
                 if (surface.point.normal.y < 0.9f) break; // the lamp
                 landed += double(flight.flux.x);
@@ -127,10 +127,9 @@ std::vector<Photon> glass_photons(const Room& room, long long count, bool factor
                                    .normal = small_normal(surface.point.normal)});
                 break;
             }
-            const auto next = scatter(surface, Glass{.index = 1.5f},
-                                      to_local(surface.frame, -flight.ray.direction),
-                                      next_3d<float>(stream),
-                                      factor ? Transport::flux : Transport::radiance);
+            const auto next =
+                scatter(surface, Glass{.index = 1.5f}, next_3d<float>(stream),
+                        factor ? Transport::flux : Transport::radiance);
             if (!next) break;
             if (factor) flight.flux *= next->sample.weight;
             flight.ray = spawn_ray(surface.point, next->wi);

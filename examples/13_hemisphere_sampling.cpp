@@ -162,7 +162,7 @@ template <typename Way>
 std::optional<ljus::BsdfSample> sample(const Matt<Way>& matt, const ljus::Vec3& wo,
                                        const ljus::Vec3& u, ljus::Transport,
                                        ljus::Lobes which = ljus::Lobes::all) {
-    if (!has(which, ljus::Lobes::diffuse) || wo.z == 0) return std::nullopt;
+    if (!has(which, ljus::Lobes::non_specular) || wo.z == 0) return std::nullopt;
     ljus::Vec3 wi = Way::sample(ljus::Vec2{u.x, u.y});
     const float density = Way::pdf(wi);
     const Rgb weight = matt.albedo * std::numbers::inv_pi_v<float> * wi.z / density;

@@ -122,7 +122,7 @@ struct Studio {
     glm::dvec3 light(const ljus::Ray& ray, Color color, int depth) const {
         const auto hit = closest_hit(scene, ray);
         if (!hit) return glm::dvec3(0);
-        const auto at = surface_at(scene, ray, *hit);
+        const auto at = vertex_at(scene, ray, *hit);
         const Vec3 wo = to_local(at.frame, -ray.direction);
         if (hit->object.type == 1) return wo.z > 0 ? glm::dvec3(8) : glm::dvec3(0);
         if (depth == 0) return glm::dvec3(0);

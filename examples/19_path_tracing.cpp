@@ -172,9 +172,9 @@ struct Way {
 // [ways]
 const std::array ways{
     Way{"paths alone", "paths", {.sample_lights = false}},
-    Way{"shadow rays alone", "shadow", {.share = MisHeuristic::shadow_rays}},
+    Way{"shadow rays alone", "shadow", {.heuristic = MisHeuristic::shadow_rays}},
     Way{"both by balance", "balance"},
-    Way{"both by power", "power", {.share = MisHeuristic::power}}};
+    Way{"both by power", "power", {.heuristic = MisHeuristic::power}}};
 // [ways]
 
 /// The matt room by each way, and its noise against rays.
@@ -261,6 +261,7 @@ struct OwnerLog {
 
 template <typename Renderer>
 struct OneOwner {
+    using Stream = typename Renderer::Stream;
     Renderer whole;
     std::string_view owner;
 };
@@ -443,7 +444,7 @@ PathTracingSettings constant_chance(double p) {
     return {.roulette_depth = 1,
             .sample_lights = false,
             .roulette_threshold = 1e-30,
-            .roulette_most = p};
+            .roulette_max = p};
 }
 
 /// A constant chance: where the noise has a closed form, and where it has no end.
@@ -532,7 +533,7 @@ void roulette(const examples::Options& options, const Sizes& sizes) {
         const auto tracer =
             make_path_tracer(room.scene, {.roulette_depth = c.from,
                                           .roulette_threshold = c.threshold,
-                                          .roulette_most = c.most});
+                                          .roulette_max = c.most});
         noises.push_back(noise_of(tracer, low_camera(),
                                   {side, side, sizes.most, options.seed}, options));
     }
@@ -568,7 +569,7 @@ void roulette(const examples::Options& options, const Sizes& sizes) {
     };
     save("path_tracing-roulette-usual.png", {.roulette_depth = 1}, options.samples);
     save("path_tracing-roulette-rash.png",
-         {.roulette_depth = 1, .roulette_threshold = 1e-30, .roulette_most = 0.1},
+         {.roulette_depth = 1, .roulette_threshold = 1e-30, .roulette_max = 0.1},
          std::max(1, int(std::lround(rays))));
 }
 

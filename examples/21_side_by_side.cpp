@@ -222,35 +222,33 @@ struct Judge {
 
 /// What a matt surface sends on of each lamp's light, and of the caustics map's.
 template <typename Material>
-Rgb lamps_and_caustics(const Judge& judge, const ShadingT<float>& at,
+Rgb lamps_and_caustics(const Judge& judge, const VertexT<float>& at,
                        const Material& material, StratifiedStream& stream,
                        Counts& counts) {
     const Rgb lamps = soft_light(judge.scene, at, material, stream, counts);
-    return lamps + estimate_radiance(judge.caustics, at.surface, material, at.wo,
-                                     judge.gather, light_kinds, counts.map_photons);
+    return lamps + estimate_radiance(judge.caustics, at, material, at.wo, judge.gather,
+                                     light_kinds, counts.map_photons);
 }
 
 // [judge]
 Rgb radiance(const Judge& judge, const Ray& ray, StratifiedStream& stream,
-             Counts& counts, NoLog log = {}) {
+             Counts& counts, NoLog = {}) {
     Rgb sum{0};
-    PathT<float> path{.ray = ray};
-    for (int depth = 1; depth < 1000; ++depth) {
-        start_bounce(stream, std::uint64_t(depth));
-        const auto met = meet(judge.scene, path.ray, stream);
-        if (!met) break;
-        const auto at = shading(judge.scene, path.ray, met->hit, path.medium);
-        path.throughput *= transmittance(path.medium, met->distance);
-        if (at.emits() && !path.met_diffuse)
-            sum += path.throughput * at.surface.object.emission;
+    PathState path{.ray = ray};
+    while (path.depth < 1000) {
+        const auto vertex = next_vertex(judge.scene, path, stream);
+        if (!vertex) break;
+        if (vertex->emits() && !path.met_diffuse)
+            sum += path.throughput * vertex->object.emission;
         const auto at_material = [&](const auto& matter) {
-            if (has(lobes(matter), Lobes::diffuse))
+            if (has(lobes(matter), Lobes::non_specular))
                 sum += path.throughput *
-                       lamps_and_caustics(judge, at, matter, stream, counts);
-            return send_on(path, at, matter, Lobes::all, false, stream, log);
+                       lamps_and_caustics(judge, *vertex, matter, stream, counts);
+            return continue_path(path, *vertex, matter, Transport::radiance, Lobes::all,
+                                 stream);
         };
-        if (!visit_material_of(judge.scene, at.surface, at_material)) break;
-        if (depth >= 4 &&
+        if (!visit_material_at(judge.scene, *vertex, at_material)) break;
+        if (path.depth >= 4 &&
             !survives(path.throughput, path.eta_scale, next_1d(stream), 0.4f))
             break;
     }

@@ -62,7 +62,7 @@ Image draw(const Room<S>& room, int width, int height) {
                 room.camera, Vec2{float(x) + 0.5f, float(y) + 0.5f}, width, height);
             const auto hit = closest_hit(room.scene, ray);
             if (!hit) continue;
-            const auto surface = surface_at(room.scene, ray, *hit);
+            const auto surface = vertex_at(room.scene, ray, *hit);
             const Vec3 wo = to_local(surface.frame, -ray.direction);
             const Rgb albedo =
                 room.scene.visit_material(surface.object.material, [&](const auto& m) {
@@ -172,7 +172,7 @@ Arrivals bounce(float albedo, End end, long long paths, std::uint64_t seed) {
     for (long long path = 0; path < paths; ++path) {
         RandomStream stream =
             random_stream(seed, Pass::user, 0, static_cast<std::uint64_t>(path));
-        FlightT<float> flight = emit(room, choice, stream);
+        EmittedPhotonT<float> flight = emit(room, choice, stream);
         for (std::uint64_t hit_number = 0;; ++hit_number) {
             start_bounce(stream, hit_number + 1);
             const auto hit = closest_hit(room, flight.ray);
@@ -182,7 +182,7 @@ Arrivals bounce(float albedo, End end, long long paths, std::uint64_t seed) {
             arrivals.total += flux;
             arrivals.surfaces += 1 / double(paths);
 
-            const auto surface = surface_at(room, flight.ray, *hit);
+            const auto surface = vertex_at(room, flight.ray, *hit);
             const auto scattered =
                 sample(material, to_local(surface.frame, -flight.ray.direction),
                        next_3d<float>(stream), Transport::flux);
@@ -287,8 +287,8 @@ void compare_aims(const examples::Options& options, long long paths) {
     const Brought aimed = send([&](RandomStream& stream) {
         const auto sent = aim(room.scene, choice, targets, stream);
         if (!sent) return 0.0;
-        const auto hit = closest_hit(room.scene, sent->flight.ray);
-        return hit && hit->object == sent->target ? double(sent->flight.flux.y) : 0.0;
+        const auto hit = closest_hit(room.scene, sent->photon.ray);
+        return hit && hit->object == sent->target ? double(sent->photon.flux.y) : 0.0;
     });
 
     examples::Table table{.name = "emission-aim",
@@ -376,7 +376,7 @@ Orders follow(const Scene& room, const LightChoice& choice, Stream stream) {
         start_bounce(stream, number);
         const auto hit = closest_hit(room, flight.ray);
         if (!hit) break;
-        const auto at = surface_at(room, flight.ray, *hit);
+        const auto at = vertex_at(room, flight.ray, *hit);
         const Vec3& p = at.point.position;
         const bool on_patch =
             p.y < -0.999f && p.x > 0 && p.x < 0.6f && p.z > 0.1f && p.z < 0.7f;
@@ -617,7 +617,7 @@ void plot_error(const examples::Options& options) {
                 for (int j = 0; j < 8; ++j) {
                     const double x = (i + 0.5) / 4 - 1, y = (j + 0.5) / 4 - 1;
                     ++places;
-                    SurfaceT<float> floor{
+                    VertexT<float> floor{
                         .point{.position{float(x), float(y), 0}}, .frame{}, .object{}};
                     for (std::size_t k = 0; k < radii.size(); ++k) {
                         std::uint64_t gathered = 0;

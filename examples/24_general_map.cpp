@@ -115,38 +115,31 @@ void figures(const examples::Options& options, long long count) {
 /// say where a camera path first meets a matt surface.
 template <typename Scene>
 struct MapView {
+    using Stream = RandomStream;
     const PhotonMapper<Scene>& mapper; ///< The scene and its maps.
 };
 
 // [map view]
 template <typename Scene, typename Log>
-Rgb radiance(const MapView<Scene>& view, Ray ray, RandomStream& stream, Counts& counts,
-             Log&&) {
-    const auto& [scene, maps, settings] = view.mapper;
-    Rgb sum{0}, throughput{1}, medium{0};
+Rgb radiance(const MapView<Scene>& view, const Ray& ray, RandomStream& stream,
+             Counts& counts, Log&&) {
+    const auto& scene = view.mapper.scene;
+    Rgb sum{0};
+    PathState path{.ray = ray};
     const auto add = [&](const char*, const char*, const Rgb& light) {
-        sum += throughput * light;
+        sum += path.throughput * light;
     };
-    for (int depth = 1; depth <= 20; ++depth) {
-        start_bounce(stream, static_cast<std::uint64_t>(depth));
-        const auto hit = closest_hit(scene, ray);
-        if (!hit) break;
-        const auto at = shading(scene, ray, *hit, medium);
-        throughput *= transmittance(medium, hit->at.t);
-        if (at.emits()) sum += throughput * at.surface.object.emission;
-        const bool goes_on =
-            scene.visit_material(at.surface.object.material, [&](const auto& material) {
-                if (has(lobes(material), Lobes::diffuse))
-                    light_at(view.mapper, at, material, true, stream, counts, add);
-                const auto next = sample(material, at.wo, next_3d<float>(stream),
-                                         Transport::radiance, Lobes::specular);
-                if (!next) return false;
-                throughput *= next->weight;
-                medium = medium_beyond(medium, material, at.wo, next->wi);
-                ray = spawn_ray(at.surface.point, to_world(at.surface.frame, next->wi));
-                return true;
-            });
-        if (!goes_on) break;
+    while (path.depth < 20) {
+        const auto vertex = next_vertex(scene, path, stream);
+        if (!vertex) break;
+        if (vertex->emits()) sum += path.throughput * vertex->object.emission;
+        const auto at_material = [&](const auto& material) {
+            if (has(lobes(material), Lobes::non_specular))
+                light_at(view.mapper, *vertex, material, true, stream, counts, add);
+            return continue_path(path, *vertex, material, Transport::radiance,
+                                 Lobes::specular, stream);
+        };
+        if (!visit_material_at(scene, *vertex, at_material)) break;
     }
     return sum;
 }
@@ -187,9 +180,9 @@ void map_as_picture(const examples::Options& options) {
 /// What a white surface would send, times pi, at a point of the floor y = 0.
 double irradiance(const PhotonMap& map, const Point& at, double radius) {
     const Vec3 up{0, 1, 0};
-    const SurfaceT<float> floor{.point{.position = Vec3(at), .normal = up},
-                                .frame = frame_around(up),
-                                .object = {}};
+    const VertexT<float> floor{.point{.position = Vec3(at), .normal = up},
+                               .frame = frame_around(up),
+                               .object = {}};
     std::uint64_t gathered = 0;
     const Rgb sent = estimate_radiance(map, floor, Lambertian{.albedo = Rgb{1}},
                                        Vec3{0, 0, 1}, {.radius = float(radius)},

@@ -93,7 +93,7 @@ void add_floor(Stage& stage, float y) {
 /// The irradiance that an estimate reads on a floor: a white one sends E/pi.
 double read(const PhotonMap& map, const Vec3& at,
             const DensityEstimateSettings& gather) {
-    SurfaceT<float> floor{.point{.position = at, .normal{0, 1, 0}}};
+    VertexT<float> floor{.point{.position = at, .normal{0, 1, 0}}};
     floor.frame = frame_around(floor.point.normal);
     std::uint64_t gathered = 0;
     return pi * double(estimate_radiance(map, floor, Lambertian{.albedo = Rgb{1}},
@@ -353,7 +353,7 @@ Image light_image(const Room<S>& room, const RenderSettings& picture,
             const Ray ray{.origin = camera.position, .direction = way / float(d)};
             const auto hit = closest_hit(room.scene, ray);
             if (!hit) continue;
-            const auto at = surface_at(room.scene, ray, *hit);
+            const auto at = vertex_at(room.scene, ray, *hit);
             const Vec3 wo = to_local(at.frame, -ray.direction);
             const Vec3 wi = to_local(at.frame, -photon.direction);
             const Rgb f = room.scene.visit_material(
@@ -387,6 +387,7 @@ struct CausticLog {
 /// A photon mapper of which the picture shows the caustics alone.
 template <typename Renderer>
 struct CausticsOf {
+    using Stream = typename Renderer::Stream;
     const Renderer& renderer; ///< The whole.
 };
 

@@ -35,12 +35,13 @@ using namespace ljus;
 /// rays each would take minutes.
 template <typename Renderer>
 struct Stoppable {
+    using Stream = typename Renderer::Stream;
     const Renderer& renderer;
 };
 
 template <typename Renderer, std::floating_point T, typename Log>
 RgbT<T> radiance(const Stoppable<Renderer>& stoppable, const RayT<T>& ray,
-                 RandomStream& stream, Counts& counts, Log&& log) {
+                 typename Renderer::Stream& stream, Counts& counts, Log&& log) {
     examples::stop_if_asked();
     return radiance(stoppable.renderer, ray, stream, counts, log);
 }

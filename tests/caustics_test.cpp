@@ -87,7 +87,7 @@ Mean power_of(const Room& room, long long count) {
 /// The irradiance that an estimate reads on the floor.
 double irradiance(const PhotonMap& map, Vec3 at,
                   const DensityEstimateSettings& gather) {
-    SurfaceT<float> surface{};
+    VertexT<float> surface{};
     surface.point.position = at;
     surface.point.normal = {0, 1, 0};
     surface.frame = frame_around(surface.point.normal);

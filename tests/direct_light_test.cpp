@@ -32,7 +32,8 @@ Mean direct(const RoomT<T>& room, const RayT<T>& ray, const LambertianT<T>& mate
             int samples, Counts& counts, RgbT<T> medium = RgbT<T>{T(0)}) {
     const auto hit = closest_hit(room, ray);
     REQUIRE(hit);
-    const ShadingT<T> at = shading(room, ray, *hit, medium);
+    VertexT<T> at = vertex_at(room, ray, *hit);
+    at.medium = medium;
     auto stream = random_stream(1, Pass::user, 0, 0);
     Mean mean;
     for (int i = 0; i < samples; ++i) {

@@ -125,7 +125,7 @@ AimedFlux aim_at_all(const TestScene& scene, long long photons,
         if (!aimed) {
             ++result.behind;
         } else {
-            const auto hit = closest_hit(scene, aimed->flight.ray);
+            const auto hit = closest_hit(scene, aimed->photon.ray);
             keep = hit && hit->object == aimed->target;
         }
         if (keep) ++result.kept;
@@ -133,7 +133,7 @@ AimedFlux aim_at_all(const TestScene& scene, long long photons,
             for (int c = 0; c < 3; ++c)
                 result.means[j][std::size_t(c)].add(keep && result.targets[j] ==
                                                                 aimed->target
-                                                        ? double(aimed->flight.flux[c])
+                                                        ? double(aimed->photon.flux[c])
                                                         : 0.0);
     }
     return result;
@@ -542,8 +542,8 @@ TEST_CASE("emission: the light of an aimed photon has its colour and its number"
         RandomStream stream = stream_of(i);
         const auto aimed = aim(stage.scene, choice, found.targets, stream);
         REQUIRE(aimed);
-        CHECK((aimed->flight.flux.x > 0) == (aimed->flight.light == 0));
-        CHECK((aimed->flight.flux.y > 0) == (aimed->flight.light == 1));
+        CHECK((aimed->photon.flux.x > 0) == (aimed->photon.light == 0));
+        CHECK((aimed->photon.flux.y > 0) == (aimed->photon.light == 1));
     }
 }
 

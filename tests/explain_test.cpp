@@ -49,7 +49,9 @@ void check_sums(const Renderer& renderer, const Camera& camera) {
 }
 
 // A renderer whose rays are NaN, but for every other one.
-struct HalfNan {};
+struct HalfNan {
+    using Stream = RandomStream;
+};
 
 [[maybe_unused]] Rgb radiance(const HalfNan&, const Ray&, RandomStream&, Counts& counts,
                               auto&& log) {

@@ -442,9 +442,9 @@ namespace {
 double irradiance(const PhotonMap& map, const Vec3& position, const Vec3& normal,
                   float radius, PhotonKind kind, Kernel kernel = Kernel::epanechnikov,
                   float side = 1) {
-    SurfaceT<float> surface{.point{.position = position, .normal = normal},
-                            .frame = frame_around(normal),
-                            .object{}};
+    VertexT<float> surface{.point{.position = position, .normal = normal},
+                           .frame = frame_around(normal),
+                           .object{}};
     std::uint64_t gathered = 0;
     const Rgb radiance = estimate_radiance(
         map, surface, Lambertian{.albedo = Rgb{1}}, Vec3{0, 0, side},

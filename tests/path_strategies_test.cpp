@@ -95,8 +95,8 @@ TEST_CASE("multiple importance: all ways to share a lamp's light have one mean")
                                  to_plate);
         };
         const Mean both = seen({}, 1);
-        const Mean power = seen({.share = MisHeuristic::power}, 2);
-        const Mean light = seen({.share = MisHeuristic::shadow_rays}, 3);
+        const Mean power = seen({.heuristic = MisHeuristic::power}, 2);
+        const Mean light = seen({.heuristic = MisHeuristic::shadow_rays}, 3);
         const Mean gloss = seen({.sample_lights = false}, 4);
         CAPTURE(c.roughness);
         CAPTURE(both.mean);
@@ -143,8 +143,9 @@ TEST_CASE("multiple importance: in a box furnace no surface brings more than twi
     CAPTURE(both.most);
     CHECK(std::abs(apart(both.mean, 2 - std::exp2(-12))) < 3.5);
     CHECK(both.most < 1 + 2 * 1.0001);
-    const Seen shadow = seen(
-        {.max_depth = 12, .roulette_depth = 100, .share = MisHeuristic::shadow_rays});
+    const Seen shadow = seen({.max_depth = 12,
+                              .roulette_depth = 100,
+                              .heuristic = MisHeuristic::shadow_rays});
     CAPTURE(shadow.most);
     CHECK(shadow.most > 20);
 }
@@ -160,7 +161,7 @@ TEST_CASE("roulette: a hundred seeds have the furnace's mean, at every threshold
             make_path_tracer(room.scene, {.roulette_depth = 1,
                                           .sample_lights = false,
                                           .roulette_threshold = c.threshold,
-                                          .roulette_most = c.most});
+                                          .roulette_max = c.most});
         double chi_square = 0;
         Mean all;
         for (std::uint64_t seed = 1; seed <= 100; ++seed) {
@@ -183,7 +184,7 @@ TEST_CASE("roulette: the noise of a constant chance is the closed form's") {
         const auto tracer = make_path_tracer(room.scene, {.roulette_depth = 1,
                                                           .sample_lights = false,
                                                           .roulette_threshold = 1e-9,
-                                                          .roulette_most = p});
+                                                          .roulette_max = p});
         const Mean seen = mean_radiance(tracer, 100000, 9, in_furnace);
         const double measured = seen.squares / (seen.count - 1);
         CAPTURE(p);
@@ -227,7 +228,7 @@ TEST_CASE("path tracing: settings that make no sense are refused by name") {
     CHECK(refused({.max_depth = 0}, "max_depth"));
     CHECK(refused({.roulette_threshold = -1}, "roulette_threshold"));
     CHECK(refused({.roulette_threshold = nan}, "roulette_threshold"));
-    CHECK(refused({.roulette_most = 0}, "roulette_most"));
-    CHECK(refused({.roulette_most = 1.5}, "roulette_most"));
-    CHECK(refused({.roulette_most = nan}, "roulette_most"));
+    CHECK(refused({.roulette_max = 0}, "roulette_max"));
+    CHECK(refused({.roulette_max = 1.5}, "roulette_max"));
+    CHECK(refused({.roulette_max = nan}, "roulette_max"));
 }

@@ -34,8 +34,8 @@ constexpr Rgb flux_density{3.0f, 2.0f, 1.0f}; // W per unit of area, on the squa
 
 /// The floor z = 0 at a point.
 template <typename T = float>
-ljus::SurfaceT<T> floor_at(ljus::Vec3T<T> position) {
-    ljus::SurfaceT<T> surface{};
+ljus::VertexT<T> floor_at(ljus::Vec3T<T> position) {
+    ljus::VertexT<T> surface{};
     surface.point.position = position;
     surface.point.normal = {0, 0, 1};
     surface.frame = ljus::frame_around(surface.point.normal);
@@ -336,8 +336,8 @@ TEST_CASE("photon_map: photons of another wall are left out by the thickness") {
 namespace {
 
 /// A surface point with a normal.
-ljus::SurfaceT<float> surface_with(Vec3 position, Vec3 normal) {
-    ljus::SurfaceT<float> surface{};
+ljus::VertexT<float> surface_with(Vec3 position, Vec3 normal) {
+    ljus::VertexT<float> surface{};
     surface.point.position = position;
     surface.point.normal = normal;
     surface.frame = ljus::frame_around(normal);

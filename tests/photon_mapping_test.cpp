@@ -223,7 +223,7 @@ TEST_CASE("photon mapping: away from edges the bias falls with the square of the
     const Ray down{.origin{0, 0.5f, 0}, .direction{0, -1, 0}};
     const auto hit = closest_hit(room, down);
     REQUIRE(hit);
-    const SurfaceT<float> surface = surface_at(room, down, *hit);
+    const VertexT<float> surface = vertex_at(room, down, *hit);
     const Lambertian white{.albedo = Rgb{0.5f}};
     const float radii[] = {0.8f, 0.4f, 0.2f, 0.1f};
     Mean seen[4];

@@ -117,24 +117,3 @@ TEST_CASE("query: in an empty scene, and for bad rays, nothing is met") {
         CHECK_FALSE(occluded(scene, bad));
     }
 }
-
-TEST_CASE("query: the surface at a hit, seen from its outer side") {
-    const auto scene = make_scene(
-        placed(Sphere{{0, 0, -5}, 1}, Lambertian{}, Rgb{2}),
-        placed(Sphere{{0, 0, -5}, 50}, Lambertian{.albedo = Rgb{0.25f}}, Rgb{0}, true));
-    const Ray ray; // along -z
-    const auto ball = surface_at(scene, ray, *closest_hit(scene, ray));
-    CHECK(ball.point.position == Vec3{0, 0, -4});
-    CHECK(ball.point.normal == Vec3{0, 0, 1});
-    CHECK(ball.object.emission == Rgb{2});
-    CHECK(ball.frame.normal == ball.point.normal);
-    const Ray away{.direction = {0, 0, 1}};
-    const auto room = surface_at(scene, away, *closest_hit(scene, away));
-    CHECK(room.point.position == Vec3{0, 0, 45});
-    CHECK(room.point.normal == Vec3{0, 0, -1}); // it points inwards
-    CHECK(room.object.material == MaterialId{0, 1});
-    CHECK(room.object.inside_out);
-    CHECK(std::abs(glm::dot(room.frame.tangent, room.frame.normal)) < 1e-6f);
-    // Leaving is on the inside, whichever way the normal points.
-    CHECK(offset_ray_origin(room.point, Vec3{0, 0, -1}).z < 45);
-}

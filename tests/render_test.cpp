@@ -14,6 +14,7 @@ namespace {
 
 /// A renderer that answers where its rays went.
 struct Probe {
+    using Stream = RandomStream;
     bool bad = false; ///< Every fourth path is not a number.
 };
 template <std::floating_point T, typename Log = NoLog>

@@ -205,15 +205,16 @@ TEST_CASE("thin sheets: what a path meets, by chance, is in the mean what light 
     Mean stopped[3], through[3];
     for (std::uint64_t path = 0; path < 50000; ++path) {
         auto stream = random_stream(1, Pass::user, 0, path);
-        Ray rest = ray;
-        const auto met = meet(room, rest, stream);
+        PathState state{.ray = ray};
+        const auto met = next_vertex(room, state, stream);
         REQUIRE(met);
-        const bool first = met->hit.object.type == 0 && rest.origin == ray.origin;
-        const bool wall = met->hit.object.type == 1;
+        const Rgb arrives = state.throughput / met->stop_probability;
+        const bool first = met->id.type == 0 && state.ray.origin == ray.origin;
+        const bool wall = met->id.type == 1;
         if (wall) REQUIRE(met->distance == doctest::Approx(1.9));
         for (int k = 0; k < 3; ++k) {
-            stopped[k].add(first ? double(met->arrives()[k]) : 0);
-            through[k].add(wall ? double(met->arrives()[k]) : 0);
+            stopped[k].add(first ? double(arrives[k]) : 0);
+            through[k].add(wall ? double(arrives[k]) : 0);
         }
     }
     const float cosine = std::sqrt(0.36f - 0.04f) / 0.6f;

@@ -10,7 +10,7 @@
 
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/textured.hpp"
-#include "ljus/path/thin_surfaces.hpp"
+#include "ljus/path/next_vertex.hpp"
 #include "ljus/scene/make_scene.hpp"
 #include "support/bsdf_checks.hpp"
 

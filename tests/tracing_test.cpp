@@ -246,8 +246,8 @@ TEST_CASE("tracing: a caustic has the power that the glass was given") {
                 auto stream = random_stream(seed, Pass::user, 0, path);
                 auto flight = emit(scene, choice, stream);
                 flight.flux /= 100000.0f;
-                trace(scene, MapType::caustics, flight, std::nullopt, blind, stream,
-                      out, audit);
+                trace_photon(scene, MapType::caustics, flight, std::nullopt, blind,
+                             stream, out, audit);
             }
             for (const Photon& photon : out) sum += double(photon.flux.x);
             found.add(sum);
@@ -325,8 +325,8 @@ TEST_CASE("tracing: aimed photons equal blind ones, whatever their targets") {
                 auto stream = random_stream(seed, Pass::user, 0, path);
                 auto flight = emit(scene, choice, stream);
                 flight.flux /= float(paths);
-                trace(scene, MapType::caustics, flight, std::nullopt,
-                      PhotonPassSettings{}, stream, out, audit);
+                trace_photon(scene, MapType::caustics, flight, std::nullopt,
+                             PhotonPassSettings{}, stream, out, audit);
             }
             add(blind, out);
         }
@@ -342,7 +342,7 @@ TEST_CASE("tracing: aimed photons equal blind ones, whatever their targets") {
 }
 
 TEST_CASE("tracing: the kinds of photons are those of their paths") {
-    // The walk of a photon is done again beside trace(), from the same random numbers,
+    // The walk of a photon is done again beside trace_photon(), from the same random numbers,
     // with its path spelt out; the photons must be those whose path the law owns.
     const Room room = make_room<float>(Ball::mixture, Lamp::quad, 2);
     const LightChoice choice = light_choice(room.lights);
@@ -353,8 +353,8 @@ TEST_CASE("tracing: the kinds of photons are those of their paths") {
             const auto flight = emit(room, choice, stream);
             std::vector<Photon> out;
             FluxAudit audit;
-            trace(room, law, flight, std::nullopt, {.shadow_photons = false}, stream,
-                  out, audit);
+            trace_photon(room, law, flight, std::nullopt, {.shadow_photons = false},
+                         stream, out, audit);
 
             std::vector<std::pair<std::string, Vec3>> expected;
             auto again = random_stream(5, Pass::user, 0, path);
@@ -364,10 +364,10 @@ TEST_CASE("tracing: the kinds of photons are those of their paths") {
                 start_bounce(again, bounce);
                 const auto hit = closest_hit(room, walk.ray);
                 if (!hit) break;
-                const auto at = surface_at(room, walk.ray, *hit);
+                const auto at = vertex_at(room, walk.ray, *hit);
                 const bool alive =
                     room.visit_material(at.object.material, [&](const auto& material) {
-                        if (has(lobes(material), Lobes::diffuse))
+                        if (has(lobes(material), Lobes::non_specular))
                             expected.push_back({letters + "D", at.point.position});
                         const auto next = sample(
                             material, to_local(at.frame, -walk.ray.direction),
@@ -528,7 +528,7 @@ TEST_CASE("tracing: spots and suns balance, and their photons are what paths fin
                 start_bounce(stream, depth);
                 const auto hit = closest_hit(open, ray);
                 if (!hit) break;
-                const auto at = surface_at(open, ray, *hit);
+                const auto at = vertex_at(open, ray, *hit);
                 const Vec3 n =
                     at.frame.normal *
                     (glm::dot(at.frame.normal, ray.direction) < 0 ? 1.0f : -1.0f);

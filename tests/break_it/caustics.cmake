@@ -30,7 +30,7 @@ ljus_break_it(NAME caustics-k HEADER photons/photon_map.hpp TEST caustics
 
 # Photons that were aimed at one ball and meet another first count for both.
 ljus_break_it(NAME caustics-overlap HEADER photons/photon_path.hpp TEST caustics
-    FROM "met->hit.object != *target"
+    FROM "vertex->id != *target"
     TO   "false"
     CASES "caustics: overlapping targets*")
 
@@ -55,8 +55,10 @@ ljus_break_it(NAME caustics-reflect HEADER materials/glass.hpp TEST caustics
 # The report's program: a photon starts a tenth of a unit inside the glass, which is then
 # a lens of another shape.
 ljus_break_it(NAME caustics-start HEADER geometry/surface_point.hpp TEST caustics
-    FROM "return {.origin = offset_ray_origin(point, direction), .direction = direction};"
-    TO   "return {.origin = offset_ray_origin(point, direction) - (glm::dot(direction, point.normal) < T(0) ? T(0.1) : T(0)) * point.normal, .direction = direction};"
+    FROM "return {.origin = offset_ray_origin(point, direction),
+            .direction = direction,"
+    TO   "return {.origin = offset_ray_origin(point, direction) - (glm::dot(direction, point.normal) < T(0) ? T(0.1) : T(0)) * point.normal,
+            .direction = direction,"
     CASES "caustics: the light of a point light*")
 
 # Coloured glass that absorbs nothing.

@@ -24,6 +24,6 @@ ljus_break_it(NAME direct-light-side HEADER scene/light.hpp TEST direct_light
 
 # Nothing hides anything.
 ljus_break_it(NAME direct-light-shadow HEADER path/direct_light.hpp TEST direct_light
-    FROM "const RgbT<T> visible = visibility(scene, point, sampled->point);"
-    TO   "const RgbT<T> visible{T(1)};"
+    FROM "visibility(scene, point, sampled->point, vertex.time);"
+    TO   "RgbT<T>{T(1)};"
     CASES "direct light: what stands between*")

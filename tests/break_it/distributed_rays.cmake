@@ -1,29 +1,29 @@
 # One point of the lamp for all rays: Whitted's hard shadow, not a penumbra.
 ljus_break_it(NAME distributed-rays-hard-shadow HEADER render/distributed.hpp
     TEST distributed_rays
-    FROM "direct_light(scene, light, at, material, u, whole, counts)"
-    TO   "direct_light(scene, light, at, material, Vec2T<T>{T(0.5)}, whole, counts)"
+    FROM "direct_light(scene, light, vertex, material, u, whole, counts)"
+    TO   "direct_light(scene, light, vertex, material, Vec2T<T>{T(0.5)}, whole, counts)"
     CASES "distributed rays: the penumbra*")
 
 # A lamp in gloss has two owners: the shadow ray and the reflected one.
 ljus_break_it(NAME distributed-rays-two-owners HEADER render/distributed.hpp
     TEST distributed_rays
-    FROM "if (Glossy_<Material> && light.object) continue;"
+    FROM "if (gloss && light.object) continue;"
     TO   ""
     CASES "distributed rays: gloss sees*")
 
 # Matt surfaces send their light on as well.
 ljus_break_it(NAME distributed-rays-matt HEADER render/distributed.hpp
     TEST distributed_rays
-    FROM "gloss ? Lobes::all : Lobes::specular"
-    TO   "gloss ? Lobes::all : Lobes::all"
+    FROM "has(parts, Lobes::glossy) ? Lobes::all : Lobes::specular"
+    TO   "Lobes::all"
     CASES "distributed rays: a matt surface*")
 
 # The depth counts one turn too many.
 ljus_break_it(NAME distributed-rays-depth HEADER render/distributed.hpp
     TEST distributed_rays
-    FROM "if (depth == tracer.settings.max_depth) return false;"
-    TO   "if (depth > tracer.settings.max_depth) return false;"
+    FROM "if (path.depth > tracer.settings.max_depth) return false;"
+    TO   "if (path.depth > tracer.settings.max_depth + 1) return false;"
     CASES "distributed rays: every path*")
 
 # Nothing moves.
@@ -41,11 +41,10 @@ ljus_break_it(NAME distributed-rays-bounds HEADER geometry/moving.hpp
     CASES "distributed rays: at each time*")
 
 # Shadow rays run through the scene as it was when the shutter opened.
-ljus_break_it(NAME distributed-rays-shadow-time HEADER path/shutter.hpp
+ljus_break_it(NAME distributed-rays-shadow-time HEADER path/direct_light.hpp
     TEST distributed_rays
-    FROM "if (at.scene.ids.empty()) return closest_hit(at, ray).has_value();"
-    TO   "if (true) return occluded(at.scene, ray);"
-    CASES "distributed rays: at each time*")
+    FROM "visibility(scene, point, sampled->point, vertex.time);"
+    TO   "visibility(scene, point, sampled->point);")
 
 # Pixels, not planes: sharp on a sphere around the lens.
 ljus_break_it(NAME lens-camera-sphere HEADER scene/lens_camera.hpp TEST lens_camera

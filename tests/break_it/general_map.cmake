@@ -7,8 +7,8 @@ ljus_break_it(NAME general-map-shadow-normal HEADER photons/photon_path.hpp TEST
 
 # And the wrong way round.
 ljus_break_it(NAME general-map-shadow-side HEADER photons/photon_path.hpp TEST general_map
-    FROM "out.push_back({surface.point.position, ray.direction, flight.flux,"
-    TO   "out.push_back({surface.point.position, -ray.direction, flight.flux,"
+    FROM "out.push_back({vertex.point.position, ray.direction, photon.flux,"
+    TO   "out.push_back({vertex.point.position, -ray.direction, photon.flux,"
     CASES "general map: direct + shadow*")
 
 # One shadow photon a path: only the next surface behind is told.
@@ -19,13 +19,13 @@ ljus_break_it(NAME general-map-shadow-one HEADER photons/photon_path.hpp TEST ge
 
 # The surface that hides counts itself among the hidden.
 ljus_break_it(NAME general-map-shadow-first HEADER photons/photon_path.hpp TEST general_map
-    FROM [[RayT<T> ray = spawn_ray(first, flight.ray.direction);]]
-    TO   [[(void)first; RayT<T> ray = flight.ray;]]
+    FROM [[RayT<T> ray = spawn_ray(first, photon.ray.direction, photon.ray.time);]]
+    TO   [[(void)first; RayT<T> ray = photon.ray;]]
     CASES "general map: direct + shadow*")
 
 # Photons on mirrors and glass.
 ljus_break_it(NAME general-map-mirror HEADER photons/photon_path.hpp TEST general_map
-    FROM "if (!owned || !has(lobes(material), Lobes::diffuse)) return;"
+    FROM "if (!owned || !has(lobes(material), Lobes::non_specular)) return;"
     TO   "if (!owned) return;"
     CASES "general map: photons lie on matt*")
 
@@ -43,20 +43,20 @@ ljus_break_it(NAME general-map-light HEADER photons/emission.hpp TEST general_ma
 
 # Direct photons counted as indirect, and the other way round.
 ljus_break_it(NAME general-map-kind HEADER photons/photon_path.hpp TEST general_map
-    FROM "if (photon.met_diffuse) return PhotonKind::indirect;"
-    TO   "if (!photon.met_diffuse) return PhotonKind::indirect;"
+    FROM "if (path.met_diffuse) return PhotonKind::indirect;"
+    TO   "if (!path.met_diffuse) return PhotonKind::indirect;"
     CASES "general map: direct and indirect*")
 
 # The power of all paths in each photon.
 ljus_break_it(NAME general-map-number HEADER photons/tracing.hpp TEST general_map
-    FROM [[flight.flux /= static_cast<T>(pass.photons);]]
+    FROM [[photon.flux /= static_cast<T>(pass.photons);]]
     TO   [[(void)0;]]
     CASES "general map: direct and indirect*")
 
 # The cosine a second time, as the report's program has it at each bounce.
 ljus_break_it(NAME general-map-cosine HEADER photons/photon_path.hpp TEST general_map
-    FROM [[flight.flux = *survivor;]]
-    TO   [[flight.flux = *survivor * std::abs(scattered.wi.z);]]
+    FROM [[path.throughput = *survivor;]]
+    TO   [[path.throughput = *survivor * std::abs(glm::dot(path.ray.direction, vertex.point.normal));]]
     CASES "general map: direct and indirect*")
 
 # A disc of the wrong area.

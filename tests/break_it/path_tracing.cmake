@@ -8,15 +8,15 @@ ljus_break_it(NAME path-tracing-light-choice HEADER render/path_tracing.hpp
 # A lamp that is met counts in full, though shadow rays have counted it.
 ljus_break_it(NAME path-tracing-emission-weight HEADER render/path_tracing.hpp
     TEST path_tracing
-    FROM "return mis_weight(settings.share, path.bsdf_pdf, other) * all;"
+    FROM "return mis_weight(settings.heuristic, path.pdf, other) * all;"
     TO   "return T(other > T(0) ? 1 : 0) * all;"
     CASES "path tracing: in a furnace every*")
 
 # The last surface's lamp, seen by nobody but its shadow ray, which is weighed down.
-ljus_break_it(NAME path-tracing-last-surface HEADER path/camera_path.hpp
+ljus_break_it(NAME path-tracing-last-surface HEADER render/path_tracing.hpp
     TEST path_tracing
-    FROM "!scattered || (last && scattered->sample.specular)"
-    TO   "!scattered || last"
+    FROM "if (path.depth == settings.max_depth && path.specular) break;"
+    TO   "if (path.depth == settings.max_depth) break;"
     CASES "path tracing: in a furnace every*")
 
 # Radiance leaves glass unchanged: only light that starts in the glass notices.
@@ -26,23 +26,23 @@ ljus_break_it(NAME path-tracing-n2 HEADER materials/glass.hpp TEST path_tracing
     CASES "path tracing: a lamp embedded*")
 
 # The way through glass is not measured.
-ljus_break_it(NAME path-tracing-medium HEADER render/path_tracing.hpp TEST path_tracing
-    FROM "path.throughput *= transmittance(path.medium, met->distance) * met->arrives();"
-    TO   ""
+ljus_break_it(NAME path-tracing-medium HEADER path/next_vertex.hpp TEST path_tracing
+    FROM "path.throughput *= transmittance(path.medium, distance) * through;"
+    TO   "path.throughput *= through;"
     CASES "path tracing: a slab*")
 
 # A lamp that the path meets is taken for the only one.
 ljus_break_it(NAME path-tracing-light-density HEADER render/path_tracing.hpp
     TEST path_strategies
-    FROM "return pdf * probability_of<T>(tracer.lights, at.surface.object.light);"
+    FROM "return pdf * probability_of<T>(tracer.lights, vertex.object.light);"
     TO   "return pdf;"
     CASES "multiple importance: all ways*")
 
 # Shadow rays are believed, and the lamp that a path meets is counted as well.
 ljus_break_it(NAME path-tracing-shadow-rays-alone HEADER render/path_tracing.hpp
     TEST path_strategies
-    FROM "if (settings.share == MisHeuristic::shadow_rays) return RgbT<T>{T(0)};"
-    TO   "if (settings.share == MisHeuristic::shadow_rays) return all;"
+    FROM "if (settings.heuristic == MisHeuristic::shadow_rays) return RgbT<T>{T(0)};"
+    TO   "if (settings.heuristic == MisHeuristic::shadow_rays) return all;"
     CASES "multiple importance: all ways*")
 
 # Squares on one side only.
@@ -53,8 +53,8 @@ ljus_break_it(NAME path-tracing-power HEADER render/path_tracing.hpp
     CASES "multiple importance: the shares*")
 
 # A survivor is paid for as if the most likely outcome had been certain.
-ljus_break_it(NAME path-tracing-roulette-most HEADER path/shading.hpp
+ljus_break_it(NAME path-tracing-roulette-most HEADER path/path_state.hpp
     TEST path_strategies
     FROM "throughput /= probability;"
-    TO   "throughput /= std::min(T(1), share / threshold);"
+    TO   "throughput /= std::min(T(1), carried / threshold);"
     CASES "roulette: a hundred seeds*")

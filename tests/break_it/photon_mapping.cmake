@@ -6,8 +6,8 @@ ljus_break_it(NAME photon-mapping-n2 HEADER materials/glass.hpp TEST photon_mapp
 
 # Flux that enters glass as if it were radiance.
 ljus_break_it(NAME photon-mapping-flux HEADER photons/photon_path.hpp TEST photon_mapping
-    FROM "scatter(surface, material, wo, u, Transport::flux,"
-    TO   "scatter(surface, material, wo, u, Transport::radiance,"
+    FROM "continue_path(path, vertex, material, Transport::flux, which, stream)"
+    TO   "continue_path(path, vertex, material, Transport::radiance, which, stream)"
     CASES "photon mapping: a matt ball embedded*")
 
 # A cosine in the estimate, which the arriving flux holds already: photons one by one, and
@@ -36,7 +36,7 @@ ljus_break_it(NAME photon-mapping-shadow HEADER photons/photon.hpp
     CASES "photon mapping: the general map*")
 
 # A lamp within coloured glass shines as if the glass were clear.
-ljus_break_it(NAME photon-mapping-start HEADER photons/photon_path.hpp TEST photon_mapping
-    FROM "glm::dot(surface.frame.normal, ray.direction) > T(0)"
+ljus_break_it(NAME photon-mapping-start HEADER path/next_vertex.hpp TEST photon_mapping
+    FROM "glm::dot(vertex->frame.normal, path.ray.direction) > T(0)"
     TO   "false"
     CASES "photon mapping: lamps and matt balls*")

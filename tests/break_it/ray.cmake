@@ -10,6 +10,7 @@ ljus_break_it(NAME ray-t-min HEADER geometry/ray.hpp TEST ray
 
 # A test that starts where the hit was counted: definition 3.1 hits its own surface.
 ljus_break_it(NAME ray-stay HEADER geometry/surface_point.hpp TEST ray
-    FROM "return {.origin = offset_ray_origin(point, direction), .direction = direction};"
-    TO   "return {.origin = point.position, .direction = direction};"
+    FROM "return {.origin = offset_ray_origin(point, direction),
+            .direction = direction,"
+    TO   "return {.origin = point.position, .direction = direction,"
     CASES "ray: t >= 0 hits*")

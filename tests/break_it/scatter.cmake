@@ -6,7 +6,7 @@ ljus_break_it(NAME scatter-adjoint HEADER path/scatter.hpp TEST mesh
 
 # The same for where a photon lands.
 ljus_break_it(NAME scatter-landing HEADER path/scatter.hpp TEST mesh
-    FROM "return std::abs(wo.z / glm::dot(direction, surface.point.normal));"
+    FROM "return std::abs(vertex.wo.z / glm::dot(direction, vertex.point.normal));"
     TO   "return T(1);"
     CASES "mesh: photons land*")
 
@@ -23,7 +23,7 @@ ljus_break_it(NAME scatter-black HEADER path/scatter.hpp TEST mesh
     CASES "mesh: mirrors*")
 
 # A surface that its shading normal shows from behind.
-ljus_break_it(NAME scatter-turned HEADER scene/query.hpp TEST mesh
-    FROM "surface.turned ? geometric : normal"
+ljus_break_it(NAME scatter-turned HEADER path/vertex.hpp TEST mesh
+    FROM "vertex.turned ? geometric : normal"
     TO   "normal"
     CASES "mesh: mirrors*")

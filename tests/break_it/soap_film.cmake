@@ -11,31 +11,34 @@ ljus_break_it(NAME soap_film-gravity HEADER materials/soap_film.hpp TEST soap_fi
     CASES "soap film: hangs*")
 
 # The film hides the lamp.
-ljus_break_it(NAME thin_surfaces-shadow HEADER path/thin_surfaces.hpp TEST soap_film
-    FROM "if (!t) break;"
-    TO   "if (!t || t) break;"
+ljus_break_it(NAME thin_surfaces-shadow HEADER path/next_vertex.hpp TEST soap_film
+    FROM "if (!passed) break;
+        through"
+    TO   "if (!passed || passed) break;
+        through"
     CASES "thin sheets: a lamp*")
 
 # The film is not there.
-ljus_break_it(NAME thin_surfaces-clear HEADER path/thin_surfaces.hpp TEST soap_film
-    FROM "through *= *t;"
+ljus_break_it(NAME thin_surfaces-clear HEADER path/next_vertex.hpp TEST soap_film
+    FROM "through *= *passed;"
     TO   "through *= T(1);"
     CASES "thin sheets: a lamp*")
 
-# One of 25 paths is stopped, and the 24 others are not made up for.
-ljus_break_it(NAME thin_surfaces-chance HEADER path/thin_surfaces.hpp TEST soap_film
-    FROM "return through / chance;"
-    TO   "return through;"
+# The paths that pass do not make up for those that were stopped.
+ljus_break_it(NAME thin_surfaces-chance HEADER path/next_vertex.hpp TEST soap_film
+    FROM "through *= *passed / (T(1) - stop);"
+    TO   "through *= *passed;"
     CASES "thin sheets: what a path*")
 
-# The same of photons: the bubble's caustic is dark.
-ljus_break_it(NAME thin_surfaces-photon HEADER photons/photon_path.hpp TEST soap_film
-    FROM "scattered.weight / photon.chance"
-    TO   "scattered.weight"
+# One of 25 paths is stopped, and the 24 others are not made up for: the bubble's caustic
+# is dark.
+ljus_break_it(NAME thin_surfaces-photon HEADER path/continue_path.hpp TEST soap_film
+    FROM "next.weight / vertex.stop_probability"
+    TO   "next.weight"
     CASES "thin sheets: photon mapping*")
 
 # Reflected as if the film were equally thick everywhere: the bubble shows in a furnace.
 ljus_break_it(NAME thin_surfaces-place HEADER path/scatter.hpp TEST soap_film
-    FROM "material_at(material, surface.point.position)"
+    FROM "material_at(material, vertex.point.position)"
     TO   "material"
     CASES "thin sheets: a bubble in a furnace*")

@@ -25,7 +25,7 @@ ljus_break_it(NAME textured-product HEADER materials/textured.hpp TEST texture
     CASES "texture: the hook*")
 
 # The hook forgotten: every place looks like the base.
-ljus_break_it(NAME textured-hook HEADER scene/query.hpp TEST texture
+ljus_break_it(NAME textured-hook HEADER path/vertex.hpp TEST texture
     FROM "if constexpr (Material<std::remove_cvref_t<Here>>)"
     TO   "if constexpr (!Material<std::remove_cvref_t<Here>>)"
     CASES "texture: in a white furnace*")

@@ -20,7 +20,7 @@ ljus_break_it(NAME tracing-owner HEADER photons/photon_path.hpp TEST tracing
 
 # Where cones overlap, photons count for whatever they meet.
 ljus_break_it(NAME tracing-target HEADER photons/photon_path.hpp TEST tracing
-    FROM "bounce == 1 && target && met->hit.object != *target"
+    FROM "first && target && vertex->id != *target"
     TO   "false"
     CASES "tracing: aimed photons*")
 

@@ -6,14 +6,14 @@ ljus_break_it(NAME whitted-branch HEADER render/whitted.hpp TEST whitted
 
 # The depth counts one turn too many.
 ljus_break_it(NAME whitted-depth HEADER render/whitted.hpp TEST whitted
-    FROM "if (depth == tracer.settings.max_depth) return false;"
-    TO   "if (depth > tracer.settings.max_depth) return false;"
+    FROM "if (path.depth > tracer.settings.max_depth) return false;"
+    TO   "if (path.depth > tracer.settings.max_depth + 1) return false;"
     CASES "whitted: one ball of glass*")
 
 # Matt surfaces send their light on as well: L D D E.
 ljus_break_it(NAME whitted-diffuse HEADER render/whitted.hpp TEST whitted
-    FROM "send_on(path, at, material, Lobes::specular"
-    TO   "send_on(path, at, material, Lobes::all"
+    FROM "Lobes::specular, stream);"
+    TO   "Lobes::all, stream);"
     CASES "whitted: every path*")
 
 # A lamp made of a sphere lights from any point of its cone's rim.
@@ -24,7 +24,7 @@ ljus_break_it(NAME whitted-middle HEADER render/whitted.hpp TEST whitted
 
 # The light that a surface finds is not multiplied by what the way to the eye lets through.
 ljus_break_it(NAME whitted-share HEADER render/whitted.hpp TEST whitted
-    FROM "sum += share * light;"
+    FROM "sum += throughput * light;"
     TO   "sum += light;"
     CASES "whitted: a mirror over*")
 

@@ -102,7 +102,7 @@ ljus::ImageT<double> trace_light(const Scene& scene, const ljus::CameraT<T>& cam
         for (int bounce = 0; bounce < 500; ++bounce) {
             const auto hit = closest_hit(scene, ray);
             if (!hit) break;
-            const auto at = surface_at(scene, ray, *hit);
+            const auto at = vertex_at(scene, ray, *hit);
             flux *= glm::exp(-glm::dvec3(medium) * double(hit->at.t));
             const Vec3T<T> from = to_local(at.frame, -ray.direction);
 

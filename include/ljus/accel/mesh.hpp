@@ -17,7 +17,7 @@ namespace ljus {
 /// A mesh is one shape: one object, one material, one light, and one target for the
 /// photons of the caustics map. The winding of a triangle decides its sides, and from
 /// where rays leave; the normals of the vertices only turn the frame of the material,
-/// see surface_at() and scatter().
+/// see vertex_at() and scatter().
 /// \{
 
 /// A mesh; made once, then fixed. In float about 90 bytes a triangle of a closed

@@ -47,8 +47,8 @@ concept Movable = Shape<S> && requires(const S& shape, const Vec3T<ScalarOf<S>>&
 /// A shape on its way in a straight line. Time runs from 0, when the shutter opens, to
 /// 1, when it closes.
 ///
-/// It is a shape like any other: whoever knows nothing of time sees it where it is at
-/// time 0. A scene that lists no moving shape pays nothing.
+/// It is a shape like any other, and a ray meets it where it is at the ray's time. A
+/// scene that lists no moving shape pays nothing.
 /// \tparam S  A sphere, a triangle, a quad.
 // [moving]
 template <Movable S>
@@ -84,28 +84,28 @@ requires(!is_moving<S>)
 }
 
 /// \name As a shape
-/// At time 0; but its bounds hold it at all times.
+/// Its bounds hold it at all times.
 /// \{
 
 /// Where a ray meets it.
 /// \param ray     Any length of direction but zero.
 /// \param moving  The shape.
-/// \return As for the shape itself.
+/// \return As for the shape itself at the ray's time.
 template <typename Compute = void, std::floating_point T, typename S>
 [[nodiscard]] auto intersect(const RayT<T>& ray, const Moving<S>& moving) noexcept {
-    return intersect<Compute>(ray, moving.shape);
+    return intersect<Compute>(ray, at_time(moving, ray.time));
 }
 
 /// The point that a ray hit.
 /// \param moving  The shape.
 /// \param ray     The ray.
 /// \param hit     What intersect() returned.
-/// \return As for the shape itself.
+/// \return As for the shape itself at the ray's time.
 template <typename S, std::floating_point T>
 [[nodiscard]] SurfacePointT<T> surface_point(const Moving<S>& moving,
                                              const RayT<T>& ray,
                                              const FlatHitT<T>& hit) noexcept {
-    return surface_point(moving.shape, ray, hit);
+    return surface_point(at_time(moving, ray.time), ray, hit);
 }
 
 /// The area, of a shape that has one.
@@ -117,7 +117,7 @@ requires HasArea<S>
     return area(moving.shape);
 }
 
-/// A point, uniform over the area.
+/// A point, uniform over the area, where it is at time 0.
 /// \param moving  The shape.
 /// \param u       Point of the unit square.
 /// \return The point.

@@ -27,6 +27,7 @@ struct RayT {
     Vec3T<T> direction{T(0), T(0), T(-1)};        ///< D: any length but zero.
     T t_min = T(0);                               ///< First t that counts, >= 0.
     T t_max = std::numeric_limits<T>::infinity(); ///< Last t that counts.
+    T time = T(0); ///< In [0, 1]: from when the shutter opens to when it closes.
 };
 using Ray = RayT<float>; ///< RayT in float.
 // [ray]

@@ -62,11 +62,14 @@ template <std::floating_point T>
 /// A ray that leaves a surface for good.
 /// \param point      Where it starts.
 /// \param direction  Its direction.
+/// \param time       In [0, 1].
 /// \return The ray, its range open to infinity.
 template <std::floating_point T>
 [[nodiscard]] RayT<T> spawn_ray(const SurfacePointT<T>& point,
-                                const Vec3T<T>& direction) noexcept {
-    return {.origin = offset_ray_origin(point, direction), .direction = direction};
+                                const Vec3T<T>& direction, T time = T(0)) noexcept {
+    return {.origin = offset_ray_origin(point, direction),
+            .direction = direction,
+            .time = time};
 }
 
 /// A ray between two points of surfaces that touches neither surface.
@@ -76,18 +79,20 @@ template <std::floating_point T>
 /// the origin of the scene shades itself from afar.
 /// \param from  Where it starts.
 /// \param to    Where it ends, at t = 1.
+/// \param time  In [0, 1].
 /// \return The ray; its direction has the length of the way.
 // [spawn_ray_to]
 template <std::floating_point T>
 [[nodiscard]] RayT<T> spawn_ray_to(const SurfacePointT<T>& from,
-                                   const SurfacePointT<T>& to) noexcept {
+                                   const SurfacePointT<T>& to, T time = T(0)) noexcept {
     const Vec3T<T> way = to.position - from.position;
     SurfacePointT<T> seen = to;
     seen.error += rounding_bound<T>(8) * max_component(sizes(way));
     const Vec3T<T> origin = offset_ray_origin(from, way);
     return {.origin = origin,
             .direction = offset_ray_origin(seen, -way) - origin,
-            .t_max = T(1)};
+            .t_max = T(1),
+            .time = time};
 }
 // [spawn_ray_to]
 

@@ -39,7 +39,7 @@ struct ClassesLog {
 /// It is measured, by the letters that the renderer itself reports, so that a table of
 /// renderers cannot promise what the code does not keep. All classes see the same
 /// random paths; those that share no path and together hold all add up to the picture.
-/// \param renderer  Anything with a radiance() that takes a log.
+/// \param renderer  Any Renderer.
 /// \param camera    As for render().
 /// \param picture   As for render(); it is not stopped, and progress is not called.
 /// \param classes   From light_path_expression(). Of a photon map's answer for a whole class, as
@@ -49,10 +49,11 @@ struct ClassesLog {
 /// \cost One picture, and a few bit operations a letter and class.
 /// \report{Section 2}
 // [class_means]
-template <typename Renderer, template <std::floating_point> typename AnyCamera,
+template <typename R, template <std::floating_point> typename AnyCamera,
           std::floating_point T>
+requires Renderer<R, T>
 [[nodiscard]] std::vector<RgbT<double>>
-class_means(const Renderer& renderer, const AnyCamera<T>& camera,
+class_means(const R& renderer, const AnyCamera<T>& camera,
             const RenderSettings& picture,
             std::span<const LightPathExpression> classes) {
     const auto at_least_one = [](const char* what, int count) {

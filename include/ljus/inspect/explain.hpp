@@ -40,7 +40,7 @@ struct ExplainedPixelT {
 };
 
 /// Takes a pixel apart: renders it again, with a log.
-/// \param renderer  A PathTracer, a PhotonMapper, or anything with a radiance().
+/// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    The camera.
 /// \param picture   Size, rays, seed: the same as in render().
 /// \param x         Column of the pixel, from the left.
@@ -49,10 +49,13 @@ struct ExplainedPixelT {
 /// \return The pixel's parts.
 /// \throws std::invalid_argument  if the pixel lies outside of the picture.
 // [take_apart]
-template <typename Renderer, std::floating_point T>
-[[nodiscard]] ExplainedPixelT<T>
-take_apart(const Renderer& renderer, const CameraT<T>& camera,
-           const RenderSettings& picture, int x, int y, int keep = 4) {
+template <typename R, template <std::floating_point> typename AnyCamera,
+          std::floating_point T>
+requires Renderer<R, T>
+[[nodiscard]] ExplainedPixelT<T> take_apart(const R& renderer,
+                                            const AnyCamera<T>& camera,
+                                            const RenderSettings& picture, int x, int y,
+                                            int keep = 4) {
     require_image_size(picture.width, picture.height);
     require(picture.samples >= 1, "samples", static_cast<long long>(picture.samples),
             "at least 1");
@@ -179,7 +182,7 @@ template <std::floating_point T>
 }
 
 /// Explains one pixel of a picture.
-/// \param renderer  A PathTracer, a PhotonMapper, or anything with a radiance().
+/// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    The camera.
 /// \param picture   Size, rays, seed: the same as in render().
 /// \param x         Column of the pixel, from the left.
@@ -187,8 +190,10 @@ template <std::floating_point T>
 /// \return A text: the first rays with each vertex and each term, then the sums by
 ///         path, as "E D L   shadow ray   0.31 0.30 0.28".
 /// \throws std::invalid_argument  if the pixel lies outside of the picture.
-template <typename Renderer, std::floating_point T>
-[[nodiscard]] std::string explain(const Renderer& renderer, const CameraT<T>& camera,
+template <typename R, template <std::floating_point> typename AnyCamera,
+          std::floating_point T>
+requires Renderer<R, T>
+[[nodiscard]] std::string explain(const R& renderer, const AnyCamera<T>& camera,
                                   const RenderSettings& picture, int x, int y) {
     return describe(take_apart(renderer, camera, picture, x, y));
 }
@@ -200,9 +205,10 @@ template <typename Renderer, std::floating_point T>
 /// \param y       Row of the pixel, from the top.
 /// \return As above.
 /// \throws std::invalid_argument  if the pixel lies outside of the picture.
-template <typename ShapeList, typename MaterialList, std::floating_point T>
-[[nodiscard]] std::string explain(const Scene<ShapeList, MaterialList>& scene,
-                                  const CameraT<T>& camera, int x, int y) {
+template <typename G, typename M, template <std::floating_point> typename AnyCamera,
+          std::floating_point T>
+[[nodiscard]] std::string explain(const Scene<G, M>& scene, const AnyCamera<T>& camera,
+                                  int x, int y) {
     return explain(make_path_tracer(scene), camera, RenderSettings{}, x, y);
 }
 

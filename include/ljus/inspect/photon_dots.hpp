@@ -10,9 +10,9 @@
 
 #include "ljus/image/image.hpp"
 #include "ljus/materials/material.hpp"
+#include "ljus/path/vertex.hpp"
 #include "ljus/photons/photon.hpp"
 #include "ljus/scene/camera.hpp"
-#include "ljus/scene/query.hpp"
 
 namespace ljus {
 
@@ -36,8 +36,8 @@ struct PhotonDotSettings {
 /// \return The drawing, dark enough for dots to be seen on it.
 /// \throws std::invalid_argument  if the size is none.
 /// \cost One ray a pixel.
-template <typename Scene, std::floating_point T>
-[[nodiscard]] ImageT<T> scene_drawing(const Scene& scene, const CameraT<T>& camera,
+template <SceneLike S, std::floating_point T>
+[[nodiscard]] ImageT<T> scene_drawing(const S& scene, const CameraT<T>& camera,
                                       int width, int height) {
     ImageT<T> image = make_image<T>(width, height);
     for (int y = 0; y < height; ++y)
@@ -46,17 +46,16 @@ template <typename Scene, std::floating_point T>
             const RayT<T> ray = primary_ray(camera, middle, width, height);
             const auto hit = closest_hit(scene, ray);
             if (!hit) continue;
-            const SurfaceT<T> surface = surface_at(scene, ray, *hit);
-            const Vec3T<T> wo = to_local(surface.frame, -ray.direction);
+            const VertexT<T> vertex = vertex_at(scene, ray, *hit);
+            const Vec3T<T>& wo = vertex.wo;
             const auto own_color = [&](const auto& material) {
                 if (has(lobes(material), Lobes::specular)) return RgbT<T>{T(0.25)};
                 return RgbT<T>(evaluate(material, wo, wo) * std::numbers::pi_v<T>);
             };
-            const bool emits = !is_black(surface.object.emission) && wo.z > T(0);
-            pixel(image, x, y) = emits
+            pixel(image, x, y) = vertex.emits()
                                      ? RgbT<T>{T(0.5)}
                                      : T(0.16) * (T(0.3) + T(0.7) * std::abs(wo.z)) *
-                                           visit_material_of(scene, surface, own_color);
+                                           visit_material_at(scene, vertex, own_color);
         }
     return image;
 }
@@ -83,9 +82,9 @@ template <std::floating_point T>
 /// \return The place in pixels, from the upper left corner; nothing if it is not seen.
 /// \cost One ray.
 // [photon_in_sight]
-template <typename Scene, std::floating_point T>
+template <SceneLike S, std::floating_point T>
 [[nodiscard]] std::optional<Vec2T<T>>
-photon_in_sight(const Scene& scene, const CameraT<T>& camera, const PhotonT<T>& photon,
+photon_in_sight(const S& scene, const CameraT<T>& camera, const PhotonT<T>& photon,
                 int width, int height) {
     const auto place = project(camera, photon.position, width, height);
     if (!place || !(place->x >= T(0) && place->x < T(width) && place->y >= T(0) &&
@@ -95,7 +94,7 @@ photon_in_sight(const Scene& scene, const CameraT<T>& camera, const PhotonT<T>& 
                       .direction = photon.position - camera.position};
     const auto hit = closest_hit(scene, ray);
     if (!hit || std::abs(hit->at.t - T(1)) > T(1e-3)) return std::nullopt;
-    const Vec3T<T> normal = surface_at(scene, ray, *hit).point.normal;
+    const Vec3T<T> normal = vertex_at(scene, ray, *hit).point.normal;
     if (photon_side(photon.direction, normal) != photon_side(ray.direction, normal))
         return std::nullopt;
     return place;
@@ -136,9 +135,8 @@ void add_dot(ImageT<T>& image, const Vec2T<T>& place, const RgbT<T>& color,
 /// \cost One ray a photon that is drawn and lies within the picture.
 /// \report{Section 3.2.2, Figs. 5 to 8}
 // [add_photon_dots]
-template <typename Scene, std::floating_point T, typename Color>
-long long add_photon_dots(ImageT<T>& image, const Scene& scene,
-                          const CameraT<T>& camera,
+template <SceneLike S, std::floating_point T, typename Color>
+long long add_photon_dots(ImageT<T>& image, const S& scene, const CameraT<T>& camera,
                           const std::vector<PhotonT<T>>& photons,
                           const PhotonDotSettings& look, Color color) {
     require(look.radius > 0 && look.radius <= 1000, "the radius of a dot", look.radius,

@@ -21,11 +21,10 @@ namespace ljus {
 /// \tparam Facet  As GlossyT has it.
 template <std::floating_point T, typename Facet = RgbT<T>>
 struct CompensatedGlossyT {
-    using Scalar = T;                         ///< The precision of its numbers.
-    static constexpr bool glossy_lobe = true; ///< See Glossy_.
-    GlossyT<T, Facet> first{};                ///< One reflection.
-    EnergyLossT<T> loss{};                    ///< What it loses; of bake_energy_loss().
-    RgbT<T> mean{T(0)}; ///< A facet's mean reflectance; of mean_reflectance().
+    using Scalar = T;          ///< The precision of its numbers.
+    GlossyT<T, Facet> first{}; ///< One reflection.
+    EnergyLossT<T> loss{};     ///< What it loses; of bake_energy_loss().
+    RgbT<T> mean{T(0)};        ///< A facet's mean reflectance; of mean_reflectance().
 };
 using CompensatedGlossy = CompensatedGlossyT<float>; ///< Of a colour, in float.
 using FullRoughMetal =
@@ -109,7 +108,7 @@ template <std::floating_point T, typename F>
                     const Vec3T<T>& wi, Lobes which = Lobes::all) noexcept {
     const T first = pdf(gloss.first, wo, wi, which);
     const T chance = chance_of_first(gloss, wo);
-    if (!has(which & lobes(gloss), Lobes::diffuse) || !same_side(wo, wi) ||
+    if (!has(which & lobes(gloss), Lobes::glossy) || !same_side(wo, wi) ||
         chance >= T(1))
         return first;
     return chance * first + (T(1) - chance) * pdf_lost(gloss.loss, std::abs(wi.z));
@@ -130,7 +129,7 @@ template <std::floating_point T, typename F>
 sample(const CompensatedGlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& u,
        Transport transport, Lobes which = Lobes::all) noexcept {
     const T chance = chance_of_first(gloss, wo);
-    if (chance >= T(1) || !has(which & lobes(gloss), Lobes::diffuse))
+    if (chance >= T(1) || !has(which & lobes(gloss), Lobes::glossy))
         return sample(gloss.first, wo, u, transport, which);
     if (!(wo.z > T(0) || wo.z < T(0))) return std::nullopt;
     Vec3T<T> wi;

@@ -49,9 +49,8 @@ inline constexpr T min_roughness = T(0.01);
 ///                index.
 template <std::floating_point T, typename Facet = RgbT<T>>
 struct GlossyT {
-    using Scalar = T;                         ///< The precision of its numbers.
-    static constexpr bool glossy_lobe = true; ///< See Glossy_.
-    Facet reflectance{};                      ///< Of a facet.
+    using Scalar = T;     ///< The precision of its numbers.
+    Facet reflectance{};  ///< Of a facet.
     T roughness = T(0.3); ///< alpha = roughness^2; 0, a mirror, or in [0.01, 1].
 };
 using Glossy = GlossyT<float>;                             ///< Of a colour, in float.
@@ -61,7 +60,7 @@ using RoughMetal = GlossyT<float, ConductorIndexT<float>>; ///< Of metal, in flo
 /// a specular one.
 template <std::floating_point T, typename F>
 [[nodiscard]] constexpr Lobes lobes(const GlossyT<T, F>& gloss) noexcept {
-    return gloss.roughness > T(0) ? Lobes::diffuse : Lobes::specular;
+    return gloss.roughness > T(0) ? Lobes::glossy : Lobes::specular;
 }
 
 /// The microfacet BRDF of Torrance and Sparrow,
@@ -108,7 +107,7 @@ template <std::floating_point T, typename F>
 template <std::floating_point T, typename F>
 [[nodiscard]] T pdf(const GlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& wi,
                     Lobes which = Lobes::all) noexcept {
-    if (!has(which & lobes(gloss), Lobes::diffuse) || !same_side(wo, wi)) return T(0);
+    if (!has(which & lobes(gloss), Lobes::glossy) || !same_side(wo, wi)) return T(0);
     const T alpha = gloss.roughness * gloss.roughness;
     const Vec3T<T> out{wo.x, wo.y, std::abs(wo.z)};
     const Vec3T<T> in{wi.x, wi.y, std::abs(wi.z)};

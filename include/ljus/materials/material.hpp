@@ -30,13 +30,16 @@ namespace ljus {
 /// and sample() are the parts to choose from, all unless told otherwise.
 /// \{
 
-/// The parts of a material, as a set. A part is *specular* if it sends a ray into one
-/// direction (a delta); rough gloss, which has an f and a pdf, counts as diffuse.
+/// The lobes of a material, as a set. A lobe is *specular* if it sends a ray into one
+/// direction (a delta); all others have an f and a pdf. In Heckbert's letters these are
+/// D, glossy ones too.
 enum class Lobes : std::uint8_t {
     none = 0,     ///< Nothing.
-    diffuse = 1,  ///< What evaluate() knows.
-    specular = 2, ///< Mirrors and clear boundaries.
-    all = 3,      ///< Both.
+    diffuse = 1,  ///< Light from everywhere goes everywhere.
+    glossy = 2,   ///< A blurred mirror: around one direction, the more so the smoother.
+    specular = 4, ///< Mirrors and clear boundaries.
+    non_specular = 3, ///< What evaluate() knows: diffuse and glossy.
+    all = 7,          ///< Every lobe.
 };
 
 /// The parts that are in both sets.
@@ -51,7 +54,7 @@ enum class Lobes : std::uint8_t {
 
 /// Whether a set contains a part.
 /// \param set   The set.
-/// \param part  `diffuse` or `specular`; for `all`, whether it contains either.
+/// \param part  One lobe; or several, for whether it contains any of them.
 [[nodiscard]] constexpr bool has(Lobes set, Lobes part) noexcept {
     return (set & part) != Lobes::none;
 }
@@ -173,11 +176,6 @@ material_at(const M& m, const Vec3T<typename M::Scalar>& position) noexcept {
     else
         return (m);
 }
-
-/// A blurred mirror: it sends rays on, and they find the lamps. It says so by
-/// `static constexpr bool glossy_lobe = true`.
-template <typename M>
-concept Glossy_ = M::glossy_lobe;
 
 /// Whether a material has specular parts only, so that shadow rays and photon maps have
 /// nothing to ask there.

@@ -57,7 +57,7 @@ template <std::floating_point T>
     const bool matt = mixture.reflectivity < T(1) && mixture.transparency < T(1) &&
                       !is_black(mixture.color);
     if (!specular) return Lobes::diffuse;
-    return matt ? Lobes::all : Lobes::specular;
+    return matt ? Lobes::diffuse | Lobes::specular : Lobes::specular;
 }
 
 /// F: what the boundary reflects of light that travels along a direction.

@@ -5,8 +5,8 @@
 
 #include "ljus/math/sampling_pattern.hpp"
 #include "ljus/path/counts.hpp"
-#include "ljus/path/shading.hpp"
-#include "ljus/path/thin_surfaces.hpp"
+#include "ljus/path/next_vertex.hpp"
+#include "ljus/path/scatter.hpp"
 
 namespace ljus {
 
@@ -18,7 +18,7 @@ namespace ljus {
 /// \f$ f\,|\cos|\,L_e\,V / p \f$.
 /// \param scene     The scene.
 /// \param light     One of its lights.
-/// \param at        The surface.
+/// \param vertex    The surface.
 /// \param material  What it is made of.
 /// \param u         Point of the unit square: which point of the light.
 /// \param weigh     Called with the sample, the direction in the surface's frame, and
@@ -30,38 +30,38 @@ namespace ljus {
 /// \erratum{The report's program divides the sum over the lights by their number, so
 ///          that a second lamp dims the first.}
 // [direct_light]
-template <typename Scene, std::floating_point T, typename Material, typename Weigh>
-[[nodiscard]] RgbT<T> direct_light(const Scene& scene, const LightT<T>& light,
-                                   const ShadingT<T>& at, const Material& material,
+template <SceneLike S, std::floating_point T, Material M, typename Weigh>
+[[nodiscard]] RgbT<T> direct_light(const S& scene, const LightT<T>& light,
+                                   const VertexT<T>& vertex, const M& material,
                                    const Vec2T<T>& u, Weigh weigh, Counts& counts) {
-    const SurfacePointT<T>& point = at.surface.point;
-    const auto sampled = sample_light(scene, light, point.position, u);
+    const SurfacePointT<T>& point = vertex.point;
+    const auto sampled = sample_light(scene, light, point.position, u, vertex.time);
     if (!sampled) return RgbT<T>{T(0)};
-    const Vec3T<T> wi = to_local(at.surface.frame, sampled->wi);
-    const RgbT<T> f = evaluate(material, at.wo, wi);
-    if (is_black(f) || !agrees(at.surface, wi, sampled->wi)) return RgbT<T>{T(0)};
+    const Vec3T<T> wi = to_local(vertex.frame, sampled->wi);
+    const RgbT<T> f = evaluate(material, vertex.wo, wi);
+    if (is_black(f) || !agrees(vertex, wi, sampled->wi)) return RgbT<T>{T(0)};
 
     ++counts.shadow_rays;
-    const RgbT<T> visible = visibility(scene, point, sampled->point);
+    const RgbT<T> visible = visibility(scene, point, sampled->point, vertex.time);
     if (is_black(visible)) return RgbT<T>{T(0)};
     const T distance = glm::distance(point.position, sampled->point.position);
     return std::abs(wi.z) * weigh(*sampled, wi) * f * sampled->weight *
-           transmittance(at.medium, distance) * visible;
+           transmittance(vertex.medium, distance) * visible;
 }
 // [direct_light]
 
 /// The light of all lights at a surface, by shadow rays to each.
 /// \param scene     The scene.
-/// \param at        The surface.
+/// \param vertex    The surface.
 /// \param material  What it is made of.
 /// \param rays      Shadow rays to each light, at least 1, spread evenly over it.
 /// \param stream    Two numbers a ray.
 /// \param counts    Counts the rays.
 /// \return Radiance towards wo.
 /// \report{Section 3.2.3}
-template <typename Scene, std::floating_point T, typename Material>
-[[nodiscard]] RgbT<T> sample_all_lights(const Scene& scene, const ShadingT<T>& at,
-                                        const Material& material, int rays,
+template <SceneLike S, std::floating_point T, Material M>
+[[nodiscard]] RgbT<T> sample_all_lights(const S& scene, const VertexT<T>& vertex,
+                                        const M& material, int rays,
                                         RandomStream& stream, Counts& counts) {
     const Strata strata = strata_for(rays);
     const auto unweighted = [](const LightSampleT<T>&, const Vec3T<T>&) {
@@ -72,7 +72,7 @@ template <typename Scene, std::floating_point T, typename Material>
     for (const LightT<T>& light : scene.lights)
         for (int i = 0; i < rays; ++i) {
             const Vec2T<T> u = stratified(strata, i, key, next_2d<T>(stream));
-            sum += direct_light(scene, light, at, material, u, unweighted, counts);
+            sum += direct_light(scene, light, vertex, material, u, unweighted, counts);
         }
     return sum / T(rays);
 }

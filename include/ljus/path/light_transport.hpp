@@ -3,10 +3,8 @@
 /// \file ljus/path/light_transport.hpp
 /// \brief Renderers that carry some of all light paths, and the g of Eq. 1.
 
-#include "ljus/math/random.hpp"
-#include "ljus/path/counts.hpp"
 #include "ljus/path/light_path_expression.hpp"
-#include "ljus/path/path_log.hpp"
+#include "ljus/path/renderer.hpp"
 #include "ljus/scene/query.hpp"
 
 namespace ljus {
@@ -27,8 +25,8 @@ namespace ljus {
 /// \report{Eq. (1)}
 /// \erratum{The report has 1/r^2 only, so that no surface casts a shadow.}
 // [transport_factor]
-template <typename Scene, std::floating_point T>
-[[nodiscard]] T transport_factor(const Scene& scene, const SurfacePointT<T>& x,
+template <SceneLike S, std::floating_point T>
+[[nodiscard]] T transport_factor(const S& scene, const SurfacePointT<T>& x,
                                  const SurfacePointT<T>& other) {
     const Vec3T<T> way = other.position - x.position;
     const T squared = glm::dot(way, way);
@@ -68,42 +66,43 @@ struct ExpressionLog {
 };
 
 /// A renderer that carries only some of the paths of another one.
-template <typename Renderer>
+template <typename R>
 struct Filtered {
-    Renderer whole;              ///< The renderer that does the work.
-    LightPathExpression carried; ///< Which of its paths count.
+    using Stream = typename R::Stream; ///< The same numbers, so the same paths.
+    R whole;                           ///< The renderer that does the work.
+    LightPathExpression carried;       ///< Which of its paths count.
 };
 
-/// Cuts a renderer down to a class of paths. With the same picture, classes that share
-/// no path and together hold all of them add up to the whole picture: the random paths
-/// are the same, only what is added differs.
-/// \param whole    A path tracer, a photon mapper, or anything with a radiance().
+/// Filters the paths of a renderer by a light path expression. Expressions that share no
+/// path and together hold all of them give pictures that add up to the whole one: the
+/// random paths are the same, only what is added differs.
+/// \param whole    A renderer.
 /// \param carried  As light_path_expression() takes it, and must outlive the renderer.
 /// \return A renderer for render().
 /// \throws std::invalid_argument  as light_path_expression().
 /// \cost As much as the whole renderer: nothing is left out but the sums.
 // [only]
-template <typename Renderer>
-[[nodiscard]] Filtered<Renderer> only(const Renderer& whole, std::string_view carried) {
+template <typename R>
+[[nodiscard]] Filtered<R> only(const R& whole, std::string_view carried) {
     return {whole, light_path_expression(carried)};
 }
 // [only]
 
-/// The radiance of one camera path, as far as its class is carried.
+/// The radiance of one camera path, as far as the filter lets it through.
 /// \param renderer  From only().
 /// \param ray       A primary ray.
 /// \param stream    The numbers of this path.
 /// \param counts    Counts the rays.
 /// \return Radiance, W/(m^2 sr).
-// [truncated]
-template <typename Renderer, std::floating_point T, typename Log = NoLog>
-[[nodiscard]] RgbT<T> radiance(const Filtered<Renderer>& renderer, const RayT<T>& ray,
-                               RandomStream& stream, Counts& counts, Log&& = {}) {
+// [filtered]
+template <typename R, std::floating_point T, typename Log = NoLog>
+[[nodiscard]] RgbT<T> radiance(const Filtered<R>& renderer, const RayT<T>& ray,
+                               typename R::Stream& stream, Counts& counts, Log&& = {}) {
     ExpressionLog<T> log{.wanted = renderer.carried};
     (void)radiance(renderer.whole, ray, stream, counts, log);
     return log.sum;
 }
-// [truncated]
+// [filtered]
 
 /// \}
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ljus/math/vector.hpp"
+#include "ljus/path/path_state.hpp"
 
 namespace ljus {
 
@@ -72,6 +72,24 @@ struct PathLog {
                          0});
     }
 };
+
+/// Tells a log of the last scattering of a path.
+/// \param log   The log.
+/// \param path  As continue_path() has left it.
+template <typename Log, std::floating_point T>
+void log_vertex(Log& log, const PathStateT<T>& path) {
+    log.vertex(path.specular ? 'S' : 'D', path.previous, path.throughput, path.pdf);
+}
+
+/// Tells a log of a path that split off from one it knows: all its letters once more,
+/// as far as it has come.
+/// \param log   The log.
+/// \param path  Of split_path(); only mirrors and glass lie behind it.
+template <typename Log, std::floating_point T>
+void log_specular_path(Log& log, const PathStateT<T>& path) {
+    log.begin();
+    for (int vertex = 0; vertex < path.depth; ++vertex) log_vertex(log, path);
+}
 
 /// \}
 

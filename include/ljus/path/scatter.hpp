@@ -4,8 +4,7 @@
 /// \brief Scattering at a surface with two normals: its own, and the one it is shaded
 /// with.
 
-#include "ljus/materials/material.hpp"
-#include "ljus/scene/query.hpp"
+#include "ljus/path/vertex.hpp"
 
 namespace ljus {
 
@@ -25,30 +24,29 @@ namespace ljus {
 /// \{
 
 /// Whether a direction lies on the same side of a surface by both its normals.
-/// \param surface  The surface.
-/// \param local    The direction in the surface's frame.
-/// \param world    The same in the world.
+/// \param vertex  A point of the surface.
+/// \param local   The direction in the surface's frame.
+/// \param world   The same in the world.
 template <std::floating_point T>
-[[nodiscard]] bool agrees(const SurfaceT<T>& surface, const Vec3T<T>& local,
+[[nodiscard]] bool agrees(const VertexT<T>& vertex, const Vec3T<T>& local,
                           const Vec3T<T>& world) noexcept {
-    if (!surface.smooth) return true;
-    const T side = glm::dot(world, surface.point.normal);
+    if (!vertex.smooth) return true;
+    const T side = glm::dot(world, vertex.point.normal);
     return (side > T(0) && local.z > T(0)) || (side < T(0) && local.z < T(0));
 }
 
 /// What a photon's flux counts for where it lands: the flux is that of the triangle,
 /// but the material reflects what the shading normal's cosine says.
-/// \param surface    The surface.
-/// \param wo         To where the photon came from, in the surface's frame.
+/// \param vertex     Where it lands.
 /// \param direction  The photon's direction of travel.
 /// \return \f$ |\omega \cdot N_s| / |\omega \cdot N_g| \f$; 0 if they disagree.
 // [landing_factor]
 template <std::floating_point T>
-[[nodiscard]] T landing_factor(const SurfaceT<T>& surface, const Vec3T<T>& wo,
+[[nodiscard]] T landing_factor(const VertexT<T>& vertex,
                                const Vec3T<T>& direction) noexcept {
-    if (surface.turned) return T(0);
-    if (!surface.smooth) return T(1);
-    return std::abs(wo.z / glm::dot(direction, surface.point.normal));
+    if (vertex.turned) return T(0);
+    if (!vertex.smooth) return T(1);
+    return std::abs(vertex.wo.z / glm::dot(direction, vertex.point.normal));
 }
 // [landing_factor]
 
@@ -66,28 +64,28 @@ struct ScatteredT {
 ///          {|\omega_o \cdot N_g|\,|\omega_i \cdot N_s|} \f]
 /// (Veach's Eq. 5.19, \f$\omega_o\f$ to where the photon came from): without it, camera
 /// paths and photons do not see the same scene.
-/// \param surface    The surface.
-/// \param material   What it is made of.
-/// \param wo         To where the path came from, in the surface's frame.
+/// \param vertex     Where.
+/// \param material   What the surface is made of.
 /// \param u          Point of [0,1)^3.
 /// \param transport  What the path carries.
 /// \param which      The parts to sample from.
 /// \return The direction; nothing if the path ends here.
 /// \cite veach1997
 // [scatter]
-template <std::floating_point T, typename Material>
+template <std::floating_point T, Material M>
 [[nodiscard]] std::optional<ScatteredT<T>>
-scatter(const SurfaceT<T>& surface, const Material& material, const Vec3T<T>& wo,
-        const Vec3T<T>& u, Transport transport, Lobes which = Lobes::all) noexcept {
-    const auto& here = material_at(material, surface.point.position);
+scatter(const VertexT<T>& vertex, const M& material, const Vec3T<T>& u,
+        Transport transport, Lobes which = Lobes::all) noexcept {
+    const Vec3T<T>& wo = vertex.wo;
+    const auto& here = material_at(material, vertex.point.position);
     const auto next = sample(here, wo, u, transport, which);
     if (!next) return std::nullopt;
-    ScatteredT<T> scattered{*next, to_world(surface.frame, next->wi)};
-    if (!surface.smooth) return scattered;
+    ScatteredT<T> scattered{*next, to_world(vertex.frame, next->wi)};
+    if (!vertex.smooth) return scattered;
 
-    const Vec3T<T>& geometric = surface.point.normal;
-    const Vec3T<T> back = to_world(surface.frame, wo);
-    if (agrees(surface, next->wi, scattered.wi)) {
+    const Vec3T<T>& geometric = vertex.point.normal;
+    const Vec3T<T> back = to_world(vertex.frame, wo);
+    if (agrees(vertex, next->wi, scattered.wi)) {
         if (transport == Transport::radiance) return scattered;
         const T factor = (wo.z * glm::dot(scattered.wi, geometric)) /
                          (glm::dot(back, geometric) * next->wi.z);

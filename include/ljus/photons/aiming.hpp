@@ -18,8 +18,8 @@ namespace ljus {
 /// The objects that mirror or refract, for photons to be aimed at.
 /// \param scene  The scene.
 /// \return Their numbers, in the order of the scene.
-template <typename Scene>
-[[nodiscard]] std::vector<ObjectId> specular_objects(const Scene& scene) {
+template <SceneLike S>
+[[nodiscard]] std::vector<ObjectId> specular_objects(const S& scene) {
     std::vector<ObjectId> targets;
     for (std::uint32_t type = 0; type < scene.objects.size(); ++type)
         for (std::uint32_t i = 0; i < scene.objects[type].size(); ++i)
@@ -32,9 +32,9 @@ template <typename Scene>
 
 /// A photon that was aimed at an object.
 template <std::floating_point T>
-struct AimedFlightT {
-    FlightT<T> flight; ///< The photon.
-    ObjectId target;   ///< It counts only if this is what it meets first.
+struct AimedPhotonT {
+    EmittedPhotonT<T> photon; ///< The photon.
+    ObjectId target;          ///< It counts only if this is what it meets first.
 };
 
 /// How a point of a light aims at an object.
@@ -64,8 +64,8 @@ template <typename S>
 /// \param target  The object.
 /// \return The aim.
 // [aim_at]
-template <typename Scene, std::floating_point T>
-[[nodiscard]] AimT<T> aim_at(const Scene& scene, const LightT<T>& light,
+template <SceneLike S, std::floating_point T>
+[[nodiscard]] AimT<T> aim_at(const S& scene, const LightT<T>& light,
                              const SurfacePointT<T>& from, ObjectId target) {
     return scene.visit_shape(target, [&](const auto& shape) {
         const SphereT<T> bound = bounding_sphere(shape);
@@ -163,17 +163,18 @@ template <std::floating_point T>
 ///          direction, and divides by the photons that were stored: a caustic's
 ///          brightness did not depend on how much light met the glass.}
 // [aim]
-template <typename Scene, typename Stream>
-[[nodiscard]] std::optional<AimedFlightT<typename Scene::Scalar>>
-aim(const Scene& scene, const LightChoice& choice, const std::vector<ObjectId>& targets,
+template <SceneLike S, typename Stream>
+[[nodiscard]] std::optional<AimedPhotonT<typename S::Scalar>>
+aim(const S& scene, const LightChoice& choice, const std::vector<ObjectId>& targets,
     Stream& stream) {
-    using T = typename Scene::Scalar;
+    using T = typename S::Scalar;
     const ChosenLightT<T> chosen = choose_light(choice, next_1d<T>(stream));
     const LightT<T>& light = scene.lights[chosen.light];
     const Vec2T<T> u_point = next_2d<T>(stream);
     const T u_target = next_1d<T>(stream);
     const Vec2T<T> u_direction = next_2d<T>(stream);
-    FlightT<T> flight{.light = static_cast<std::uint16_t>(chosen.light)};
+    const T time = path_time(scene, stream);
+    EmittedPhotonT<T> photon{.light = static_cast<std::uint16_t>(chosen.light)};
 
     if (light.kind == LightKind::sun) {
         const auto bound_of = [&](ObjectId id) {
@@ -187,13 +188,14 @@ aim(const Scene& scene, const LightChoice& choice, const std::vector<ObjectId>& 
         const auto aimed = choose_target(targets, disc_of, u_target);
         if (!aimed) return std::nullopt;
         const SphereT<T> bound = bound_of(aimed->target);
-        flight.ray = sun_ray(light, bound.center, bound.radius, u_point);
-        flight.flux = light.emission * (aimed->sum / chosen.probability);
-        return AimedFlightT<T>{flight, aimed->target};
+        photon.ray = sun_ray(light, bound.center, bound.radius, u_point);
+        photon.ray.time = time;
+        photon.flux = light.emission * (aimed->sum / chosen.probability);
+        return AimedPhotonT<T>{photon, aimed->target};
     }
 
     SurfacePointT<T> point{.position = light.position};
-    if (light.object) point = light_point(scene, light, u_point);
+    if (light.object) point = light_point(scene, light, u_point, time);
     const auto size_of = [&](ObjectId id) {
         return aim_at(scene, light, point, id).size;
     };
@@ -207,7 +209,7 @@ aim(const Scene& scene, const LightChoice& choice, const std::vector<ObjectId>& 
     T pdf = pdf_uniform_cone(at.cone.one_minus_cos);
     if (at.at_area) {
         const auto seen = scene.visit_shape(aimed->target, [&](const auto& shape) {
-            return sample_towards(shape, point.position, u_direction);
+            return sample_towards(at_time(shape, time), point.position, u_direction);
         });
         direction = glm::normalize(seen.point.position - point.position);
         pdf = seen.pdf;
@@ -216,11 +218,12 @@ aim(const Scene& scene, const LightChoice& choice, const std::vector<ObjectId>& 
     if (!(pdf < std::numeric_limits<T>::infinity())) return std::nullopt; // edge-on
     const T emitted = emitted_share(light, point, direction);
     if (!(emitted > T(0))) return std::nullopt;
-    flight.flux = light.flux * (emitted / (pdf * chosen.probability));
-    flight.ray = light.object
+    photon.flux = light.flux * (emitted / (pdf * chosen.probability));
+    photon.ray = light.object
                      ? spawn_ray(point, direction)
                      : RayT<T>{.origin = point.position, .direction = direction};
-    return AimedFlightT<T>{flight, aimed->target};
+    photon.ray.time = time;
+    return AimedPhotonT<T>{photon, aimed->target};
 }
 // [aim]
 

@@ -4,8 +4,8 @@
 /// \brief How a photon leaves a light.
 
 #include "ljus/math/low_discrepancy.hpp"
+#include "ljus/path/next_vertex.hpp"
 #include "ljus/scene/light_choice.hpp"
-#include "ljus/scene/scene.hpp"
 
 namespace ljus {
 
@@ -13,10 +13,10 @@ namespace ljus {
 /// \brief Section 3.2.2: photons are "shot from all the light sources into the scene".
 /// \{
 
-/// A photon on its way.
+/// A photon as it leaves its light.
 template <std::floating_point T>
-struct FlightT {
-    RayT<T> ray{};      ///< Where it is and where it goes.
+struct EmittedPhotonT {
+    RayT<T> ray{};      ///< Where it is, where it goes, and when.
     RgbT<T> flux{T(0)}; ///< W, of all paths together: divide by how many are emitted.
     std::uint16_t light = 0; ///< The number of its light.
 };
@@ -25,12 +25,14 @@ struct FlightT {
 /// \param scene  The scene.
 /// \param light  One of its lights that is an object.
 /// \param u      Point of the unit square.
+/// \param time   Of the photon, in [0, 1].
 /// \return The point.
-template <typename Scene, std::floating_point T>
-[[nodiscard]] SurfacePointT<T> light_point(const Scene& scene, const LightT<T>& light,
-                                           const Vec2T<T>& u) {
-    SurfacePointT<T> point = scene.visit_shape(
-        *light.object, [&](const auto& shape) { return sample_area(shape, u); });
+template <SceneLike S, std::floating_point T>
+[[nodiscard]] SurfacePointT<T> light_point(const S& scene, const LightT<T>& light,
+                                           const Vec2T<T>& u, T time = T(0)) {
+    SurfacePointT<T> point = scene.visit_shape(*light.object, [&](const auto& shape) {
+        return sample_area(at_time(shape, time), u);
+    });
     if (scene.object(*light.object).inside_out) point.normal = -point.normal;
     return point;
 }
@@ -61,13 +63,15 @@ template <std::floating_point T>
 /// \param light        One of its lights.
 /// \param u_point      Point of the unit square: where on the light.
 /// \param u_direction  Point of the unit square: where to.
-/// \return The ray.
+/// \param time         Of the photon, in [0, 1].
+/// \return The ray; its time is still to be set.
 // [light_ray]
-template <typename Scene, std::floating_point T>
-[[nodiscard]] RayT<T> light_ray(const Scene& scene, const LightT<T>& light,
-                                const Vec2T<T>& u_point, const Vec2T<T>& u_direction) {
+template <SceneLike S, std::floating_point T>
+[[nodiscard]] RayT<T> light_ray(const S& scene, const LightT<T>& light,
+                                const Vec2T<T>& u_point, const Vec2T<T>& u_direction,
+                                T time = T(0)) {
     if (light.object) {
-        const SurfacePointT<T> point = light_point(scene, light, u_point);
+        const SurfacePointT<T> point = light_point(scene, light, u_point, time);
         const FrameT<T> frame = frame_around(point.normal);
         return spawn_ray(point, to_world(frame, sample_cosine_hemisphere(u_direction)));
     }
@@ -97,15 +101,18 @@ template <typename Scene, std::floating_point T>
 ///          and the same flux whatever its area, and multiplies the flux by the cosine
 ///          that the direction's density already holds.}
 // [emit]
-template <typename Scene, typename Stream>
-[[nodiscard]] FlightT<typename Scene::Scalar>
-emit(const Scene& scene, const LightChoice& choice, Stream& stream) {
-    using T = typename Scene::Scalar;
+template <SceneLike S, typename Stream>
+[[nodiscard]] EmittedPhotonT<typename S::Scalar>
+emit(const S& scene, const LightChoice& choice, Stream& stream) {
+    using T = typename S::Scalar;
     const ChosenLightT<T> chosen = choose_light(choice, next_1d<T>(stream));
     const LightT<T>& light = scene.lights[chosen.light];
     const Vec2T<T> u_point = next_2d<T>(stream);
     const Vec2T<T> u_direction = next_2d<T>(stream);
-    return {.ray = light_ray(scene, light, u_point, u_direction),
+    const T time = path_time(scene, stream);
+    RayT<T> ray = light_ray(scene, light, u_point, u_direction, time);
+    ray.time = time;
+    return {.ray = ray,
             .flux = light.flux / chosen.probability,
             .light = static_cast<std::uint16_t>(chosen.light)};
 }

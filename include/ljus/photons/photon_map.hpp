@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "ljus/materials/lambertian.hpp"
+#include "ljus/path/vertex.hpp"
 #include "ljus/photons/detail/flux_in_disc.hpp"
-#include "ljus/scene/query.hpp"
 
 namespace ljus {
 
@@ -113,7 +113,7 @@ template <typename Material>
 // [estimate]
 template <std::floating_point T, typename Material>
 [[nodiscard]] RgbT<T> estimate_radiance(const PhotonMapT<T>& map,
-                                        const SurfaceT<T>& surface,
+                                        const VertexT<T>& surface,
                                         const Material& material, const Vec3T<T>& wo,
                                         const DensityEstimateSettings& gather,
                                         PhotonKinds kinds, std::uint64_t& gathered) {

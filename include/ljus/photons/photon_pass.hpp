@@ -17,10 +17,10 @@ namespace ljus {
 /// \addtogroup tracing
 /// \{
 
-/// What a photon does at a surface.
+/// Which map photons are traced for: how they scatter, and where they are stored.
 enum class MapType : std::uint8_t {
-    general, ///< Any scattering; marks L D and L ... D ... D, not L S+ D.
-    caustics ///< Mirrors and glass only; marks L S+ D.
+    general, ///< Any scattering; stored: L D and L ... D ... D, not L S+ D.
+    caustics ///< Mirrors and glass only; stored: L S+ D.
 };
 
 /// Where the numbers of photons come from.
@@ -111,13 +111,13 @@ void require_memory(const PhotonPassSettings& pass, double mean) {
 
 /// Says why a pass that has stored nothing gives up.
 /// \param pass    The pass.
-/// \param law     For which map it was.
+/// \param map     For which map it was.
 /// \param paths   Paths so far.
 /// \param unsent  Those of them that no light could send.
 /// \param audit   Where their flux went.
 /// \return One sentence.
 [[nodiscard]] inline std::string why_nothing(const PhotonPassSettings& pass,
-                                             MapType law, long long paths,
+                                             MapType map, long long paths,
                                              long long unsent, const FluxAudit& audit) {
     const auto sum = [](const RgbT<double>& flux) { return flux.x + flux.y + flux.z; };
     const double sent = 1 - static_cast<double>(unsent) / static_cast<double>(paths);
@@ -125,7 +125,7 @@ void require_memory(const PhotonPassSettings& pass, double mean) {
     const auto percent = [&](const RgbT<double>& flux) {
         return 100 * sent * sum(flux) / all;
     };
-    const bool caustics = law == MapType::caustics;
+    const bool caustics = map == MapType::caustics;
     char text[400];
     std::snprintf(text, sizeof text,
                   "gave up after %lld of %lld photons, none of which was stored: "

@@ -1,18 +1,16 @@
 #pragma once
 
 /// \file ljus/photons/photon_path.hpp
-/// \brief How one photon goes through a scene, and where it leaves its mark.
+/// \brief How one photon travels through a scene, and where it is stored.
 
 #include <algorithm>
 #include <optional>
 #include <vector>
 
-#include "ljus/optics/absorption.hpp"
-#include "ljus/path/scatter.hpp"
-#include "ljus/path/thin_surfaces.hpp"
+#include "ljus/path/continue_path.hpp"
+#include "ljus/path/next_vertex.hpp"
 #include "ljus/photons/emission.hpp"
 #include "ljus/photons/photon_pass.hpp"
-#include "ljus/scene/query.hpp"
 
 namespace ljus {
 
@@ -20,12 +18,12 @@ namespace ljus {
 /// \{
 
 /// Compensated Russian roulette: a photon survives with the probability of its
-/// reflection, and a survivor carries what the dead had \cite arvo1990.
+/// reflection, and a survivor carries what the others had \cite arvo1990.
 /// \param flux    Before the surface; not black.
 /// \param weight  f |cos| / pdf of the new direction.
 /// \param u       In [0, 1).
-/// \param audit   Takes what was absorbed, and what the game moved.
-/// \return The flux that goes on; nothing if the photon dies.
+/// \param audit   Takes what was absorbed, and what roulette moved.
+/// \return The flux that goes on; nothing if the photon ends here.
 /// \report{Section 3.2.2}
 /// \erratum{The report does not say that a survivor must be divided by its probability;
 ///          its program did not, and lost the absorbed part twice.}
@@ -57,180 +55,139 @@ template <std::floating_point T>
 /// photon; whoever reads the map asks photon_side(). Direct and shadow photons together
 /// are then, on each side, all the light that would come if nothing stood in its way.
 /// \param scene   The scene.
-/// \param flight  The photon as it left its light.
+/// \param photon  As it left its light.
 /// \param first   The first surface it met.
 /// \param out     Takes the photons.
 /// \cost One search for the closest surface for each surface behind the first, and one
 ///       more; it ends after 1000.
 /// \report{Section 3.2.2.1} \cite jensen1995
 // [trace_shadow]
-template <typename Scene, std::floating_point T>
-void trace_shadow(const Scene& scene, const FlightT<T>& flight,
+template <SceneLike S, std::floating_point T>
+void trace_shadow(const S& scene, const EmittedPhotonT<T>& photon,
                   const SurfacePointT<T>& first, std::vector<PhotonT<T>>& out) {
-    RayT<T> ray = spawn_ray(first, flight.ray.direction);
+    RayT<T> ray = spawn_ray(first, photon.ray.direction, photon.ray.time);
     for (int surfaces = 0; surfaces < 1000; ++surfaces) {
         const auto hit = closest_hit(scene, ray);
         if (!hit) return;
-        const SurfaceT<T> surface = surface_at(scene, ray, *hit);
+        const VertexT<T> vertex = vertex_at(scene, ray, *hit);
         const bool diffuse =
-            scene.visit_material(surface.object.material, [](const auto& m) {
-                return has(lobes(m), Lobes::diffuse);
+            scene.visit_material(vertex.object.material, [](const auto& m) {
+                return has(lobes(m), Lobes::non_specular);
             });
         if (diffuse)
-            out.push_back({surface.point.position, ray.direction, flight.flux,
-                           flight.light, PhotonKind::shadow,
-                           small_normal(surface.point.normal)});
-        ray = spawn_ray(surface.point, ray.direction);
+            out.push_back({vertex.point.position, ray.direction, photon.flux,
+                           photon.light, PhotonKind::shadow,
+                           small_normal(vertex.point.normal)});
+        ray = spawn_ray(vertex.point, ray.direction, ray.time);
     }
 }
 // [trace_shadow]
 
-/// A photon on its way, and what it has met.
-template <std::floating_point T>
-struct TravellerT {
-    FlightT<T> flight{};       ///< Where it goes, with what flux.
-    RgbT<T> medium{T(0)};      ///< What the medium around it absorbs.
-    bool met_diffuse = false;  ///< Whether it has been scattered diffusely.
-    bool met_specular = false; ///< Whether it has met a mirror or glass.
-    T chance = T(1);           ///< Of being stopped by the sheet where it is.
-};
-
-/// What kind of photon it would leave where it is now.
-/// \param photon  The photon.
+/// What kind of photon a path would leave where it is now.
+/// \param path  The path of a photon.
 /// \return Its kind; never a shadow.
 template <std::floating_point T>
-[[nodiscard]] PhotonKind kind_of(const TravellerT<T>& photon) noexcept {
-    if (photon.met_diffuse) return PhotonKind::indirect;
-    return photon.met_specular ? PhotonKind::caustic : PhotonKind::direct;
+[[nodiscard]] PhotonKind kind_of(const PathStateT<T>& path) noexcept {
+    if (path.met_diffuse) return PhotonKind::indirect;
+    return path.met_specular ? PhotonKind::caustic : PhotonKind::direct;
 }
 
-/// Lets the medium, and the sheets that it went through, take their shares of a photon.
-/// \param photon    The photon.
-/// \param distance  The way through the medium.
-/// \param through   What the sheets left.
-/// \param audit     Takes what was absorbed.
-// [absorb]
-template <std::floating_point T>
-void absorb(TravellerT<T>& photon, T distance, const RgbT<T>& through,
-            FluxAudit& audit) noexcept {
-    RgbT<T>& flux = photon.flight.flux;
-    const RgbT<T> arrived = flux * transmittance(photon.medium, distance) * through;
-    audit.absorbed += RgbT<double>(flux) - RgbT<double>(arrived);
-    flux = arrived;
-}
-// [absorb]
-
-/// Stores a photon, if the surface is diffuse and the photon's kind is the law's.
-/// \param photon    The photon.
-/// \param surface   Where it is.
+/// Stores a photon, if the surface is diffuse and the map keeps photons of its kind.
+/// \param path      The path of the photon; its throughput is the flux.
+/// \param vertex    Where it is.
 /// \param material  What the surface is made of.
-/// \param law       For which map.
+/// \param light     The number of its light.
+/// \param map       For which map.
 /// \param out       Takes it.
-// [mark]
-template <std::floating_point T, typename Material>
-void mark(const TravellerT<T>& photon, const SurfaceT<T>& surface,
-          const Material& material, MapType law, std::vector<PhotonT<T>>& out) {
-    const PhotonKind kind = kind_of(photon);
-    const bool caustics = law == MapType::caustics;
+// [store]
+template <std::floating_point T, Material M>
+void store_photon(const PathStateT<T>& path, const VertexT<T>& vertex,
+                  const M& material, std::uint16_t light, MapType map,
+                  std::vector<PhotonT<T>>& out) {
+    const PhotonKind kind = kind_of(path);
+    const bool caustics = map == MapType::caustics;
     const bool owned = (kind == PhotonKind::caustic) == caustics;
-    if (!owned || !has(lobes(material), Lobes::diffuse)) return;
-    const FlightT<T>& flight = photon.flight;
-    const Vec3T<T> wo = to_local(surface.frame, -flight.ray.direction);
-    const T landing = landing_factor(surface, wo, flight.ray.direction);
+    if (!owned || !has(lobes(material), Lobes::non_specular)) return;
+    const T landing = landing_factor(vertex, path.ray.direction);
     if (!(landing > T(0))) return;
-    out.push_back({surface.point.position, flight.ray.direction, landing * flight.flux,
-                   flight.light, kind, small_normal(surface.point.normal)});
+    out.push_back({vertex.point.position, path.ray.direction, landing * path.throughput,
+                   light, kind, small_normal(vertex.point.normal)});
 }
-// [mark]
+// [store]
 
-/// Scatters a photon at a surface, unless it dies there.
-/// \param photon    The photon; gets its new ray, flux and medium.
-/// \param surface   Where it is.
+/// Scatters a photon at a vertex, unless roulette ends it there.
+/// \param path      Gets its new ray, flux and medium.
+/// \param vertex    Where it is.
 /// \param material  What the surface is made of.
-/// \param law       For which map: caustics photons go on by mirrors and glass only.
+/// \param map       For which map: caustics photons go on by mirrors and glass only.
 /// \param stream    Four numbers are drawn.
 /// \param audit     Takes what was absorbed, and what roulette moved.
 /// \return Whether it goes on.
-// [send_on]
-template <std::floating_point T, typename Material, typename Stream>
-[[nodiscard]] bool send_on(TravellerT<T>& photon, const SurfaceT<T>& surface,
-                           const Material& material, MapType law, Stream& stream,
-                           FluxAudit& audit) {
-    FlightT<T>& flight = photon.flight;
-    const Vec3T<T> wo = to_local(surface.frame, -flight.ray.direction);
-    const Vec3T<T> u = next_3d<T>(stream);
-    const bool only_specular = law == MapType::caustics || surface.turned;
-    const auto next = scatter(surface, material, wo, u, Transport::flux,
-                              only_specular ? Lobes::specular : Lobes::all);
-    if (!next) {
-        audit.absorbed += RgbT<double>(flight.flux);
+// [scatter_photon]
+template <std::floating_point T, Material M, typename Stream>
+[[nodiscard]] bool scatter_photon(PathStateT<T>& path, const VertexT<T>& vertex,
+                                  const M& material, MapType map, Stream& stream,
+                                  FluxAudit& audit) {
+    const RgbT<T> flux = path.throughput;
+    const bool only_specular = map == MapType::caustics || vertex.turned;
+    const Lobes which = only_specular ? Lobes::specular : Lobes::all;
+    path.throughput = RgbT<T>{T(1)}; // so that what is left is the weight alone
+    if (!continue_path(path, vertex, material, Transport::flux, which, stream)) {
+        audit.absorbed += RgbT<double>(flux);
         return false;
     }
-    const auto& scattered = next->sample;
-    const auto survivor = play_roulette(flight.flux, scattered.weight / photon.chance,
-                                        next_1d<T>(stream), audit);
+    const auto survivor =
+        play_roulette(flux, path.throughput, next_1d<T>(stream), audit);
     if (!survivor) return false;
-
-    flight.flux = *survivor;
-    (scattered.specular ? photon.met_specular : photon.met_diffuse) = true;
-    if (!same_side(wo, scattered.wi))
-        photon.medium = scattered.wi.z < T(0) ? absorption(material) : RgbT<T>{};
-    flight.ray = spawn_ray(surface.point, next->wi);
+    path.throughput = *survivor;
     return true;
 }
-// [send_on]
+// [scatter_photon]
 
-/// Follows one photon and stores it at every diffuse surface that its law owns.
+/// Follows one photon and stores it at every diffuse surface where its map keeps it.
 ///
 /// A photon that has met nothing but mirrors and glass is a caustic one: the caustics
 /// map holds it, and the general map leaves it out, so that no light is counted twice.
 /// \param scene   The scene.
-/// \param law     For which map.
-/// \param flight  The photon, its flux already divided by the number of paths.
+/// \param map     For which map.
+/// \param photon  As it leaves its light, its flux already divided by the number of
+///                paths.
 /// \param target  Where it was aimed; for caustics, another first hit ends it.
 /// \param pass    Limits.
-/// \param stream  Four numbers a bounce.
+/// \param stream  Four numbers per bounce.
 /// \param out     Takes the photons.
 /// \param audit   Takes the flux.
 // [trace]
-template <typename Scene, std::floating_point T, typename Stream>
-void trace(const Scene& scene, MapType law, const FlightT<T>& flight,
-           std::optional<ObjectId> target, const PhotonPassSettings& pass,
-           Stream& stream, std::vector<PhotonT<T>>& out, FluxAudit& audit) {
-    TravellerT<T> photon{.flight = flight};
-    const auto add_to = [&](RgbT<double>& account) {
-        account += RgbT<double>(photon.flight.flux);
-    };
-    add_to(audit.emitted);
-    for (int bounce = 1; bounce <= pass.max_bounces; ++bounce) {
-        start_bounce(stream, static_cast<std::uint64_t>(bounce));
-        RayT<T>& ray = photon.flight.ray;
-        const auto met = meet(scene, ray, stream);
-        if (!met) return add_to(audit.escaped);
-        if (bounce == 1 && target && met->hit.object != *target)
-            return add_to(audit.cut);
-
-        const SurfaceT<T> surface = surface_at(scene, ray, met->hit);
-        const MaterialId made_of = surface.object.material;
-        if (bounce == 1) {
-            // From behind: the light is within the glass.
-            if (glm::dot(surface.frame.normal, ray.direction) > T(0))
-                photon.medium = scene.visit_material(
-                    made_of, [](const auto& m) { return absorption(m); });
-            if (law == MapType::general && pass.shadow_photons)
-                trace_shadow(scene, flight, surface.point, out);
+template <SceneLike S, std::floating_point T, typename Stream>
+void trace_photon(const S& scene, MapType map, const EmittedPhotonT<T>& photon,
+                  std::optional<ObjectId> target, const PhotonPassSettings& pass,
+                  Stream& stream, std::vector<PhotonT<T>>& out, FluxAudit& audit) {
+    PathStateT<T> path{.ray = photon.ray, .throughput = photon.flux};
+    audit.emitted += RgbT<double>(photon.flux);
+    while (path.depth < pass.max_bounces) {
+        const RgbT<double> sent{path.throughput};
+        const auto vertex = next_vertex(scene, path, stream);
+        if (!vertex) {
+            audit.escaped += sent;
+            return;
         }
-        absorb(photon, met->distance, met->through, audit);
-        photon.chance = met->chance;
-        if (is_black(photon.flight.flux)) return;
+        const bool first = path.depth == 1;
+        if (first && target && vertex->id != *target) {
+            audit.cut += sent;
+            return;
+        }
+        if (first && map == MapType::general && pass.shadow_photons)
+            trace_shadow(scene, photon, vertex->point, out);
+        audit.absorbed += sent - RgbT<double>(path.throughput); // by what lies between
+        if (is_black(path.throughput)) return;
 
         const auto at_material = [&](const auto& material) {
-            mark(photon, surface, material, law, out);
-            return send_on(photon, surface, material, law, stream, audit);
+            store_photon(path, *vertex, material, photon.light, map, out);
+            return scatter_photon(path, *vertex, material, map, stream, audit);
         };
-        if (!visit_material_of(scene, surface, at_material)) return;
+        if (!visit_material_at(scene, *vertex, at_material)) return;
     }
-    add_to(audit.cut);
+    audit.cut += RgbT<double>(path.throughput);
 }
 // [trace]
 

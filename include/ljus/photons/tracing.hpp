@@ -20,40 +20,41 @@ namespace ljus {
 
 /// Sends and traces the paths of one block.
 /// \param scene    The scene.
-/// \param law      For which map.
+/// \param map      For which map.
 /// \param choice   Of the scene's lights.
 /// \param targets  What caustics photons are aimed at.
 /// \param pass     How many in all, and with which seed.
 /// \param paths    Which of them.
 /// \param block    Takes the photons and the account.
 // [trace_block]
-template <typename Scene, std::floating_point T>
-void trace_block(const Scene& scene, MapType law, const LightChoice& choice,
+template <SceneLike S, std::floating_point T>
+void trace_block(const S& scene, MapType map, const LightChoice& choice,
                  const std::vector<ObjectId>& targets, const PhotonPassSettings& pass,
                  const BlockRange& paths, PhotonBlockT<T>& block) {
     const Pass part =
-        law == MapType::caustics ? Pass::caustics_photons : Pass::general_photons;
+        map == MapType::caustics ? Pass::caustics_photons : Pass::general_photons;
     for (long long i = paths.first; i < paths.last; ++i) {
         const auto path = static_cast<std::uint64_t>(i);
         SobolStream stream =
             pass.numbers == PhotonSampling::sobol
                 ? sobol_stream(pass.seed, part, pass.iteration, path)
                 : without_points(random_stream(pass.seed, part, pass.iteration, path));
-        FlightT<T> flight;
+        EmittedPhotonT<T> photon;
         std::optional<ObjectId> target;
-        if (law == MapType::caustics) {
+        if (map == MapType::caustics) {
             const auto aimed = aim(scene, choice, targets, stream);
             if (!aimed) {
                 ++block.unsent;
                 continue;
             }
-            flight = aimed->flight;
+            photon = aimed->photon;
             target = aimed->target;
         } else {
-            flight = emit(scene, choice, stream);
+            photon = emit(scene, choice, stream);
         }
-        flight.flux /= static_cast<T>(pass.photons);
-        trace(scene, law, flight, target, pass, stream, block.photons, block.audit);
+        photon.flux /= static_cast<T>(pass.photons);
+        trace_photon(scene, map, photon, target, pass, stream, block.photons,
+                     block.audit);
     }
 }
 // [trace_block]
@@ -84,16 +85,16 @@ long long join_blocks(std::vector<PhotonBlockT<T>>& blocks, TracedPhotonsT<T>& r
 /// more than PhotonPassSettings::max_memory is refused before it takes it. A pass of which
 /// nothing was stored in PhotonPassSettings::give_up paths ends there, and says why.
 /// \param scene  The scene; with at least one light.
-/// \param law    For which map.
+/// \param map    For which map.
 /// \param pass   How many, and with which seed.
 /// \return The photons in the order of emission, the same for any number of threads.
 /// \throws std::invalid_argument  if the scene has no light or more than 65536, a
 ///         number of the pass is out of range, or the memory would not do.
 // [trace_photons]
-template <typename Scene>
-[[nodiscard]] TracedPhotonsT<typename Scene::Scalar>
-trace_photons(const Scene& scene, MapType law, const PhotonPassSettings& pass) {
-    using T = typename Scene::Scalar;
+template <SceneLike S>
+[[nodiscard]] TracedPhotonsT<typename S::Scalar>
+trace_photons(const S& scene, MapType map, const PhotonPassSettings& pass) {
+    using T = typename S::Scalar;
     check(pass);
     require(!scene.lights.empty(), "the number of lights", 0LL,
             "at least 1, because photons start at lights");
@@ -105,9 +106,9 @@ trace_photons(const Scene& scene, MapType law, const PhotonPassSettings& pass) {
             choice.cumulative.back(), "above 0: a sun needs objects to shine on");
     require_memory<T>(pass, 0);
 
-    const IndexedT<Scene> indexed(scene);
+    const IndexedT<S> indexed(scene);
     TracedPhotonsT<T> result{.emitted = pass.photons};
-    const bool caustics = law == MapType::caustics;
+    const bool caustics = map == MapType::caustics;
     const auto targets = caustics ? specular_objects(scene) : std::vector<ObjectId>{};
     if (caustics && targets.empty()) return result;
 
@@ -121,7 +122,7 @@ trace_photons(const Scene& scene, MapType law, const PhotonPassSettings& pass) {
         blocks.resize(static_cast<std::size_t>(last));
         const auto body = [&](long long i) {
             const BlockRange range = block_range(done + i, photon_block, pass.photons);
-            trace_block(indexed, law, choice, targets, pass, range,
+            trace_block(indexed, map, choice, targets, pass, range,
                         blocks[static_cast<std::size_t>(done + i)]);
         };
         const auto progress = [&](long long now, long long) {
@@ -141,7 +142,7 @@ trace_photons(const Scene& scene, MapType law, const PhotonPassSettings& pass) {
     const long long unsent = join_blocks(blocks, result);
     if (nothing && result.complete && result.emitted < pass.photons) {
         result.audit *= double(pass.photons) / double(result.emitted);
-        result.remark = why_nothing(pass, law, result.emitted, unsent, result.audit);
+        result.remark = why_nothing(pass, map, result.emitted, unsent, result.audit);
     }
     return result;
 }

@@ -90,15 +90,15 @@ inline bool close_rows(FormFactors& factors) {
 /// \cost n^2 numbers of 8 bytes; of time see the chapter.
 /// \report{Section 2.2}
 // [make_form_factors]
-template <typename Scene>
+template <SceneLike S>
 [[nodiscard]] std::optional<FormFactors>
-make_form_factors(const Scene& scene, const Patches& all,
+make_form_factors(const S& scene, const Patches& all,
                   const FormFactorSettings& settings = {}) {
     require(settings.rays >= 1, "rays", static_cast<long long>(settings.rays),
             "at least 1");
     require(settings.shadow_rays >= 1, "shadow_rays",
             static_cast<long long>(settings.shadow_rays), "at least 1");
-    const IndexedT<Scene> indexed(scene);
+    const IndexedT<S> indexed(scene);
     const std::size_t n = all.patches.size();
     FormFactors factors{.area = std::vector<double>(n),
                         .exchange = std::vector<double>(n * n)};

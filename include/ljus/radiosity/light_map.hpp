@@ -79,11 +79,12 @@ struct LightMapSettings {
 };
 
 /// A light map with its scene, ready to be rendered: `render(view, camera, picture)`.
-template <typename Scene>
+template <SceneLike S>
 struct LightMapView {
-    IndexedT<Scene> scene;   ///< Which scene; it must outlive the view.
-    LightMap map;            ///< Its light.
-    LightMapSettings look{}; ///< How it is drawn.
+    using Stream = RandomStream; ///< It draws nothing.
+    IndexedT<S> scene;           ///< Which scene; it must outlive the view.
+    LightMap map;                ///< Its light.
+    LightMapSettings look{};     ///< How it is drawn.
     std::vector<std::vector<std::array<std::uint32_t, 2>>> grid_of; ///< As in Patches.
     std::vector<std::vector<RgbT<double>>> vertices; ///< vertex_light() of each grid.
 };
@@ -94,14 +95,13 @@ struct LightMapView {
 /// \param look   How it is drawn.
 /// \return The view.
 /// \throws std::invalid_argument  if the map does not go with the scene.
-template <typename Scene>
-[[nodiscard]] LightMapView<Scene>
-make_light_map_view(const Scene& scene, LightMap map,
-                    const LightMapSettings& look = {}) {
+template <SceneLike S>
+[[nodiscard]] LightMapView<S> make_light_map_view(const S& scene, LightMap map,
+                                                  const LightMapSettings& look = {}) {
     require(map.objects == scene.size(), "the number of objects of the light map",
             static_cast<long long>(map.objects),
             std::to_string(scene.size()) + ", as in the scene");
-    LightMapView<Scene> view{IndexedT<Scene>(scene), std::move(map), look, {}, {}};
+    LightMapView<S> view{IndexedT<S>(scene), std::move(map), look, {}, {}};
     for (const auto& list : scene.objects)
         view.grid_of.emplace_back(list.size(), std::array{no_grid, no_grid});
     std::size_t next = 0;
@@ -156,8 +156,8 @@ blended_light(const PatchGrid& grid, const glm::dvec2& at,
 ///         patch is black.
 /// \report{Section 2.2}
 // [radiance]
-template <typename Scene, std::floating_point T, typename Log = NoLog>
-[[nodiscard]] RgbT<T> radiance(const LightMapView<Scene>& view, const RayT<T>& ray,
+template <SceneLike S, std::floating_point T, typename Log = NoLog>
+[[nodiscard]] RgbT<T> radiance(const LightMapView<S>& view, const RayT<T>& ray,
                                RandomStream& /*stream*/, Counts& /*counts*/,
                                Log&& log = {}) {
     log.begin();

@@ -25,8 +25,8 @@ namespace ljus {
 /// \param number  Of the patch.
 /// \param u       Point of the unit square.
 /// \return The point; its normal on the patch's side.
-template <typename Scene, std::floating_point T>
-[[nodiscard]] SurfacePointT<T> sample_patch(const Scene& scene, const Patches& all,
+template <SceneLike S, std::floating_point T>
+[[nodiscard]] SurfacePointT<T> sample_patch(const S& scene, const Patches& all,
                                             std::uint32_t number, const Vec2T<T>& u) {
     const PatchGrid& grid = all.grids[all.patches[number].grid];
     return scene.visit_shape(grid.object, [&](const auto& shape) {
@@ -43,10 +43,10 @@ template <typename Scene, std::floating_point T>
 /// \param ray    The ray.
 /// \param hit    What closest_hit() returned.
 /// \return Its number; nothing for a side without patches.
-template <typename Scene, std::floating_point T>
-[[nodiscard]] std::optional<std::uint32_t>
-patch_at(const Scene& scene, const Patches& all, const RayT<T>& ray,
-         const SceneHitT<T>& hit) {
+template <SceneLike S, std::floating_point T>
+[[nodiscard]] std::optional<std::uint32_t> patch_at(const S& scene, const Patches& all,
+                                                    const RayT<T>& ray,
+                                                    const SceneHitT<T>& hit) {
     const Vec3T<T> outer = scene.visit_shape(hit.object, [&](const auto& shape) {
         return surface_point(shape, ray, hit.at).normal;
     });
@@ -71,10 +71,10 @@ patch_at(const Scene& scene, const Patches& all, const RayT<T>& ray,
 /// \param row     Area / rays is added for each arrival: a row of exchange areas.
 /// \cite malley1988
 // [shoot_rays]
-template <typename Scene>
-void shoot_rays(const Scene& scene, const Patches& all, std::uint32_t number, int rays,
+template <SceneLike S>
+void shoot_rays(const S& scene, const Patches& all, std::uint32_t number, int rays,
                 std::uint64_t seed, std::span<double> row) {
-    using T = typename Scene::Scalar;
+    using T = typename S::Scalar;
     const Strata strata = strata_for(rays);
     const std::uint64_t key = mix_bits(seed) ^ number;
     const double share = all.patches[number].area / rays;
@@ -107,11 +107,11 @@ void shoot_rays(const Scene& scene, const Patches& all, std::uint32_t number, in
 /// \param seed    Of the random streams.
 /// \return In [0, 1]: the weights cancel, and the closed form knows them better.
 // [visible_share]
-template <typename Scene>
-[[nodiscard]] double visible_share(const Scene& scene, const Patches& all,
+template <SceneLike S>
+[[nodiscard]] double visible_share(const S& scene, const Patches& all,
                                    std::uint32_t one, std::uint32_t two, int rays,
                                    std::uint64_t seed) {
-    using T = typename Scene::Scalar;
+    using T = typename S::Scalar;
     const Strata strata = strata_for(rays);
     const std::uint64_t pair = (std::uint64_t(one) << 32) + two;
     double total = 0, visible = 0;

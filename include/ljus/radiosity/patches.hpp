@@ -86,8 +86,8 @@ double reach_along(const S& shape, const glm::dvec3& normal) {
 }
 
 // Calls f(shape, id) for every shape of a scene.
-template <typename Scene, typename F>
-void each_shape(const Scene& scene, F f) {
+template <SceneLike S, typename F>
+void each_shape(const S& scene, F f) {
     std::uint32_t type = 0;
     const auto all = [&](const auto& shapes) {
         for (std::uint32_t i = 0; i < shapes.size(); ++i)
@@ -99,13 +99,13 @@ void each_shape(const Scene& scene, F f) {
 
 // Whether anything of the scene stands before a side of a shape, for all that its
 // numbers can tell; before the side of a ball that its normal points to, always.
-template <typename Scene, typename S>
-bool anything_before(const Scene& scene, const S& shape, bool inward, bool inside_out) {
-    if constexpr (Flat<S>) {
+template <SceneLike S, typename G>
+bool anything_before(const S& scene, const G& shape, bool inward, bool inside_out) {
+    if constexpr (Flat<G>) {
         const Facet side = inward ? turned(facet_of(shape)) : facet_of(shape);
         const glm::dvec3 normal = glm::normalize(area_vector(side));
         const double plane = glm::dot(side.corners[0], normal);
-        const double unit = std::numeric_limits<typename Scene::Scalar>::epsilon();
+        const double unit = std::numeric_limits<typename S::Scalar>::epsilon();
         const double rounding =
             64 * unit *
             glm::length(glm::dvec3(glm::abs(scene.low) + glm::abs(scene.high)));
@@ -162,16 +162,15 @@ inline void say(Patches& all, long long count, const char* one, const char* many
 ///         than `most`, or none.
 /// \cost Each pair of objects is looked at once.
 /// \report{Section 2.2}
-template <typename Scene>
-[[nodiscard]] Patches make_patches(const Scene& scene,
-                                   const PatchSettings& settings = {}) {
+template <SceneLike S>
+[[nodiscard]] Patches make_patches(const S& scene, const PatchSettings& settings = {}) {
     require_positive("patch size", settings.size);
     require(settings.most <= 65536, "most", static_cast<long long>(settings.most),
             "at most 65536: their form factors take 34 GB");
     Patches all;
     all.grid_of.resize(scene.objects.size());
     long long unknown = 0, shiny = 0, lamps = 0;
-    const auto cut = [&]<typename S>(const S& shape, ObjectId id) {
+    const auto cut = [&]<typename G>(const G& shape, ObjectId id) {
         const auto& object = scene.object(id);
         std::array<std::uint32_t, 2> sides{no_grid, no_grid};
         std::array<bool, 2> open{};
@@ -180,7 +179,7 @@ template <typename Scene>
                 scene, shape, back != object.inside_out, object.inside_out);
         // A wall that sees something on one side only stands between nothing.
         all.convex =
-            all.convex && (Flat<S> ? !(open[0] && open[1]) : object.inside_out);
+            all.convex && (Flat<G> ? !(open[0] && open[1]) : object.inside_out);
         const bool matt = scene.visit_material(object.material, [&](const auto& m) {
             using M = std::remove_cvref_t<decltype(m)>;
             if constexpr (Matt<M> && requires { patch_grid(shape, 1.0); }) {

@@ -64,8 +64,8 @@ energy_balance(const Patches& patches, const FormFactors& factors,
 /// \param radiosity  Of each patch, W/m^2. One that still waits to be sent on is seen
 ///                   already: the map holds what arrives.
 /// \return The light map.
-template <typename Scene>
-[[nodiscard]] LightMap make_light_map(const Scene& scene, const Patches& patches,
+template <SceneLike S>
+[[nodiscard]] LightMap make_light_map(const S& scene, const Patches& patches,
                                       const FormFactors& factors,
                                       const std::vector<RgbT<double>>& radiosity) {
     return {.objects = scene.size(),
@@ -82,9 +82,9 @@ template <typename Scene>
 ///         solve_radiosity().
 /// \report{Section 2.2}
 // [make_radiosity]
-template <typename Scene>
+template <SceneLike S>
 [[nodiscard]] std::optional<Radiosity>
-make_radiosity(const Scene& scene, const RadiositySettings& settings = {}) {
+make_radiosity(const S& scene, const RadiositySettings& settings = {}) {
     Radiosity all{.patches = make_patches(scene, settings.patches)};
     auto factors = make_form_factors(scene, all.patches, settings.factors);
     if (!factors) return std::nullopt;

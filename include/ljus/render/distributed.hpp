@@ -4,9 +4,10 @@
 /// \brief Distributed rays: one ray of each kind, sent somewhere else each time.
 
 #include "ljus/math/stratified_stream.hpp"
-#include "ljus/path/camera_path.hpp"
+#include "ljus/path/continue_path.hpp"
 #include "ljus/path/direct_light.hpp"
-#include "ljus/path/shutter.hpp"
+#include "ljus/path/renderer.hpp"
+#include "ljus/scene/index.hpp"
 
 namespace ljus {
 
@@ -25,10 +26,10 @@ struct DistributedSettings {
 };
 
 /// A scene, ready for distributed rays. It refers to the scene, which must outlive it.
-template <typename Scene>
+template <SceneLike S>
 struct DistributedTracer {
     using Stream = StratifiedStream; ///< What render() gives it to draw from.
-    IndexedT<Scene> scene;           ///< What is rendered.
+    IndexedT<S> scene;               ///< What is rendered.
     DistributedSettings settings;    ///< How.
 };
 
@@ -39,35 +40,39 @@ struct DistributedTracer {
 /// \param settings  The depth.
 /// \return The tracer.
 /// \throws std::invalid_argument  if the depth is negative.
-template <typename Scene>
-[[nodiscard]] DistributedTracer<Scene>
-make_distributed(const Scene& scene, const DistributedSettings& settings = {}) {
+template <SceneLike S>
+[[nodiscard]] DistributedTracer<S>
+make_distributed(const S& scene, const DistributedSettings& settings = {}) {
     require(settings.max_depth >= 0, "max_depth",
             static_cast<long long>(settings.max_depth), "at least 0");
-    return {IndexedT<Scene>(scene), settings};
+    return {IndexedT<S>(scene), settings};
 }
+/// Not of a temporary: the scene would be gone before it is rendered.
+template <SceneLike S>
+DistributedTracer<S> make_distributed(const S&& scene,
+                                      const DistributedSettings& = {}) = delete;
 
 /// The light of all lights at a surface, by one shadow ray to a random point of each.
 /// In gloss a lamp is seen by the reflected ray, so that none is sent to it: each path
 /// has one owner.
-/// \param scene     The scene, at the ray's time.
-/// \param at        The surface.
+/// \param scene     The scene.
+/// \param vertex    The surface.
 /// \param material  What it is made of.
 /// \param stream    Two numbers for each light with a size.
 /// \param counts    Counts the rays.
 /// \return Radiance towards wo.
 /// \report{Section 2.1}
 // [soft shadow]
-template <typename Scene, std::floating_point T, typename Material, typename Stream>
-[[nodiscard]] RgbT<T> soft_light(const Scene& scene, const ShadingT<T>& at,
-                                 const Material& material, Stream& stream,
-                                 Counts& counts) {
+template <SceneLike S, std::floating_point T, Material M, typename Stream>
+[[nodiscard]] RgbT<T> soft_light(const S& scene, const VertexT<T>& vertex,
+                                 const M& material, Stream& stream, Counts& counts) {
     const auto whole = [](const LightSampleT<T>&, const Vec3T<T>&) { return T(1); };
+    const bool gloss = has(lobes(material), Lobes::glossy);
     RgbT<T> sum{T(0)};
     for (const LightT<T>& light : scene.lights) {
-        if (Glossy_<Material> && light.object) continue;
+        if (gloss && light.object) continue;
         const Vec2T<T> u = light.object ? next_2d<T>(stream) : Vec2T<T>{T(0)};
-        sum += direct_light(scene, light, at, material, u, whole, counts);
+        sum += direct_light(scene, light, vertex, material, u, whole, counts);
     }
     return sum;
 }
@@ -85,40 +90,34 @@ template <typename Scene, std::floating_point T, typename Material, typename Str
 /// \cost At most max_depth + 1 rays, and as many shadow rays to each light.
 /// \report{Section 2.1}
 // [radiance]
-template <typename Scene, std::floating_point T, typename Stream, typename Log = NoLog>
-[[nodiscard]] RgbT<T> radiance(const DistributedTracer<Scene>& tracer,
-                               const RayT<T>& ray, Stream& stream, Counts& counts,
-                               Log&& log = {}) {
-    T time = T(0);
-    if constexpr (lists_moving<Scene>) time = next_1d<T>(stream);
-    const auto& scene = at_time(tracer.scene, time);
-
+template <SceneLike S, std::floating_point T, typename Stream, typename Log = NoLog>
+[[nodiscard]] RgbT<T> radiance(const DistributedTracer<S>& tracer, const RayT<T>& ray,
+                               Stream& stream, Counts& counts, Log&& log = {}) {
+    const auto& scene = tracer.scene;
     RgbT<T> sum{T(0)};
-    PathT<T> path{.ray = ray};
+    auto path = camera_path(scene, ray, stream);
     log.begin();
-    for (int depth = 0;; ++depth) {
-        start_bounce(stream, static_cast<std::uint64_t>(depth) + 1);
-        const auto met = meet(scene, path.ray, stream);
-        if (!met) break;
-        const ShadingT<T> at = shading(scene, path.ray, met->hit, path.medium);
-        path.throughput *= transmittance(path.medium, met->distance) * met->arrives();
+    while (const auto vertex = next_vertex(scene, path, stream)) {
         const auto add = [&](const char* owner, const char* letters,
                              const RgbT<T>& light) {
             log.term(owner, letters, path.throughput * light);
             sum += path.throughput * light;
         };
-        if (at.emits()) add("emission", "L", at.surface.object.emission);
+        if (vertex->emits()) add("emission", "L", vertex->object.emission);
 
         const auto at_material = [&](const auto& material) {
-            constexpr bool gloss = Glossy_<std::remove_cvref_t<decltype(material)>>;
-            if (has(lobes(material), Lobes::diffuse))
+            const Lobes parts = lobes(material);
+            if (has(parts, Lobes::non_specular))
                 add("shadow ray", "DL",
-                    soft_light(scene, at, material, stream, counts));
-            if (depth == tracer.settings.max_depth) return false;
-            return send_on(path, at, material, gloss ? Lobes::all : Lobes::specular,
-                           false, stream, log);
+                    soft_light(scene, *vertex, material, stream, counts));
+            if (path.depth > tracer.settings.max_depth) return false;
+            const Lobes which =
+                has(parts, Lobes::glossy) ? Lobes::all : Lobes::specular;
+            return continue_path(path, *vertex, material, Transport::radiance, which,
+                                 stream);
         };
-        if (!visit_material_of(scene, at.surface, at_material)) break;
+        if (!visit_material_at(scene, *vertex, at_material)) break;
+        log_vertex(log, path);
         if (is_black(path.throughput)) break;
         ++counts.bounce_rays;
     }

@@ -3,9 +3,10 @@
 /// \file ljus/render/photon_mapping.hpp
 /// \brief The report's renderer: rays from the camera, and two photon maps.
 
-#include "ljus/path/camera_path.hpp"
+#include "ljus/path/continue_path.hpp"
 #include "ljus/path/direct_light.hpp"
 #include "ljus/path/path_log.hpp"
+#include "ljus/path/renderer.hpp"
 #include "ljus/photons/photon_map.hpp"
 #include "ljus/photons/tracing.hpp"
 #include "ljus/render/survey.hpp"
@@ -42,15 +43,15 @@ struct PhotonMapsT {
 /// \param settings  Photons, seed, threads.
 /// \return The maps, the same for any number of threads.
 /// \throws std::invalid_argument  if there is no light, or a setting is out of range.
-template <typename Scene>
-[[nodiscard]] PhotonMapsT<typename Scene::Scalar>
-make_photon_maps(const Scene& scene, const PhotonMappingSettings& settings = {}) {
+template <SceneLike S>
+[[nodiscard]] PhotonMapsT<typename S::Scalar>
+make_photon_maps(const S& scene, const PhotonMappingSettings& settings = {}) {
     check(settings);
     const Plan plan = survey(scene, settings);
-    PhotonMapsT<typename Scene::Scalar> maps;
-    const auto run = [&](MapType law, const PhotonPassSettings& pass, auto& map,
+    PhotonMapsT<typename S::Scalar> maps;
+    const auto run = [&](MapType type, const PhotonPassSettings& pass, auto& map,
                          auto& audit) {
-        const auto traced = trace_photons(scene, law, pass);
+        const auto traced = trace_photons(scene, type, pass);
         map = make_photon_map(traced.photons);
         audit = traced.audit;
         maps.complete = maps.complete && traced.complete;
@@ -64,11 +65,12 @@ make_photon_maps(const Scene& scene, const PhotonMappingSettings& settings = {})
 }
 
 /// A scene with its photon maps. It refers to both, which must outlive it.
-template <typename Scene>
+template <SceneLike S>
 struct PhotonMapper {
-    IndexedT<Scene> scene;                           ///< What is rendered.
-    const PhotonMapsT<typename Scene::Scalar>& maps; ///< Of the first pass.
-    PhotonMappingSettings settings;                  ///< How.
+    using Stream = RandomStream; ///< What render() gives it to draw from.
+    IndexedT<S> scene;           ///< What is rendered.
+    const PhotonMapsT<typename S::Scalar>& maps; ///< Of the first pass.
+    PhotonMappingSettings settings;              ///< How.
 };
 
 /// Makes a photon mapper.
@@ -78,19 +80,29 @@ struct PhotonMapper {
 /// \param settings  Depths, radii, who carries indirect light.
 /// \return The mapper.
 /// \throws std::invalid_argument  if a setting is out of range.
-template <typename Scene>
-[[nodiscard]] PhotonMapper<Scene>
-make_photon_mapper(const Scene& scene, const PhotonMapsT<typename Scene::Scalar>& maps,
+template <SceneLike S>
+[[nodiscard]] PhotonMapper<S>
+make_photon_mapper(const S& scene, const PhotonMapsT<typename S::Scalar>& maps,
                    const PhotonMappingSettings& settings = {}) {
     check(settings);
-    return {IndexedT<Scene>(scene), maps, settings};
+    return {IndexedT<S>(scene), maps, settings};
 }
+/// Not of a temporary: the scene would be gone before it is rendered.
+template <SceneLike S>
+PhotonMapper<S> make_photon_mapper(const S&& scene,
+                                   const PhotonMapsT<typename S::Scalar>& maps,
+                                   const PhotonMappingSettings& = {}) = delete;
+/// Nor of temporary maps.
+template <SceneLike S>
+PhotonMapper<S> make_photon_mapper(const S& scene,
+                                   const PhotonMapsT<typename S::Scalar>&& maps,
+                                   const PhotonMappingSettings& = {}) = delete;
 
 /// The light that a diffuse surface sends back along a camera path, but for what comes
 /// by its indirect ray: shadow rays and the caustics map; or, where an indirect ray has
 /// ended on it, the two maps.
 /// \param mapper    The scene, the maps, the limits.
-/// \param at        The surface.
+/// \param vertex    The surface.
 /// \param material  What it is made of.
 /// \param gather    Whether the general map answers for all that is not a caustic.
 /// \param stream    The numbers of the path.
@@ -98,15 +110,15 @@ make_photon_mapper(const Scene& scene, const PhotonMapsT<typename Scene::Scalar>
 /// \param add       Called as add(owner, letters, radiance) with each term.
 /// \report{Sections 3.2.3 and 3.2.6}
 // [light_at]
-template <typename Scene, std::floating_point T, typename Material, typename Add>
-void light_at(const PhotonMapper<Scene>& mapper, const ShadingT<T>& at,
-              const Material& material, bool gather, RandomStream& stream,
-              Counts& counts, Add& add) {
+template <SceneLike S, std::floating_point T, Material M, typename Add>
+void light_at(const PhotonMapper<S>& mapper, const VertexT<T>& vertex,
+              const M& material, bool gather, RandomStream& stream, Counts& counts,
+              Add& add) {
     const PhotonMappingSettings& settings = mapper.settings;
     const auto ask = [&](const PhotonMapT<T>& map, const DensityEstimateSettings& how,
                          PhotonKinds kinds) {
         ++counts.map_queries;
-        return estimate_radiance(map, at.surface, material, at.wo, how, kinds,
+        return estimate_radiance(map, vertex, material, vertex.wo, how, kinds,
                                  counts.map_photons);
     };
     if (gather)
@@ -114,8 +126,8 @@ void light_at(const PhotonMapper<Scene>& mapper, const ShadingT<T>& at,
             ask(mapper.maps.general, settings.general_estimate, light_kinds));
     else
         add("shadow ray", "DL",
-            sample_all_lights(mapper.scene, at, material, settings.shadow_rays, stream,
-                              counts));
+            sample_all_lights(mapper.scene, vertex, material, settings.shadow_rays,
+                              stream, counts));
     if (settings.indirect == IndirectLight::photons)
         add("general map", "D..DL",
             ask(mapper.maps.general, settings.general_estimate,
@@ -126,13 +138,13 @@ void light_at(const PhotonMapper<Scene>& mapper, const ShadingT<T>& at,
 }
 // [light_at]
 
-/// So many times, at most, a camera path goes both ways.
+/// A camera path goes both ways at glass so many times, at most.
 inline constexpr std::size_t max_splits = 8;
 
-/// So many times more likely than elsewhere a way survives that began where a path went
-/// both ways. It is faint: roulette as elsewhere would make it rare, and then as bright
-/// as if it were the only one. Any number keeps the mean.
-inline constexpr int second_way_luck = 16;
+/// A branch that split off survives roulette so many times more often than its
+/// throughput says. It is faint: by its throughput alone it would survive rarely, and
+/// then be as bright as if it were the only one. Any number keeps the mean.
+inline constexpr int split_survival = 16;
 
 /// The radiance that one camera path finds with the help of the photon maps.
 ///
@@ -154,74 +166,62 @@ inline constexpr int second_way_luck = 16;
 /// \erratum{In the report's program an indirect ray that met a lamp added it again,
 ///          though the shadow ray had counted it.}
 // [radiance]
-template <typename Scene, std::floating_point T, typename Log = NoLog>
-[[nodiscard]] RgbT<T> radiance(const PhotonMapper<Scene>& mapper, RayT<T> ray,
+template <SceneLike S, std::floating_point T, typename Log = NoLog>
+[[nodiscard]] RgbT<T> radiance(const PhotonMapper<S>& mapper, const RayT<T>& ray,
                                RandomStream& stream, Counts& counts, Log&& log = {}) {
     const PhotonMappingSettings& settings = mapper.settings;
     RgbT<T> sum{T(0)};
-    std::array<PathT<T>, max_splits> others; // the second ways, to be followed later
-    std::array<int, max_splits> depths{};    // and how many boundaries they have met
-    std::size_t splits = 0;
-
-    const auto follow = [&](PathT<T> path, int first) {
+    std::vector<PathStateT<T>> branches; // split off; following one may add more
+    const auto follow_path = [&](PathStateT<T> path) {
         const auto add = [&](const char* owner, const char* letters,
                              const RgbT<T>& light) {
             log.term(owner, letters, path.throughput * light);
             sum += path.throughput * light;
         };
-        for (int depth = first; depth <= settings.max_depth; ++depth) {
-            start_bounce(stream, path.bounce + static_cast<std::uint64_t>(depth));
-            const auto met = meet(mapper.scene, path.ray, stream);
-            if (!met) return;
-            const ShadingT<T> at =
-                shading(mapper.scene, path.ray, met->hit, path.medium);
-            path.throughput *=
-                transmittance(path.medium, met->distance) * met->arrives();
-            if (at.emits() && !path.met_diffuse)
-                add("emission", "L", at.surface.object.emission);
+        while (path.depth < settings.max_depth) {
+            const auto vertex = next_vertex(mapper.scene, path, stream);
+            if (!vertex) return;
+            if (vertex->emits() && !path.met_diffuse)
+                add("emission", "L", vertex->object.emission);
 
             const bool gather =
                 path.met_diffuse && settings.indirect == IndirectLight::map;
             const auto at_material = [&](const auto& material) {
-                if (has(lobes(material), Lobes::diffuse))
-                    light_at(mapper, at, material, gather, stream, counts, add);
-                if (depth == settings.max_depth) return false;
-                if (settings.split_glass && !path.met_diffuse && splits < max_splits) {
-                    if (const auto other = split(path, at, material, log)) {
-                        depths[splits] = depth;
-                        others[splits++] = *other;
-                        others[splits - 1].bounce = std::uint64_t(splits) << 32;
+                if (has(lobes(material), Lobes::non_specular))
+                    light_at(mapper, *vertex, material, gather, stream, counts, add);
+                if (path.depth == settings.max_depth) return false;
+                if (settings.split_glass && !path.met_diffuse &&
+                    branches.size() < max_splits)
+                    if (const auto other = split_path(path, *vertex, material)) {
+                        branches.push_back(*other);
                         return true;
                     }
-                }
                 // Go on by one branch; after gathering, by mirrors and glass only.
                 const bool by_rays =
                     !gather && (settings.indirect == IndirectLight::rays ||
                                 settings.indirect == IndirectLight::map);
-                return send_on(path, at, material,
-                               by_rays ? Lobes::all : Lobes::specular, false, stream,
-                               log);
+                return continue_path(path, *vertex, material, Transport::radiance,
+                                     by_rays ? Lobes::all : Lobes::specular, stream);
             };
-            if (!visit_material_of(mapper.scene, at.surface, at_material)) return;
+            if (!visit_material_at(mapper.scene, *vertex, at_material)) return;
+            log_vertex(log, path);
             if (is_black(path.throughput)) return;
-            const T eta_scale = splits > 0 && !path.met_diffuse
-                                    ? path.eta_scale / T(second_way_luck)
+            const T eta_scale = !branches.empty() && !path.met_diffuse
+                                    ? path.eta_scale / T(split_survival)
                                     : path.eta_scale;
-            if (depth >= settings.roulette_depth &&
+            if (path.depth >= settings.roulette_depth &&
                 !survives(path.throughput, eta_scale, next_1d<T>(stream)))
                 return;
             ++counts.bounce_rays;
         }
     };
     log.begin();
-    follow({.ray = ray}, 1);
-    for (std::size_t i = 0; i < splits; ++i) { // following one may add more
-        const PathT<T> other = others[i];
+    follow_path(camera_path(mapper.scene, ray, stream));
+    for (std::size_t i = 0; i < branches.size(); ++i) {
+        const PathStateT<T> branch = branches[i];
         ++counts.bounce_rays;
-        log.begin();
-        for (int depth = 1; depth <= depths[i]; ++depth)
-            log.vertex('S', other.ray.origin, other.throughput, T(0));
-        follow(other, depths[i] + 1);
+        log_specular_path(log, branch);
+        follow_path(branch);
     }
     return sum;
 }

@@ -9,8 +9,7 @@
 #include "ljus/image/image.hpp"
 #include "ljus/math/sampling_pattern.hpp"
 #include "ljus/parallel.hpp"
-#include "ljus/path/counts.hpp"
-#include "ljus/path/path_log.hpp"
+#include "ljus/path/renderer.hpp"
 #include "ljus/scene/camera.hpp"
 
 namespace ljus {
@@ -39,21 +38,6 @@ struct RenderedT {
     bool complete = true; ///< False if the progress callback stopped it.
 };
 
-/// What a renderer draws its numbers from: a RandomStream, unless it names another as
-/// its `Stream`.
-template <typename Renderer>
-struct StreamOf {
-    using Type = RandomStream; ///< Independent numbers.
-};
-/// Of a renderer that names its stream.
-template <typename Renderer>
-requires requires {
-    typename Renderer::Stream;
-}
-struct StreamOf<Renderer> {
-    using Type = typename Renderer::Stream; ///< What it names.
-};
-
 /// Sets a stream to the numbers of one ray of a pixel.
 /// \param stream   Any stream has such an overload.
 /// \param seed     The user's seed.
@@ -68,7 +52,7 @@ constexpr void start_ray(RandomStream& stream, std::uint64_t seed, std::uint64_t
 }
 
 /// The radiance of one primary ray, as the pixel loop asks for it.
-/// \param renderer  A PathTracer, a PhotonMapper, or anything with a radiance().
+/// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    A CameraT, or anything with a camera_ray().
 /// \param picture   Size and rays.
 /// \param pattern   make_pattern() for the rays of a pixel.
@@ -78,16 +62,16 @@ constexpr void start_ray(RandomStream& stream, std::uint64_t seed, std::uint64_t
 /// \param counts    Counts the rays.
 /// \param log       Told of each vertex and each term.
 /// \return Radiance, W/(m^2 sr).
-template <typename Renderer, template <std::floating_point> typename AnyCamera,
+template <typename R, template <std::floating_point> typename AnyCamera,
           std::floating_point T, typename Log = NoLog>
-[[nodiscard]] RgbT<T> sample_pixel(const Renderer& renderer, const AnyCamera<T>& camera,
+[[nodiscard]] RgbT<T> sample_pixel(const R& renderer, const AnyCamera<T>& camera,
                                    const RenderSettings& picture,
                                    const Pattern& pattern, int x, int y, int number,
                                    Counts& counts, Log&& log = {}) {
     const auto pixel =
         static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(picture.width) +
         static_cast<std::uint64_t>(x);
-    typename StreamOf<Renderer>::Type stream;
+    typename R::Stream stream;
     start_ray(stream, picture.seed, pixel, number, pattern);
     const Vec2T<T> place =
         spread(pattern, number, mix_bits(picture.seed) ^ pixel, next_2d<T>(stream));
@@ -98,16 +82,17 @@ template <typename Renderer, template <std::floating_point> typename AnyCamera,
 }
 
 /// Renders a picture, row by row, by several threads.
-/// \param renderer  A PathTracer, a PhotonMapper, or anything with a radiance().
+/// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    A CameraT, or anything with a camera_ray().
 /// \param picture   Size, rays, seed, threads.
 /// \return The picture, the same for any number of threads. A sample that is not finite
 ///         is left out and counted.
 /// \throws std::invalid_argument  if the size or the number of rays is below 1.
 // [render]
-template <typename Renderer, template <std::floating_point> typename AnyCamera,
+template <typename R, template <std::floating_point> typename AnyCamera,
           std::floating_point T>
-[[nodiscard]] RenderedT<T> render(const Renderer& renderer, const AnyCamera<T>& camera,
+requires Renderer<R, T>
+[[nodiscard]] RenderedT<T> render(const R& renderer, const AnyCamera<T>& camera,
                                   const RenderSettings& picture) {
     require(picture.samples >= 1, "samples", static_cast<long long>(picture.samples),
             "at least 1");

@@ -6,7 +6,7 @@
 #include <array>
 #include <string>
 
-#include "ljus/path/thin_surfaces.hpp"
+#include "ljus/path/next_vertex.hpp"
 #include "ljus/photons/photon_map.hpp"
 #include "ljus/photons/tracing.hpp"
 #include "ljus/scene/index.hpp"
@@ -108,14 +108,14 @@ struct SceneNeeds {
 /// Counts what a scene is made of.
 /// \param scene  The scene.
 /// \return The counts.
-template <typename Scene>
-[[nodiscard]] SceneNeeds needs(const Scene& scene) {
+template <SceneLike S>
+[[nodiscard]] SceneNeeds needs(const S& scene) {
     SceneNeeds found{.objects = scene.size(), .lights = scene.lights.size()};
     for (const auto& objects : scene.objects)
         for (const auto& object : objects) {
             const Lobes parts = scene.visit_material(
                 object.material, [](const auto& m) { return lobes(m); });
-            found.diffuse += has(parts, Lobes::diffuse) ? 1 : 0;
+            found.diffuse += has(parts, Lobes::non_specular) ? 1 : 0;
             found.specular += has(parts, Lobes::specular) ? 1 : 0;
         }
     return found;
@@ -126,8 +126,8 @@ template <typename Scene>
 /// \param settings  What the user asks for.
 /// \return The plan; printed by examples, obeyed by make_photon_maps().
 // [survey]
-template <typename Scene>
-[[nodiscard]] Plan survey(const Scene& scene, const PhotonMappingSettings& settings) {
+template <SceneLike S>
+[[nodiscard]] Plan survey(const S& scene, const PhotonMappingSettings& settings) {
     const SceneNeeds found = needs(scene);
     const auto of_all = [&](std::size_t count, const char* what) {
         return std::to_string(count) + " of " + std::to_string(found.objects) +

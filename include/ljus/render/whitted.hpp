@@ -4,8 +4,9 @@
 /// \brief Whitted's ray tracing: a tree of mirrors and glass, with hard shadows.
 
 #include "ljus/geometry/solid_angle.hpp"
-#include "ljus/path/camera_path.hpp"
+#include "ljus/path/continue_path.hpp"
 #include "ljus/path/direct_light.hpp"
+#include "ljus/path/renderer.hpp"
 #include "ljus/scene/index.hpp"
 
 namespace ljus {
@@ -22,17 +23,18 @@ namespace ljus {
 struct WhittedSettings {
     int max_depth = 5;     ///< Reflections and refractions in a row; 0 sends no ray on.
     bool both_ways = true; ///< Glass sends two rays; false: one of them, by roulette.
-    bool lamps = true; ///< A lamp with a size lights, from its middle; or is only seen.
+    bool lamps = true; ///< A lamp with a size lights, from its centre; or is only seen.
     Rgb ambient{0}; ///< W/(m^2 sr) from everywhere to every diffuse surface; in place
                     ///< of all the light that the tree does not carry.
 };
 
 /// A scene, ready for Whitted's ray tracing. It refers to the scene, which must outlive
 /// it.
-template <typename Scene>
+template <SceneLike S>
 struct WhittedTracer {
-    IndexedT<Scene> scene;    ///< What is rendered.
-    WhittedSettings settings; ///< How.
+    using Stream = RandomStream; ///< What render() gives it to draw from.
+    IndexedT<S> scene;           ///< What is rendered.
+    WhittedSettings settings;    ///< How.
 };
 
 /// Makes a tracer.
@@ -41,16 +43,19 @@ struct WhittedTracer {
 /// \param settings  Depth, branches, ambient light.
 /// \return The tracer.
 /// \throws std::invalid_argument  if a setting is out of range.
-template <typename Scene>
-[[nodiscard]] WhittedTracer<Scene> make_whitted(const Scene& scene,
-                                                const WhittedSettings& settings = {}) {
+template <SceneLike S>
+[[nodiscard]] WhittedTracer<S> make_whitted(const S& scene,
+                                            const WhittedSettings& settings = {}) {
     require(settings.max_depth >= 0, "max_depth",
             static_cast<long long>(settings.max_depth), "at least 0");
     require_radiance("whitted.ambient", settings.ambient);
-    return {IndexedT<Scene>(scene), settings};
+    return {IndexedT<S>(scene), settings};
 }
+/// Not of a temporary: the scene would be gone before it is rendered.
+template <SceneLike S>
+WhittedTracer<S> make_whitted(const S&& scene, const WhittedSettings& = {}) = delete;
 
-/// \name The middle of a lamp
+/// \name The centre of a lamp
 /// \{
 
 /// The point of the unit square whose sample stands for the whole lamp: of a sphere the
@@ -69,15 +74,15 @@ template <std::floating_point T>
 /// The light that a diffuse surface sends back: of each light by one shadow ray, which
 /// is not sent where the surface faces away, and of the ambient light without any.
 /// \param tracer    The scene and the settings.
-/// \param at        The surface.
+/// \param vertex    The surface.
 /// \param material  What it is made of.
 /// \param counts    Counts the shadow rays.
 /// \param add       Called as add(owner, letters, radiance).
 /// \report{Section 2.1}
 // [local light]
-template <typename Scene, std::floating_point T, typename Material, typename Add>
-void local_light(const WhittedTracer<Scene>& tracer, const ShadingT<T>& at,
-                 const Material& material, Counts& counts, Add& add) {
+template <SceneLike S, std::floating_point T, Material M, typename Add>
+void local_light(const WhittedTracer<S>& tracer, const VertexT<T>& vertex,
+                 const M& material, Counts& counts, Add& add) {
     const auto whole = [](const LightSampleT<T>&, const Vec3T<T>&) { return T(1); };
     for (const LightT<T>& light : tracer.scene.lights) {
         Vec2T<T> u{T(0.5)};
@@ -87,69 +92,65 @@ void local_light(const WhittedTracer<Scene>& tracer, const ShadingT<T>& at,
                 *light.object, [](const auto& shape) { return center_sample(shape); });
         }
         add("shadow ray", "DL",
-            direct_light(tracer.scene, light, at, material, u, whole, counts));
+            direct_light(tracer.scene, light, vertex, material, u, whole, counts));
     }
     if (tracer.settings.ambient == Rgb{0}) return;
     // As if all of it came along the normal: for a matt surface albedo times radiance.
-    const Vec3T<T> normal{T(0), T(0), std::copysign(T(1), at.wo.z)};
+    const Vec3T<T> normal{T(0), T(0), std::copysign(T(1), vertex.wo.z)};
     add("ambient", "D",
-        std::numbers::pi_v<T> * evaluate(material, at.wo, normal) *
+        std::numbers::pi_v<T> * evaluate(material, vertex.wo, normal) *
             RgbT<T>(tracer.settings.ambient));
 }
 // [local light]
 
-/// Follows one ray of the tree, and all that it sends on.
+/// Traces one branch of the tree, and all that it sends on.
 /// \param tracer  The scene and the settings.
-/// \param path    The ray, and what it brings of the light that it finds.
-/// \param depth   How often it has been reflected or refracted.
+/// \param path    The branch.
 /// \param stream  Numbers for what is left to chance.
 /// \param counts  Counts the rays.
 /// \param log     Told of each vertex and each term.
 /// \param sum     Radiance is added to it.
 /// \report{Section 2.1}
-// [follow]
-template <typename Scene, std::floating_point T, typename Stream, typename Log>
-void follow(const WhittedTracer<Scene>& tracer, PathT<T> path, int depth,
-            Stream& stream, Counts& counts, Log& log, RgbT<T>& sum) {
-    const auto met = meet(tracer.scene, path.ray, stream);
-    if (!met) return;
-    const ShadingT<T> at = shading(tracer.scene, path.ray, met->hit, path.medium);
-    path.throughput *= transmittance(path.medium, met->distance) * met->arrives();
-    const auto add = [&, share = path.throughput](
+// [trace_branch]
+template <SceneLike S, std::floating_point T, typename Stream, typename Log>
+void trace_branch(const WhittedTracer<S>& tracer, PathStateT<T> path, Stream& stream,
+                  Counts& counts, Log& log, RgbT<T>& sum) {
+    const auto vertex = next_vertex(tracer.scene, path, stream);
+    if (!vertex) return;
+    const auto add = [&, throughput = path.throughput](
                          const char* owner, const char* letters, const RgbT<T>& light) {
-        log.term(owner, letters, share * light);
-        sum += share * light;
+        log.term(owner, letters, throughput * light);
+        sum += throughput * light;
     };
-    if (at.emits()) add("emission", "L", at.surface.object.emission);
+    if (vertex->emits()) add("emission", "L", vertex->object.emission);
 
-    std::optional<PathT<T>> other; // the second branch
+    std::optional<PathStateT<T>> other; // the second branch
     const auto at_material = [&](const auto& material) {
-        if (has(lobes(material), Lobes::diffuse))
-            local_light(tracer, at, material, counts, add);
-        if (depth == tracer.settings.max_depth) return false;
-        if (tracer.settings.both_ways) other = split(path, at, material, log);
-        return other ||
-               send_on(path, at, material, Lobes::specular, false, stream, log);
+        if (has(lobes(material), Lobes::non_specular))
+            local_light(tracer, *vertex, material, counts, add);
+        if (path.depth > tracer.settings.max_depth) return false;
+        if (tracer.settings.both_ways) other = split_path(path, *vertex, material);
+        return other || continue_path(path, *vertex, material, Transport::radiance,
+                                      Lobes::specular, stream);
     };
-    if (!visit_material_of(tracer.scene, at.surface, at_material)) return;
-    const auto grow = [&](const PathT<T>& branch) {
+    if (!visit_material_at(tracer.scene, *vertex, at_material)) return;
+    log_vertex(log, path);
+    const auto grow = [&](const PathStateT<T>& branch) {
         if (is_black(branch.throughput)) return;
         ++counts.bounce_rays;
-        follow(tracer, branch, depth + 1, stream, counts, log, sum);
+        trace_branch(tracer, branch, stream, counts, log, sum);
     };
     grow(path);
     if (!other) return;
-    log.begin(); // the letters once more, up to here
-    for (int i = 0; i <= depth; ++i)
-        log.vertex('S', at.surface.point.position, other->throughput, T(0));
+    log_specular_path(log, *other);
     grow(*other);
 }
-// [follow]
+// [trace_branch]
 
 /// The radiance that the tree of one primary ray finds.
 ///
 /// Nothing is left to chance: glass sends a ray both ways, each light has one point.
-/// Only a material that mixes several lobes, or a thin sheet, still chooses by lot.
+/// Only a material that mixes several lobes, or a thin surface, still chooses by lot.
 /// \param tracer  The scene and the settings.
 /// \param ray     A primary ray.
 /// \param stream  Numbers for what is left to chance.
@@ -159,12 +160,13 @@ void follow(const WhittedTracer<Scene>& tracer, PathT<T> path, int depth,
 /// \cost Up to 2^max_depth rays, if every ray meets glass.
 /// \report{Section 2.1}
 // [radiance]
-template <typename Scene, std::floating_point T, typename Stream, typename Log = NoLog>
-[[nodiscard]] RgbT<T> radiance(const WhittedTracer<Scene>& tracer, const RayT<T>& ray,
+template <SceneLike S, std::floating_point T, typename Stream, typename Log = NoLog>
+[[nodiscard]] RgbT<T> radiance(const WhittedTracer<S>& tracer, const RayT<T>& ray,
                                Stream& stream, Counts& counts, Log&& log = {}) {
     RgbT<T> sum{T(0)};
     log.begin();
-    follow(tracer, PathT<T>{.ray = ray}, 0, stream, counts, log, sum);
+    trace_branch(tracer, camera_path(tracer.scene, ray, stream), stream, counts, log,
+                 sum);
     return sum;
 }
 // [radiance]

@@ -64,6 +64,9 @@ struct IndexedScene {
         for (const std::uint32_t number : tree.order()) ids.push_back(all[number]);
     }
 
+    /// Not of a temporary: the scene would be gone before it is asked.
+    IndexedScene(const S&&) = delete;
+
     const S& scene;                          ///< Which scene.
     const decltype(S::shapes)& shapes;       ///< As the scene has them.
     const decltype(S::objects)& objects;     ///< As the scene has them.
@@ -88,6 +91,16 @@ struct IndexedScene {
     }
     /// As the scene does.
     [[nodiscard]] std::size_t size() const noexcept { return scene.size(); }
+    /// As the scene does.
+    template <typename F>
+    [[nodiscard]] static constexpr bool any_shape(F f) noexcept {
+        return S::any_shape(f);
+    }
+    /// As the scene does.
+    template <typename F>
+    [[nodiscard]] static constexpr bool any_material(F f) noexcept {
+        return S::any_material(f);
+    }
 };
 
 /// Indexes a scene, with a choice of arithmetic: `index_scene<double>(scene)`.
@@ -97,6 +110,9 @@ template <typename Compute = void, typename S>
 [[nodiscard]] IndexedScene<S, Compute> index_scene(const S& scene) {
     return IndexedScene<S, Compute>(scene);
 }
+/// Not of a temporary: the scene would be gone before it is asked.
+template <typename Compute = void, typename S>
+IndexedScene<S, Compute> index_scene(const S&& scene) = delete;
 
 /// What a renderer keeps of the scene that it is given: an index of its own, or the one
 /// that it was given.

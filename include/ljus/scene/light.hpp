@@ -9,6 +9,7 @@
 #include <numbers>
 #include <optional>
 
+#include "ljus/geometry/moving.hpp"
 #include "ljus/geometry/solid_angle.hpp"
 #include "ljus/scene/object.hpp"
 
@@ -127,16 +128,17 @@ struct LightSampleT {
 /// \param light  One of its lights.
 /// \param from   The lit point; under a sun, within the sphere around the scene.
 /// \param u      Point of the unit square.
+/// \param time   Of the path, in [0, 1].
 /// \return The sample; nothing if the light does not shine in this direction: emission
 ///         is one-sided, along the normal.
 /// \report{Section 3.2.3}
 /// \erratum{The program behind the report leaves out the light's area and the inverse
 ///          square: a wall ten times as far was lit as brightly.}
 // [sample_light]
-template <typename Scene, std::floating_point T>
+template <typename S, std::floating_point T>
 [[nodiscard]] std::optional<LightSampleT<T>>
-sample_light(const Scene& scene, const LightT<T>& light, const Vec3T<T>& from,
-             const Vec2T<T>& u) {
+sample_light(const S& scene, const LightT<T>& light, const Vec3T<T>& from,
+             const Vec2T<T>& u, T time = T(0)) {
     if (light.kind == LightKind::sun) {
         // The shadow ray ends where photons start: on a plane beside the scene.
         const T way = glm::dot(from - light.position, light.direction) + light.radius;
@@ -157,7 +159,7 @@ sample_light(const Scene& scene, const LightT<T>& light, const Vec3T<T>& from,
                                .weight = share * light.emission / distance2};
     }
     SeenPointT<T> seen = scene.visit_shape(*light.object, [&](const auto& shape) {
-        return sample_towards(shape, from, u);
+        return sample_towards(at_time(shape, time), from, u);
     });
     if (scene.object(*light.object).inside_out) seen.point.normal = -seen.point.normal;
 

@@ -30,13 +30,16 @@ struct ObjectId {
     friend bool operator==(const ObjectId&, const ObjectId&) = default;
 };
 
+/// The number of the light that an object is, if it is none.
+inline constexpr std::uint32_t no_light = 0xffffffffu;
+
 /// What a scene knows of a shape besides its geometry.
 template <std::floating_point T>
 struct ObjectT {
     MaterialId material{};   ///< What it is made of.
     RgbT<T> emission{T(0)};  ///< Radiance along the normal's side, W/(m^2 sr).
     bool inside_out = false; ///< The normal points inwards: a room made of a sphere.
-    std::uint32_t light = 0; ///< Its number among the lights, if it emits.
+    std::uint32_t light = no_light; ///< Its number among the lights, if it emits.
 };
 
 /// \}

@@ -63,8 +63,9 @@ template <typename Compute, std::floating_point T, typename S>
 /// \return The nearest hit, the earlier object on a tie; nothing for a miss.
 /// \cost One intersection a shape.
 // [closest_hit]
-template <typename Compute = void, typename Scene, std::floating_point T>
-[[nodiscard]] std::optional<SceneHitT<T>> closest_hit(const Scene& scene, RayT<T> ray) {
+template <typename Compute = void, typename G, typename M, std::floating_point T>
+[[nodiscard]] std::optional<SceneHitT<T>> closest_hit(const Scene<G, M>& scene,
+                                                      RayT<T> ray) {
     std::optional<SceneHitT<T>> closest;
     std::uint32_t type = 0;
     const auto ask_all = [&](const auto& shapes) {
@@ -86,8 +87,8 @@ template <typename Compute = void, typename Scene, std::floating_point T>
 /// \param scene  The scene.
 /// \param ray    Hits count in [t_min, t_max].
 /// \return True at the first hit found, whichever it is.
-template <typename Compute = void, typename Scene, std::floating_point T>
-[[nodiscard]] bool occluded(const Scene& scene, const RayT<T>& ray) {
+template <typename Compute = void, typename G, typename M, std::floating_point T>
+[[nodiscard]] bool occluded(const Scene<G, M>& scene, const RayT<T>& ray) {
     const auto any = [&](const auto& shapes) {
         for (const auto& shape : shapes)
             if (is_met<Compute>(ray, shape)) return true;
@@ -97,73 +98,21 @@ template <typename Compute = void, typename Scene, std::floating_point T>
                       scene.shapes);
 }
 
-/// A point of an object, ready to be shaded.
-template <std::floating_point T>
-struct SurfaceT {
-    SurfacePointT<T> point{}; ///< Position, error bound, normal of the outer side.
-    FrameT<T> frame{};        ///< Materials work in it: around the shading normal.
-    ObjectT<T> object{};      ///< What it is made of, and whether it shines.
-    bool smooth = false;      ///< Whether frame.normal differs from point.normal.
-    bool turned = false;      ///< Whether the ray came from different sides of the two.
+/// What the renderers ask of a scene: a Scene, or one with an index over it.
+// [scene_like]
+template <typename S>
+concept SceneLike = requires(const S& scene, const RayT<typename S::Scalar>& ray,
+                             ObjectId object) {
+    scene.lights;
+    scene.materials;
+    { scene.size() } -> std::same_as<std::size_t>;
+    { scene.object(object) } -> std::same_as<const ObjectT<typename S::Scalar>&>;
+    {
+        closest_hit(scene, ray)
+        } -> std::same_as<std::optional<SceneHitT<typename S::Scalar>>>;
+    { occluded(scene, ray) } -> std::same_as<bool>;
 };
-
-/// The surface at a hit.
-///
-/// The geometric normal decides on which side a direction is. A ray that comes from
-/// different sides of the two normals finds the frame around the geometric one: so the
-/// z of its way back always tells the side, and no surface is seen from behind.
-/// \param scene  The scene.
-/// \param ray    The ray that hit.
-/// \param hit    What closest_hit() returned.
-/// \return The point, its frame, its object.
-// [surface_at]
-template <typename Scene, std::floating_point T>
-[[nodiscard]] SurfaceT<T> surface_at(const Scene& scene, const RayT<T>& ray,
-                                     const SceneHitT<T>& hit) {
-    SurfaceT<T> surface{.object = scene.object(hit.object)};
-    Vec3T<T>& geometric = surface.point.normal;
-    Vec3T<T> normal = scene.visit_shape(hit.object, [&](const auto& shape) {
-        surface.point = surface_point(shape, ray, hit.at);
-        if constexpr (requires { shading_normal(shape, hit.at, geometric); })
-            return shading_normal(shape, hit.at, geometric);
-        else
-            return geometric;
-    });
-    surface.smooth = normal != geometric;
-    if (surface.object.inside_out) {
-        geometric = -geometric;
-        normal = -normal;
-    }
-    if (surface.smooth) {
-        surface.turned = (glm::dot(ray.direction, geometric) < T(0)) !=
-                         (glm::dot(ray.direction, normal) < T(0));
-        surface.smooth = !surface.turned;
-    }
-    surface.frame = frame_around(surface.turned ? geometric : normal);
-    return surface;
-}
-// [surface_at]
-
-/// Calls f(material) with what a surface is made of where the ray met it: what
-/// visit_material() does for an object, this does for a place of it. A textured
-/// material is its base in another colour there; all others are themselves.
-/// \param scene    The scene.
-/// \param surface  Of surface_at().
-/// \param f        Called with the material, as its own type.
-// [visit_material_of]
-template <typename Scene, std::floating_point T, typename F>
-decltype(auto) visit_material_of(const Scene& scene, const SurfaceT<T>& surface,
-                                 F&& f) {
-    return scene.visit_material(surface.object.material, [&](const auto& m) {
-        using Here = decltype(material_at(m, surface.point.position));
-        // A soap film's point is no material: scatter() asks for it.
-        if constexpr (Material<std::remove_cvref_t<Here>>)
-            return f(material_at(m, surface.point.position));
-        else
-            return f(m);
-    });
-}
-// [visit_material_of]
+// [scene_like]
 
 /// \}
 

@@ -99,12 +99,12 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
                 static_cast<long long>(material.index), "one that add() returned");
         radiance += visit_material(material, [](const auto& m) { return emission(m); });
 
-        const bool sheet = visit_material(material, [](const auto& m) {
+        const bool thin = visit_material(material, [](const auto& m) {
             return requires {
                 pass_through(m, Vec3T<Scalar>{}, Vec3T<Scalar>{});
             };
         });
-        require(!sheet || is_black(radiance), "the radiance of a thin sheet", radiance,
+        require(!thin || is_black(radiance), "the radiance of a thin surface", radiance,
                 "black: light goes pass_through on through it");
 
         auto& array = std::get<std::vector<G>>(shapes);
@@ -124,7 +124,9 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
         }
         reach(bounding_sphere(shape));
         array.push_back(shape);
-        const auto light = static_cast<std::uint32_t>(lights.size()) - 1u;
+        const std::uint32_t light = is_black(radiance)
+                                        ? no_light
+                                        : static_cast<std::uint32_t>(lights.size() - 1);
         objects[id.type].push_back({material, radiance, inside_out, light});
         return id;
     }
@@ -158,6 +160,19 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
     template <typename F>
     decltype(auto) visit_material(MaterialId id, F&& f) const {
         return visit<0>(materials, id.type, id.index, f);
+    }
+
+    /// Whether a predicate on types, a lambda `[]<typename G>() { ... }`, holds for one of
+    /// the listed shapes.
+    template <typename F>
+    [[nodiscard]] static constexpr bool any_shape(F f) noexcept {
+        return f.template operator()<FirstShape>() ||
+               (f.template operator()<S>() || ...);
+    }
+    /// The same for the listed materials.
+    template <typename F>
+    [[nodiscard]] static constexpr bool any_material(F f) noexcept {
+        return (f.template operator()<M>() || ...);
     }
 
     /// How many shapes there are.

@@ -24,8 +24,8 @@ using CornellSceneT = Scene<Shapes<QuadT<T>, SphereT<T>>,
 /// Adds five walls, from (-1, 0, -1) to (1, 2, 1), normals inwards; the sixth, towards
 /// the camera, is open. Red is left, green right, all else white.
 /// \param scene  A scene with quads and Lambert's surfaces.
-template <typename Scene, std::floating_point T = typename Scene::Scalar>
-void add_cornell_walls(Scene& scene) {
+template <SceneLike S, std::floating_point T = typename S::Scalar>
+void add_cornell_walls(S& scene) {
     const MaterialId white = scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0.75)}});
     const MaterialId red =
         scene.add(LambertianT<T>{.albedo{T(0.63), T(0.06), T(0.05)}});
@@ -54,8 +54,8 @@ template <std::floating_point T = float>
 
 /// Adds the lamp below the ceiling, a square of side 0.5.
 /// \param scene  A scene with quads and Lambert's surfaces.
-template <typename Scene, std::floating_point T = typename Scene::Scalar>
-void add_cornell_lamp(Scene& scene) {
+template <SceneLike S, std::floating_point T = typename S::Scalar>
+void add_cornell_lamp(S& scene) {
     scene.add(QuadT<T>{.corner{T(-0.25), T(1.99), T(-0.25)},
                        .edge_u{T(0.5), T(0), T(0)},
                        .edge_v{T(0), T(0), T(0.5)}},

@@ -39,8 +39,8 @@ LambertianT<T> report_matt(T red, T green, T blue) {
 }
 
 // A lamp below the ceiling, from (x, y) to (x + size, y + size).
-template <typename Scene, std::floating_point T>
-void add_ceiling_lamp(Scene& scene, T x, T y, T size, const RgbT<T>& color) {
+template <SceneLike S, std::floating_point T>
+void add_ceiling_lamp(S& scene, T x, T y, T size, const RgbT<T>& color) {
     scene.add(QuadT<T>{.corner{x, y, T(4.999)},
                        .edge_u{T(0), size, T(0)},
                        .edge_v{size, T(0), T(0)}},
@@ -52,8 +52,8 @@ void add_ceiling_lamp(Scene& scene, T x, T y, T size, const RgbT<T>& color) {
 /// Adds the report's room: floor, ceiling and the four walls in view, all matt, their
 /// normals inwards.
 /// \param scene  A scene with quads, triangles and Lambert's surfaces.
-template <typename Scene, std::floating_point T = typename Scene::Scalar>
-void add_report_room(Scene& scene) {
+template <SceneLike S, std::floating_point T = typename S::Scalar>
+void add_report_room(S& scene) {
     // The outline of the floor, from v2, the left corner next to the camera, to v6.
     constexpr std::array<std::array<T, 2>, 5> outline{
         {{T(0), T(6)}, {T(10), T(6)}, {T(13), T(0)}, {T(10), T(-6)}, {T(0), T(-6)}}};

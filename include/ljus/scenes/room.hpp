@@ -4,7 +4,7 @@
 /// \brief A scene with its camera.
 
 #include "ljus/scene/camera.hpp"
-#include "ljus/scene/scene.hpp"
+#include "ljus/scene/query.hpp"
 
 namespace ljus {
 

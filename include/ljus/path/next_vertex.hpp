@@ -1,0 +1,189 @@
+#pragma once
+
+/// \file ljus/path/next_vertex.hpp
+/// \brief What a path meets next, and how much of the light between two points arrives.
+
+#include <optional>
+
+#include "ljus/math/random.hpp"
+#include "ljus/optics/absorption.hpp"
+#include "ljus/path/path_state.hpp"
+#include "ljus/path/vertex.hpp"
+
+namespace ljus {
+
+/// \defgroup next_vertex The next vertex
+/// \brief Intersection, media, thin surfaces and the shutter behind one call.
+///
+/// A thin surface, as a soap film, reflects some light and lets the rest pass straight
+/// through. Passing is not scattering: a path keeps its letters (a photon that came
+/// straight from its lamp is still direct), its density and its depth; only what the
+/// surface reflects is S. So a path that passes has no vertex there:
+///
+/// | question                          | answered by                                  |
+/// |-----------------------------------|----------------------------------------------|
+/// | how much of a lamp is seen        | visibility(): the product of T               |
+/// | what a path meets                 | next_vertex(): chance decides between T and R|
+///
+/// In a scene that lists no such material nothing of this is compiled; in one that
+/// lists some and has none it is a comparison per ray.
+/// \{
+
+/// A material that light passes straight through, as far as it does not reflect it:
+/// `pass_through(m, position, wo)` says how much. Its sample() reflects, nothing else.
+template <typename M>
+concept ThinSurface = requires(const M& m, const Vec3T<typename M::Scalar>& v) {
+    { pass_through(m, v, v) } -> std::same_as<RgbT<typename M::Scalar>>;
+};
+
+/// Whether a type of scene lists a thin surface among its materials.
+template <SceneLike S>
+inline constexpr bool lists_thin_surfaces = S::any_material([]<typename M>() {
+    return ThinSurface<M>;
+});
+
+/// Whether a type of scene lists a shape that moves.
+template <SceneLike S>
+inline constexpr bool lists_moving = S::any_shape([]<typename G>() {
+    return is_moving<G>;
+});
+
+/// Whether a scene has a thin surface among its materials: the pass is on.
+/// \param scene  The scene.
+/// \return False also if it only lists such a type, and has none.
+template <SceneLike S>
+[[nodiscard]] bool has_thin_surfaces(const S& scene) noexcept {
+    return std::apply(
+        [](const auto&... array) {
+            return ((ThinSurface<
+                         typename std::remove_cvref_t<decltype(array)>::value_type> &&
+                     !array.empty()) ||
+                    ...);
+        },
+        scene.materials);
+}
+
+/// The time of a new path while the shutter is open \cite cook1984.
+/// \param stream  One number is drawn if the scene lists a shape that moves.
+/// \return In [0, 1); 0 if nothing can move.
+/// \report{Section 2.1}
+template <SceneLike S, typename Stream>
+[[nodiscard]] typename S::Scalar path_time(const S&, Stream& stream) {
+    if constexpr (lists_moving<S>) return next_1d<typename S::Scalar>(stream);
+    return 0;
+}
+
+/// The path of a camera ray, at a time of its own.
+/// \param scene   The scene.
+/// \param ray     A primary ray.
+/// \param stream  See path_time().
+/// \return A path without a vertex.
+template <SceneLike S, std::floating_point T, typename Stream>
+[[nodiscard]] PathStateT<T> camera_path(const S& scene, const RayT<T>& ray,
+                                        Stream& stream) {
+    PathStateT<T> path{.ray = ray};
+    path.ray.time = path_time(scene, stream);
+    return path;
+}
+
+/// What passes straight through a surface.
+/// \param scene   The scene.
+/// \param vertex  A point of the surface.
+/// \return T for each channel; nothing if the surface is no thin one.
+template <SceneLike S, std::floating_point T>
+[[nodiscard]] std::optional<RgbT<T>> passed_through(const S& scene,
+                                                    const VertexT<T>& vertex) {
+    return scene.visit_material(
+        vertex.object.material, [&](const auto& m) -> std::optional<RgbT<T>> {
+            if constexpr (ThinSurface<std::remove_cvref_t<decltype(m)>>)
+                return pass_through(m, vertex.point.position, vertex.wo);
+            else
+                return std::nullopt;
+        });
+}
+
+/// A ray passes so many thin surfaces, at most; then its way counts as blocked.
+inline constexpr int max_thin_surfaces = 1000;
+
+/// How much of the light from one point arrives at another.
+/// \param scene  The scene.
+/// \param from   A point of a surface.
+/// \param to     Another.
+/// \param time   Of the path, in [0, 1].
+/// \return 0 if anything is between them, else the product of what the thin surfaces on
+///         the way let through.
+/// \cost Without thin surfaces that of occluded(); with them a closest_hit() for each,
+///       and one more.
+// [visibility]
+template <SceneLike S, std::floating_point T>
+[[nodiscard]] RgbT<T> visibility(const S& scene, const SurfacePointT<T>& from,
+                                 const SurfacePointT<T>& to, T time = T(0)) {
+    if (!lists_thin_surfaces<S> || !has_thin_surfaces(scene))
+        return RgbT<T>{occluded(scene, spawn_ray_to(from, to, time)) ? T(0) : T(1)};
+
+    RgbT<T> through{T(1)};
+    SurfacePointT<T> last = from;
+    for (int surfaces = 0; surfaces < max_thin_surfaces; ++surfaces) {
+        const RayT<T> ray = spawn_ray_to(last, to, time);
+        const auto hit = closest_hit(scene, ray);
+        if (!hit) return through;
+        VertexT<T> vertex = vertex_at(scene, ray, *hit);
+        vertex.wo = glm::normalize(vertex.wo); // the ray is as long as the way
+        const auto passed = passed_through(scene, vertex);
+        if (!passed) break;
+        through *= *passed;
+        last = vertex.point;
+    }
+    return RgbT<T>{T(0)};
+}
+// [visibility]
+
+/// Sends a path to its next vertex. Media and thin surfaces on the way take their part
+/// of the throughput. At a thin surface chance decides, with the mean of R over the
+/// channels, whether the path stops there, to be reflected, or passes.
+///
+/// A path that begins within a material, as that of a lamp in glass, is in the medium
+/// of the first surface that it meets from behind.
+/// \param scene   The scene.
+/// \param path    Gets its depth, the last part of its ray and its throughput.
+/// \param stream  Moved to the start of the bounce; a number is drawn for each thin
+///                surface, and none without.
+/// \return The vertex; nothing if the path leaves the scene.
+// [next_vertex]
+template <SceneLike S, std::floating_point T, typename Stream>
+[[nodiscard]] std::optional<VertexT<T>> next_vertex(const S& scene, PathStateT<T>& path,
+                                                    Stream& stream) {
+    start_bounce(stream, path.branch + static_cast<std::uint64_t>(++path.depth));
+    std::optional<VertexT<T>> vertex;
+    RgbT<T> through{T(1)};
+    T distance = T(0);
+    for (int surfaces = 0;; ++surfaces) {
+        if (surfaces == max_thin_surfaces) return std::nullopt;
+        const auto hit = closest_hit(scene, path.ray);
+        if (!hit) return std::nullopt;
+        vertex = vertex_at(scene, path.ray, *hit);
+        distance += hit->at.t;
+        if (!lists_thin_surfaces<S> || !has_thin_surfaces(scene)) break;
+        const auto passed = passed_through(scene, *vertex);
+        if (!passed) break;
+
+        const T stop = T(1) - (passed->x + passed->y + passed->z) / T(3);
+        vertex->stop_probability = stop;
+        if (next_1d<T>(stream) < stop) break;
+        through *= *passed / (T(1) - stop);
+        path.ray = spawn_ray(vertex->point, path.ray.direction, path.ray.time);
+    }
+    const bool from_behind = glm::dot(vertex->frame.normal, path.ray.direction) > T(0);
+    if (path.depth == 1 && from_behind)
+        path.medium = scene.visit_material(vertex->object.material,
+                                           [](const auto& m) { return absorption(m); });
+    vertex->distance = distance;
+    vertex->medium = path.medium;
+    path.throughput *= transmittance(path.medium, distance) * through;
+    return vertex;
+}
+// [next_vertex]
+
+/// \}
+
+} // namespace ljus

@@ -1,0 +1,102 @@
+#pragma once
+
+/// \file ljus/path/vertex.hpp
+/// \brief The vertex of a path: everything that is known of the place where it arrived.
+
+#include "ljus/math/frame.hpp"
+#include "ljus/scene/query.hpp"
+
+namespace ljus {
+
+/// \defgroup vertex Vertices
+/// \brief Section 3.2: where a ray has arrived, ready to be shaded.
+/// \{
+
+/// Where a path arrived. Every renderer and the photon pass see a surface as this.
+// [vertex]
+template <std::floating_point T>
+struct VertexT {
+    SurfacePointT<T> point{};      ///< Position, rounding error, geometric normal.
+    FrameT<T> frame{};             ///< Around the shading normal; materials work in it.
+    Vec3T<T> wo{T(0), T(0), T(1)}; ///< To the vertex before: unit, in the frame.
+    ObjectId id{};                 ///< Which object.
+    ObjectT<T> object{};           ///< What it is made of, and whether it emits.
+    RgbT<T> medium{T(0)};          ///< Absorption before it, per scene unit.
+    T distance = T(0);             ///< From the vertex before, in scene units.
+    T time = T(0);                 ///< Of the path, in [0, 1].
+    T stop_probability = T(1);     ///< Of stopping here, at a thin surface.
+    bool smooth = false; ///< Whether the shading normal is not the geometric one.
+    bool turned = false; ///< Whether `wo` lies on different sides of the two.
+
+    /// Whether the surface emits towards `wo`: emission is one-sided.
+    [[nodiscard]] bool emits() const noexcept {
+        return wo.z > T(0) && !is_black(object.emission);
+    }
+};
+using Vertex = VertexT<float>; ///< VertexT in float.
+// [vertex]
+
+/// The vertex at a hit.
+///
+/// The geometric normal decides on which side a direction is. A ray that comes from
+/// different sides of the two normals finds the frame around the geometric one: so the
+/// z of `wo` always tells the side, and no surface is seen from behind.
+/// \param scene  The scene.
+/// \param ray    The ray that hit; its direction of unit length.
+/// \param hit    What closest_hit() returned.
+/// \return The vertex; its medium is not known yet.
+// [vertex_at]
+template <SceneLike S, std::floating_point T>
+[[nodiscard]] VertexT<T> vertex_at(const S& scene, const RayT<T>& ray,
+                                   const SceneHitT<T>& hit) {
+    VertexT<T> vertex{.id = hit.object,
+                      .object = scene.object(hit.object),
+                      .distance = hit.at.t,
+                      .time = ray.time};
+    Vec3T<T>& geometric = vertex.point.normal;
+    Vec3T<T> normal = scene.visit_shape(hit.object, [&](const auto& shape) {
+        vertex.point = surface_point(shape, ray, hit.at);
+        if constexpr (requires { shading_normal(shape, hit.at, geometric); })
+            return shading_normal(shape, hit.at, geometric);
+        else
+            return geometric;
+    });
+    vertex.smooth = normal != geometric;
+    if (vertex.object.inside_out) {
+        geometric = -geometric;
+        normal = -normal;
+    }
+    if (vertex.smooth) {
+        vertex.turned = (glm::dot(ray.direction, geometric) < T(0)) !=
+                        (glm::dot(ray.direction, normal) < T(0));
+        vertex.smooth = !vertex.turned;
+    }
+    vertex.frame = frame_around(vertex.turned ? geometric : normal);
+    vertex.wo = to_local(vertex.frame, -ray.direction);
+    return vertex;
+}
+// [vertex_at]
+
+/// Calls f(material) with what a surface is made of at a vertex: what visit_material()
+/// does for an object, this does for a place of it. A textured material is its base in
+/// another colour there; all others are themselves.
+/// \param scene   The scene.
+/// \param vertex  The place.
+/// \param f       Called with the material, as its own type.
+// [visit_material_at]
+template <SceneLike S, std::floating_point T, typename F>
+decltype(auto) visit_material_at(const S& scene, const VertexT<T>& vertex, F&& f) {
+    return scene.visit_material(vertex.object.material, [&](const auto& m) {
+        using Here = decltype(material_at(m, vertex.point.position));
+        // A soap film's point is no material: scatter() asks for it.
+        if constexpr (Material<std::remove_cvref_t<Here>>)
+            return f(material_at(m, vertex.point.position));
+        else
+            return f(m);
+    });
+}
+// [visit_material_at]
+
+/// \}
+
+} // namespace ljus
