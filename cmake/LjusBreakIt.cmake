@@ -28,9 +28,9 @@
 
 include("${CMAKE_CURRENT_LIST_DIR}/LjusWriteIfDifferent.cmake")
 set(LJUS_BREAK_IT_FOLDER "${CMAKE_CURRENT_LIST_DIR}")
-find_package(Python3 COMPONENTS Interpreter)
+find_package(Python3 3.8 COMPONENTS Interpreter)
 if(NOT Python3_Interpreter_FOUND)
-    message(STATUS "Ljus: Python 3 is not found: the broken headers are left out")
+    message(STATUS "Ljus: Python 3.8 or later is not found: the broken headers are left out")
 endif()
 add_custom_target(break_it)
 
