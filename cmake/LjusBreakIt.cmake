@@ -28,19 +28,20 @@
 
 include("${CMAKE_CURRENT_LIST_DIR}/LjusWriteIfDifferent.cmake")
 set(LJUS_BREAK_IT_FOLDER "${CMAKE_CURRENT_LIST_DIR}")
-find_package(Python3 3.8 COMPONENTS Interpreter)
+find_package(Python3 3.9 COMPONENTS Interpreter)
 if(NOT Python3_Interpreter_FOUND)
-    message(STATUS "Ljus: Python 3.8 or later is not found: the broken headers are left out")
+    message(STATUS "Ljus: Python 3.9 or later is not found: the broken headers are left out")
 endif()
 add_custom_target(break_it)
 
-# A program from the source of a test and broken headers: alone (one row) or switched. Its
-# rows are given as ROW HEADER ROW HEADER... .
-function(ljus_break_it_program target test how)
+# A program from the test cases of a test that match, and broken headers: alone (one row) or
+# switched. Its rows are given as ROW HEADER ROW HEADER... .
+function(ljus_break_it_program target test cases how)
     set(folder "${CMAKE_BINARY_DIR}/break_it/${test}")
     set(include_folder "${folder}/switched")
     set(written)
-    set(read "${LJUS_BREAK_IT_FOLDER}/break_it_patch.py")
+    set(test_source "${CMAKE_CURRENT_SOURCE_DIR}/${test}_test.cpp")
+    set(read "${LJUS_BREAK_IT_FOLDER}/break_it_patch.py" "${test_source}")
     set(rows ${ARGN})
     while(rows)
         list(POP_FRONT rows row header)
@@ -51,19 +52,18 @@ function(ljus_break_it_program target test how)
         list(APPEND read "${LJUS_INCLUDE_DIR}/ljus/${header}"
             "${folder}/rows/${row}/from.txt" "${folder}/rows/${row}/to.txt")
     endwhile()
+    list(APPEND written "${include_folder}/${test}_test.cpp")
     list(REMOVE_DUPLICATES written)
     list(REMOVE_DUPLICATES read)
     add_custom_command(OUTPUT ${written}
         COMMAND "${Python3_EXECUTABLE}" "${LJUS_BREAK_IT_FOLDER}/break_it_patch.py"
-            "${LJUS_INCLUDE_DIR}" "${folder}" ${how} ${ARGN}
+            "${LJUS_INCLUDE_DIR}" "${folder}" "${test_source}" "${cases}" ${how} ${ARGN}
         DEPENDS ${read}
         COMMENT "Breaking the headers of ${target}"
         VERBATIM)
 
     # The broken headers come first on the include path; they may leave something unused.
-    add_executable(${target} EXCLUDE_FROM_ALL
-        "${CMAKE_CURRENT_SOURCE_DIR}/${test}_test.cpp" ${written}
-        $<TARGET_OBJECTS:ljus_test_main>)
+    add_executable(${target} EXCLUDE_FROM_ALL ${written} $<TARGET_OBJECTS:ljus_test_main>)
     target_include_directories(${target} BEFORE PRIVATE "${include_folder}")
     target_link_libraries(${target} PRIVATE ljus ljus_test_support)
     target_compile_options(${target} PRIVATE -w)
@@ -106,18 +106,19 @@ function(ljus_break_it)
         add_custom_target(break_it_${row_TEST})
         add_dependencies(break_it break_it_${row_TEST})
     endif()
+    set(cases "${row_CASES}")
+    if("x${cases}" STREQUAL "x")
+        set(cases "*")
+    endif()
     if(row_COMPILED)
         set(program break_it_row_${row_NAME})
-        ljus_break_it_program(${program} ${row_TEST} alone ${row_NAME} "${row_HEADER}")
+        ljus_break_it_program(${program} ${row_TEST} "${cases}" alone
+            ${row_NAME} "${row_HEADER}")
     else()
         set(program break_it_program_${row_TEST})
         set_property(GLOBAL APPEND PROPERTY ljus_break_it_tests ${row_TEST})
         set_property(GLOBAL APPEND PROPERTY ljus_break_it_rows_${row_TEST}
             ${row_NAME} "${row_HEADER}")
-        set(cases "${row_CASES}")
-        if("x${cases}" STREQUAL "x")
-            set(cases "*")
-        endif()
         set_property(GLOBAL APPEND PROPERTY ljus_break_it_cases_${row_TEST} "${cases}")
     endif()
     add_test(NAME break_it.${row_NAME}
@@ -137,11 +138,11 @@ function(ljus_break_it_programs)
     foreach(test IN LISTS tests)
         set(program break_it_program_${test})
         get_property(rows GLOBAL PROPERTY ljus_break_it_rows_${test})
-        ljus_break_it_program(${program} ${test} switched ${rows})
-
         get_property(cases GLOBAL PROPERTY ljus_break_it_cases_${test})
         list(REMOVE_DUPLICATES cases)
         list(JOIN cases "," cases)
+        ljus_break_it_program(${program} ${test} "${cases}" switched ${rows})
+
         add_test(NAME break_it.${test}.unbroken
             COMMAND ${program} "--test-case=${cases}" CONFIGURATIONS BreakIt)
         set_tests_properties(break_it.${test}.unbroken PROPERTIES

@@ -1,7 +1,7 @@
 """Makes the headers of one program of broken headers; LjusBreakIt.cmake calls it.
 
-    break_it_patch.py HEADERS FOLDER switched ROW HEADER [ROW HEADER]...
-    break_it_patch.py HEADERS FOLDER alone ROW HEADER
+    break_it_patch.py HEADERS FOLDER TEST CASES switched ROW HEADER [ROW HEADER]...
+    break_it_patch.py HEADERS FOLDER TEST CASES alone ROW HEADER
 
 HEADERS is the folder that has ljus/ in it. In FOLDER/rows/ROW, from.txt and to.txt say
 what the row replaces by what; the header in which this is done is written there, too.
@@ -15,8 +15,12 @@ there once as it was and once for each of these rows,
 and the environment variable LJUS_BREAK_IT, the name of a row, says which of them runs.
 #line gives each copy the name and lines of the file that it comes from, so that the
 compiler's messages name the row.
+
+Beside the headers stands a copy of the file TEST that has only the test cases that CASES
+lets doctest run: the others would only cost the compiler's time.
 """
 
+import functools
 import re
 import shutil
 import sys
@@ -120,6 +124,7 @@ def opened_by(head):
     return "else" if "=" in head else "body"  # x = [](...) {...}
 
 
+@functools.cache  # rows share headers
 def function_bodies(text):
     """Where the functions' bodies begin and end, their braces included."""
     code = blanked(text)
@@ -183,6 +188,24 @@ class Row:
         )
 
 
+def without_other_cases(text, cases):
+    """The source of a test without the test cases that doctest leaves out."""
+    patterns = [
+        re.escape(pattern).replace(r"\*", ".*").replace(r"\?", ".")
+        for pattern in cases.split(",")
+    ]
+    asked = re.compile("|".join(patterns), re.IGNORECASE)
+    code = blanked(text)
+    result, done = "", 0
+    for case in re.finditer(r'^TEST_CASE\w*\(\s*((?:"[^"\\\n]*"\s*)+)', text, re.MULTILINE):
+        name = "".join(re.findall('"(.*?)"', case[1]))
+        if not asked.fullmatch(name):
+            end = closing(code, code.index("{", case.end())) + 1
+            result += text[done : case.start()] + "\n" * text.count("\n", case.start(), end)
+            done = end
+    return result + text[done:]
+
+
 def write(file, text):
     file.parent.mkdir(parents=True, exist_ok=True)
     file.write_text(text)
@@ -211,8 +234,9 @@ def switched(text, source, rows_of):
 
 
 def main():
-    headers, folder, how = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3]
-    pairs = zip(sys.argv[4::2], sys.argv[5::2])
+    headers, folder, test = (Path(argument) for argument in sys.argv[1:4])
+    cases, how = sys.argv[4:6]
+    pairs = zip(sys.argv[6::2], sys.argv[7::2])
     rows = [Row(number, *pair, headers, folder) for number, pair in enumerate(pairs, 1)]
     rows_of = {row.source: {} for row in rows}
     problems = 0
@@ -226,6 +250,7 @@ def main():
             problems += 1
     if problems:
         sys.exit(1)
+    target = rows[0].folder
     if how == "switched":
         target = folder / "switched"
         shutil.rmtree(target, ignore_errors=True)  # rows may have gone
@@ -234,6 +259,8 @@ def main():
         for source, bodies in rows_of.items():
             text = switched(source.read_text(), source, bodies)
             write(target / source.relative_to(headers), text)
+    text = test.read_text()
+    write(target / test.name, line_of(text, 0, test) + without_other_cases(text, cases))
 
 
 main()
