@@ -13,7 +13,8 @@
 # LJUS_BREAK_IT names the row in whose header FROM is replaced by TO (break_it_patch.py says
 # how). So FROM must lie in the body of a function, and what breaks there must show when
 # the program runs: a constant that the compiler computes stays whole. A row of another
-# kind says COMPILED; it has a program of its own, which costs the compiler's time.
+# kind, or one that does not compile beside the others, says COMPILED; it has a program of
+# its own, which costs the compiler's time.
 #
 # The CTest entry break_it.NAME (labels: break_it and the test's name) passes only if the
 # program runs to its end and reports at least one failed assertion; break_it.TEST.unbroken

@@ -48,7 +48,7 @@ inline int chosen() noexcept {
         ++number;
     }
     std::fprintf(stderr, "LJUS_BREAK_IT: there is no row '%s' here.\\n", name);
-    std::abort();
+    std::_Exit(3);
 }
 inline const int row = chosen();
 
