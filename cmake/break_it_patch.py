@@ -108,9 +108,11 @@ def without_template(head):
 
 def opened_by(head):
     """What a brace after these words opens: a 'scope', a function's 'body' or 'else'."""
-    head = without_template(head)
-    if re.search(r"\b(namespace|((struct|class|union)\s[^()=]*))[\w:\s]*$", head):
-        return "else" if re.search(r"\benum\b", head) else "scope"
+    head = re.sub(r"\balignas\s*\([^()]*\)", "", without_template(head))
+    if re.search(r"\benum\b", head):
+        return "else"
+    if re.search(r"\bnamespace\b[\w:\s]*$|\b(struct|class|union)\s[^()=]*$", head):
+        return "scope"
     if re.search(r"\brequires\s*(\([^()]*\)\s*)?$", head):
         return "else"  # requires { ... }
     if re.search(r"\)[^:]*[^:]:[^:].*\w\s*$", head, re.DOTALL):
@@ -158,12 +160,12 @@ class Row:
         self.source = headers / "ljus" / header
         self.folder = folder / "rows" / name
         self.broken = self.folder / "ljus" / header
-        self.old = (self.folder / "from.txt").read_text()
-        self.new = (self.folder / "to.txt").read_text()
+        self.old = read(self.folder / "from.txt")
+        self.new = read(self.folder / "to.txt")
 
     def find(self):
         """Where FROM begins and ends in the header."""
-        text = self.source.read_text()
+        text = read(self.source)
         if self.old == self.new:
             raise Problem("FROM and TO are the same text")
         count = text.count(self.old)
@@ -179,7 +181,7 @@ class Row:
 
     def find_body(self):
         """The function's body that FROM lies in, without its braces."""
-        for start, end in function_bodies(self.source.read_text()):
+        for start, end in function_bodies(read(self.source)):
             if start < self.start and self.end < end:
                 return start + 1, end - 1
         raise Problem(
@@ -206,9 +208,13 @@ def without_other_cases(text, cases):
     return result + text[done:]
 
 
+def read(file):
+    return file.read_text(encoding="utf-8")
+
+
 def write(file, text):
     file.parent.mkdir(parents=True, exist_ok=True)
-    file.write_text(text)
+    file.write_text(text, encoding="utf-8")
 
 
 def line_of(text, at, file):
@@ -225,8 +231,10 @@ def switched(text, source, rows_of):
         result += text[done:start] + f"\nif ({none}) {{" + line_of(text, start, source)
         result += text[start:end]
         for row in rows:
-            again = "else" if row is rows[-1] else f"else if (::ljus_break_it::on({row.number}))"
-            result += f"\n}} {again} {{" + line_of(text, start, row.broken)
+            result += "\n} else "
+            if row is not rows[-1]:
+                result += f"if (::ljus_break_it::on({row.number})) "
+            result += "{" + line_of(text, start, row.broken)
             result += text[start : row.start] + row.new + text[row.end : end]
         result += "\n}" + line_of(text, end, source)
         done = end
@@ -257,9 +265,9 @@ def main():
         names = ", ".join(f'"{row.name}"' for row in rows)
         write(target / "ljus_break_it.hpp", SWITCH.replace("NAMES", names))
         for source, bodies in rows_of.items():
-            text = switched(source.read_text(), source, bodies)
+            text = switched(read(source), source, bodies)
             write(target / source.relative_to(headers), text)
-    text = test.read_text()
+    text = read(test)
     write(target / test.name, line_of(text, 0, test) + without_other_cases(text, cases))
 
 

@@ -18,7 +18,7 @@ constexpr int seven() {
 inline constexpr int always_seven = seven();
 
 template <typename T = int>
-struct Field {
+struct alignas(16) Field {
     int size, sides = 4;
     explicit Field(T of) : size{of} {}
     int above(const T& low = T{1'000}) const noexcept {
