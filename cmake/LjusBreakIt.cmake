@@ -5,20 +5,78 @@
 #                 TEST   sphere                   # tests/sphere_test.cpp must notice
 #                 FROM   "discriminant >= C(0)"   # occurs exactly once in the header
 #                 TO     "discriminant <= C(0)"
-#                 [CASES "sphere: a hit*"])       # only these test cases are run
+#                 [CASES "sphere: a hit*"]        # only these test cases are run
+#                 [COMPILED])                     # in a program of its own, see below
+#   ljus_break_it_programs()                      # after the last row
 #
-# The test is compiled against a copy of the header in which FROM is replaced by TO; the
-# CTest entry break_it.NAME (labels: break_it and the test's name) passes only if that
-# program runs to its end and reports at least one failed assertion. A text that
-# is not there exactly once stops the build, and so does a copy that does not compile;
-# a crash is not a test that notices. Texts with quotes or several lines are written
-# [[like this]].
+# All rows of a test are in one program, and each time it runs, the environment variable
+# LJUS_BREAK_IT names the row in whose header FROM is replaced by TO (break_it_patch.py says
+# how). So FROM must lie in the body of a function, and what breaks there must show when
+# the program runs: a constant that the compiler computes stays whole. A row of another
+# kind, or one that does not compile beside the others, says COMPILED; it has a program of
+# its own, which costs the compiler's time.
+#
+# The CTest entry break_it.NAME (labels: break_it and the test's name) passes only if the
+# program runs to its end and reports at least one failed assertion; break_it.TEST.unbroken
+# passes if no assertion fails where nothing is broken. A text that is not there exactly
+# once stops the build, and so does a header that does not compile; a crash is not a test
+# that notices. Texts with quotes or several lines are written [[like this]].
+#
+# None of this is in the target all, and CTest knows the entries by -C BreakIt only:
+#
+#   cmake --build build --target break_it         # or break_it_TEST
+#   ctest --test-dir build -C BreakIt -L '^break_it$'
 
 include("${CMAKE_CURRENT_LIST_DIR}/LjusWriteIfDifferent.cmake")
 set(LJUS_BREAK_IT_FOLDER "${CMAKE_CURRENT_LIST_DIR}")
+find_package(Python3 3.9 COMPONENTS Interpreter)
+if(NOT Python3_Interpreter_FOUND)
+    message(STATUS "Ljus: Python 3.9 or later is not found: the broken headers are left out")
+endif()
+add_custom_target(break_it)
+
+# A program from the test cases of a test that match, and broken headers: alone (one row) or
+# switched. Its rows are given as ROW HEADER ROW HEADER... .
+function(ljus_break_it_program target test cases how)
+    set(folder "${CMAKE_BINARY_DIR}/break_it/${test}")
+    set(include_folder "${folder}/switched")
+    set(written)
+    set(test_source "${CMAKE_CURRENT_SOURCE_DIR}/${test}_test.cpp")
+    set(read "${LJUS_BREAK_IT_FOLDER}/break_it_patch.py" "${test_source}")
+    set(rows ${ARGN})
+    while(rows)
+        list(POP_FRONT rows row header)
+        if(how STREQUAL "alone")
+            set(include_folder "${folder}/rows/${row}")
+        endif()
+        list(APPEND written "${include_folder}/ljus/${header}")
+        list(APPEND read "${LJUS_INCLUDE_DIR}/ljus/${header}"
+            "${folder}/rows/${row}/from.txt" "${folder}/rows/${row}/to.txt")
+    endwhile()
+    list(APPEND written "${include_folder}/${test}_test.cpp")
+    list(REMOVE_DUPLICATES written)
+    list(REMOVE_DUPLICATES read)
+    add_custom_command(OUTPUT ${written}
+        COMMAND "${Python3_EXECUTABLE}" "${LJUS_BREAK_IT_FOLDER}/break_it_patch.py"
+            "${LJUS_INCLUDE_DIR}" "${folder}" "${test_source}" "${cases}" ${how} ${ARGN}
+        DEPENDS ${read}
+        COMMENT "Breaking the headers of ${target}"
+        VERBATIM)
+
+    # The broken headers come first on the include path; they may leave something unused.
+    add_executable(${target} EXCLUDE_FROM_ALL ${written} $<TARGET_OBJECTS:ljus_test_main>)
+    target_include_directories(${target} BEFORE PRIVATE "${include_folder}")
+    target_link_libraries(${target} PRIVATE ljus ljus_test_support)
+    target_compile_options(${target} PRIVATE -w)
+    if(NOT MSVC) # most of a broken header's time is spent in compiling its test
+        target_compile_options(${target} PRIVATE -O1)
+    endif()
+    set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${folder}")
+    add_dependencies(break_it_${test} ${target})
+endfunction()
 
 function(ljus_break_it)
-    cmake_parse_arguments(PARSE_ARGV 0 row "" "NAME;HEADER;TEST;FROM;TO;CASES" "")
+    cmake_parse_arguments(PARSE_ARGV 0 row "COMPILED" "NAME;HEADER;TEST;FROM;TO;CASES" "")
     foreach(field IN ITEMS NAME HEADER TEST FROM)
         if("x${row_${field}}" STREQUAL "x")
             message(FATAL_ERROR "ljus_break_it(${row_NAME}): ${field} is missing.")
@@ -28,24 +86,13 @@ function(ljus_break_it)
         message(FATAL_ERROR "ljus_break_it(${row_NAME}): '${row_UNPARSED_ARGUMENTS}' is no "
             "field; a text with quotes or semicolons is written [[like this]].")
     endif()
+    if(NOT Python3_Interpreter_FOUND)
+        return()
+    endif()
     if(row_TEST IN_LIST ljus_tests_left_out) # a package that it needs is missing
         return()
     endif()
-    # A third of the rows, say: those whose name hashes to the share that is asked for.
-    string(MD5 hash "${row_NAME}")
-    string(SUBSTRING "${hash}" 0 6 hash)
-    set(share "${LJUS_BREAK_IT_SHARE}")
-    if(NOT share)
-        set(share 1/1)
-    endif()
-    string(REPLACE "/" ";" share "${share}")
-    list(GET share 0 which)
-    list(GET share 1 of)
-    math(EXPR own "0x${hash} % ${of} + 1")
-    if(NOT own EQUAL which)
-        return()
-    endif()
-    if(TARGET break_it_${row_NAME})
+    if(TEST break_it.${row_NAME})
         message(FATAL_ERROR "ljus_break_it(${row_NAME}): there are two of this name.")
     endif()
     set(test_source "${CMAKE_CURRENT_SOURCE_DIR}/${row_TEST}_test.cpp")
@@ -53,43 +100,53 @@ function(ljus_break_it)
         message(FATAL_ERROR "ljus_break_it(${row_NAME}): there is no ${test_source}.")
     endif()
 
-    set(folder "${CMAKE_BINARY_DIR}/break_it/${row_NAME}")
-    set(header "${LJUS_INCLUDE_DIR}/ljus/${row_HEADER}")
-    set(broken "${folder}/ljus/${row_HEADER}")
-    if(NOT EXISTS "${broken}") # another header was broken here before
-        file(REMOVE_RECURSE "${folder}/ljus")
-    endif()
+    set(folder "${CMAKE_BINARY_DIR}/break_it/${row_TEST}/rows/${row_NAME}")
     ljus_write_if_different("${folder}/from.txt" "${row_FROM}")
     ljus_write_if_different("${folder}/to.txt" "${row_TO}")
-    add_custom_command(OUTPUT "${broken}"
-        COMMAND "${CMAKE_COMMAND}" -D "NAME=${row_NAME}" -D "HEADER=${header}"
-            -D "FOLDER=${folder}" -D "BROKEN=${broken}"
-            -P "${LJUS_BREAK_IT_FOLDER}/break_it_patch.cmake"
-        DEPENDS "${header}" "${folder}/from.txt" "${folder}/to.txt"
-            "${LJUS_BREAK_IT_FOLDER}/break_it_patch.cmake"
-        COMMENT "Breaking ${row_HEADER}: ${row_NAME}"
-        VERBATIM)
-
-    # The broken copy comes first on the include path; it may leave something unused.
-    add_executable(break_it_${row_NAME} "${test_source}" "${broken}"
-        $<TARGET_OBJECTS:ljus_test_main>)
-    target_include_directories(break_it_${row_NAME} BEFORE PRIVATE "${folder}")
-    target_link_libraries(break_it_${row_NAME} PRIVATE ljus ljus_test_support)
-    target_compile_options(break_it_${row_NAME} PRIVATE -w)
-    if(NOT MSVC) # most of a broken header's time is spent in compiling its test
-        target_compile_options(break_it_${row_NAME} PRIVATE -O1)
+    if(NOT TARGET break_it_${row_TEST})
+        add_custom_target(break_it_${row_TEST})
+        add_dependencies(break_it break_it_${row_TEST})
     endif()
-    set_target_properties(break_it_${row_NAME} PROPERTIES
-        RUNTIME_OUTPUT_DIRECTORY "${folder}")
-
+    set(cases "${row_CASES}")
+    if("x${cases}" STREQUAL "x")
+        set(cases "*")
+    endif()
+    if(row_COMPILED)
+        set(program break_it_row_${row_NAME})
+        ljus_break_it_program(${program} ${row_TEST} "${cases}" alone
+            ${row_NAME} "${row_HEADER}")
+    else()
+        set(program break_it_program_${row_TEST})
+        set_property(GLOBAL APPEND PROPERTY ljus_break_it_tests ${row_TEST})
+        set_property(GLOBAL APPEND PROPERTY ljus_break_it_rows_${row_TEST}
+            ${row_NAME} "${row_HEADER}")
+        set_property(GLOBAL APPEND PROPERTY ljus_break_it_cases_${row_TEST} "${cases}")
+    endif()
     add_test(NAME break_it.${row_NAME}
         COMMAND "${CMAKE_COMMAND}" -D "NAME=${row_NAME}" -D "HEADER=${row_HEADER}"
             -D "FOLDER=${folder}" -D "CASES=${row_CASES}"
-            -D "PROGRAM=$<TARGET_FILE:break_it_${row_NAME}>"
-            -P "${LJUS_BREAK_IT_FOLDER}/break_it_check.cmake")
+            -D "PROGRAM=$<TARGET_FILE:${program}>"
+            -P "${LJUS_BREAK_IT_FOLDER}/break_it_check.cmake"
+        CONFIGURATIONS BreakIt)
     set_tests_properties(break_it.${row_NAME} PROPERTIES
         LABELS "break_it;${row_TEST}" TIMEOUT 900)
-    if(TARGET concept_${row_TEST})
-        add_dependencies(concept_${row_TEST} break_it_${row_NAME})
-    endif()
+endfunction()
+
+# The programs that hold the rows of one test each.
+function(ljus_break_it_programs)
+    get_property(tests GLOBAL PROPERTY ljus_break_it_tests)
+    list(REMOVE_DUPLICATES tests)
+    foreach(test IN LISTS tests)
+        set(program break_it_program_${test})
+        get_property(rows GLOBAL PROPERTY ljus_break_it_rows_${test})
+        get_property(cases GLOBAL PROPERTY ljus_break_it_cases_${test})
+        list(REMOVE_DUPLICATES cases)
+        list(JOIN cases "," cases)
+        ljus_break_it_program(${program} ${test} "${cases}" switched ${rows})
+
+        add_test(NAME break_it.${test}.unbroken
+            COMMAND ${program} "--test-case=${cases}" CONFIGURATIONS BreakIt)
+        set_tests_properties(break_it.${test}.unbroken PROPERTIES
+            LABELS "break_it;${test}" TIMEOUT 900 ENVIRONMENT "LJUS_BREAK_IT=")
+    endforeach()
 endfunction()

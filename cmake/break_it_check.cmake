@@ -1,6 +1,7 @@
-# Runs PROGRAM, a test compiled against a broken header; fails unless it runs to its end
-# and reports at least one failed assertion.
+# Runs PROGRAM, a test compiled against broken headers, with the row NAME; fails unless it
+# runs to its end and reports at least one failed assertion.
 cmake_minimum_required(VERSION 3.22)
+set(ENV{LJUS_BREAK_IT} "${NAME}")
 set(arguments --no-colors=true)
 if(NOT "x${CASES}" STREQUAL "x")
     list(APPEND arguments "--test-case=${CASES}")
@@ -13,7 +14,8 @@ if(result EQUAL 0 AND output MATCHES "test cases: +0 ")
 endif()
 if(result EQUAL 0)
     message(FATAL_ERROR "break it ${NAME}: nobody noticed. With this change in ${HEADER} "
-        "every test still passes: test the term, or offset_ray_origin it out.\n"
+        "every test still passes: test the term, or leave it out; or, if only what the "
+        "compiler computes changes, give the row the word COMPILED.\n"
         "The change: ${FOLDER}/from.txt to ${FOLDER}/to.txt")
 endif()
 if(NOT result EQUAL 1 OR output MATCHES "CRASHED")

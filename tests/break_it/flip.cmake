@@ -2,7 +2,8 @@
 ljus_break_it(NAME flip-blue-yellow HEADER image/detail/flip_filter.hpp TEST flip
     FROM "{13.5, 0.025}"
     TO   "{0, 0.025}"
-    CASES "flip: a second*")
+    CASES "flip: a second*"
+    COMPILED)
 
 # In the dark colours are as strong as in the light.
 ljus_break_it(NAME flip-hunt HEADER image/detail/flip_color.hpp TEST flip

@@ -3,14 +3,16 @@ ljus_break_it(NAME sobol-recurrence HEADER math/low_discrepancy.hpp
     TEST low_discrepancy
     FROM "table[d][i - seed.s] ^ (table[d][i - seed.s] >> seed.s)"
     TO   "table[d][i - seed.s] >> seed.s"
-    CASES "low_discrepancy: any two*")
+    CASES "low_discrepancy: any two*"
+    COMPILED)
 
 # A polynomial's coefficients read from the wrong end.
 ljus_break_it(NAME sobol-polynomial HEADER math/low_discrepancy.hpp
     TEST low_discrepancy
     FROM "(seed.a >> (seed.s - 1 - k)) & 1u"
     TO   "(seed.a >> k) & 1u"
-    CASES "low_discrepancy: any two*")
+    CASES "low_discrepancy: any two*"
+    COMPILED)
 
 # Without the mirror image the lower bits would turn over the upper ones.
 ljus_break_it(NAME owen-direction HEADER math/low_discrepancy.hpp TEST low_discrepancy

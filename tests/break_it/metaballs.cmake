@@ -13,7 +13,8 @@ ljus_break_it(NAME metaballs-gradient HEADER geometry/metaballs.hpp TEST metabal
 ljus_break_it(NAME metaballs-lipschitz HEADER geometry/detail/metaball_line.hpp TEST metaballs
     FROM "steepest_blob = T(8) / (T(3) * std::numbers::sqrt3_v<T>);"
     TO   "steepest_blob = T(1);"
-    CASES "metaballs: the gradient agrees*")
+    CASES "metaballs: the gradient agrees*"
+    COMPILED)
 
 # The middle coefficient of s^2 is not the square of the middle one of s.
 ljus_break_it(NAME metaballs-blossom HEADER geometry/detail/metaball_quartic.hpp TEST metaballs

@@ -43,7 +43,8 @@ ljus_break_it(NAME photon-map-turned HEADER photons/photon_map.hpp TEST photon_m
 ljus_break_it(NAME photon-map-flat HEADER photons/photon_map.hpp TEST photon_map
     FROM "float thickness = 0.5f;"
     TO   "float thickness = 0.1f;"
-    CASES "photon_map: on a ball as small*")
+    CASES "photon_map: on a ball as small*"
+    COMPILED)
 
 # The k nearest of all kinds, of which shadow photons are then left out.
 ljus_break_it(NAME photon-map-kinds HEADER photons/photon_map.hpp TEST photon_map

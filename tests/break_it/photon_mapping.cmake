@@ -33,7 +33,8 @@ ljus_break_it(NAME photon-mapping-shadow HEADER photons/photon.hpp
     TEST photon_mapping
     FROM "light_kinds{7}"
     TO   "light_kinds{13}"
-    CASES "photon mapping: the general map*")
+    CASES "photon mapping: the general map*"
+    COMPILED)
 
 # A lamp within coloured glass shines as if the glass were clear.
 ljus_break_it(NAME photon-mapping-start HEADER path/next_vertex.hpp TEST photon_mapping

@@ -6,7 +6,8 @@ ljus_break_it(NAME ray-at HEADER geometry/ray.hpp TEST ray
 # A ray that may look behind itself.
 ljus_break_it(NAME ray-t-min HEADER geometry/ray.hpp TEST ray
     FROM "T t_min = T(0);"
-    TO   "T t_min = -std::numeric_limits<T>::infinity();")
+    TO   "T t_min = -std::numeric_limits<T>::infinity();"
+    COMPILED)
 
 # A test that starts where the hit was counted: definition 3.1 hits its own surface.
 ljus_break_it(NAME ray-stay HEADER geometry/surface_point.hpp TEST ray

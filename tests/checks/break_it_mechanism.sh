@@ -13,14 +13,15 @@ mkdir -p "$folder"
     -DMODULE="$LJUS_ROOT/cmake/LjusBreakIt.cmake" >"$folder/configure.log" 2>&1 ||
     { cat "$folder/configure.log"; exit 1; }
 
-# expect NAME STEP SENTENCE: STEP (build or test) of this row must fail with the sentence;
-# "passes" means that both must succeed.
+# expect TEST ROW STEP SENTENCE: STEP (build, which is that of all rows of the test, or
+# test) must fail for this row with the sentence; "passes" means that both must succeed.
 expect() {
-    local name=$1 step=$2 sentence=$3 output status=0 seen
-    output=$("$LJUS_CMAKE" --build "$folder" --target "break_it_$name" 2>&1) || status=$?
+    local of=$1 name=$2 step=$3 sentence=$4 output status=0 seen
+    output=$("$LJUS_CMAKE" --build "$folder" --target "break_it_$of" 2>&1) || status=$?
     seen=build
     if [ "$status" -eq 0 ]; then
-        output=$("$ctest" --test-dir "$folder" -V -R "^break_it\.$name\$" 2>&1) || status=$?
+        output=$("$ctest" --test-dir "$folder" -C BreakIt -V -R "^break_it\.$name\$" \
+            --no-tests=error 2>&1) || status=$?
         seen=test
     fi
     [ "$status" -eq 0 ] && seen=passes
@@ -33,15 +34,35 @@ expect() {
     fi
 }
 
-expect noticed passes "1 assertions failed; it was noticed by"
-expect awkward passes "noticed by"
-expect equivalent test "nobody noticed"
-expect crashes test "a crash is not a test that notices"
-expect throws test "no assertion failed"
-expect no-such-case test "no test case is named 'no such case*'"
-expect other-case test "nobody noticed"
-expect not-compiled build "forty_two"
-expect not-there build "occurs 0 times"
-expect there-twice build "occurs 2 times"
-expect unchanged build "FROM and TO are the same text"
+expect answer noticed passes "1 assertions failed; it was noticed by"
+expect answer awkward passes "noticed by"
+expect answer member passes "noticed by"
+expect answer lambda passes "noticed by"
+expect answer compiled passes "noticed by"
+expect answer equivalent test "nobody noticed"
+expect answer crashes test "a crash is not a test that notices"
+expect answer hangs test "Timeout"
+expect answer throws test "no assertion failed"
+expect answer no-such-case test "no test case is named 'no such case*'"
+expect answer other-case test "nobody noticed"
+expect answer constant test "give the row the word COMPILED"
+expect answer constant-compiled passes "noticed by"
+expect answer answer.unbroken passes "100% tests passed"
+expect fails_unbroken fails_unbroken.unbroken test "what no header can mend"
+expect not_compiled not-compiled build "rows/not-compiled/ljus/answer.hpp:7"
+expect not_switched not-switched build "break it not-switched: its text does not lie in the body"
+expect not_there not-there build "break it not-there: the text 'return 41' occurs 0 times"
+expect there_twice there-twice build "break it there-twice: the text 'int ' occurs 6 times"
+expect unchanged unchanged build "break it unchanged: FROM and TO are the same text"
+
+# Unless they are asked for, the broken headers are neither built nor run.
+if "$ctest" --test-dir "$folder" --show-only | grep 'break_it\.'; then
+    echo "WRONG: ctest knows the broken headers without -C BreakIt"
+    wrong=1
+fi
+# A name that is no row's must not pass for nothing that is broken.
+if (LJUS_BREAK_IT=no-such-row "$folder/break_it/answer/break_it_program_answer") 2>/dev/null; then
+    echo "WRONG: a row that is not there is not refused"
+    wrong=1
+fi
 exit $wrong

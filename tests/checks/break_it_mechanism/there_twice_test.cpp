@@ -1,0 +1,1 @@
+#include "answer_test.cpp"
