@@ -371,7 +371,7 @@ int main(int argc, char** argv) {
                            options.path(std::string("ray-fixed-") + name + ".png"));
             ljus::save_png(
                 picture(options.width, scale, 0),
-                options.path(std::string("ray-offset_ray_origin-") + name + ".png"));
+                options.path(std::string("ray-leave-") + name + ".png"));
         }
     });
 }

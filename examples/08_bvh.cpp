@@ -229,7 +229,7 @@ ljus::Rgb heat(float x) {
     return {ramp(3), ramp(2), ramp(1)};
 }
 
-/// RenderSettings: how many nodes the ray of each pixel visits; white is the most.
+/// A picture: how many nodes the ray of each pixel visits; white is the most.
 void heat_map(const examples::Options& options) {
     const Mesh mesh = balls(10000);
     const Plain plain(mesh);

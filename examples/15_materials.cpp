@@ -334,7 +334,7 @@ auto own_sampler(const Material& material) {
 /// Plots: what white gloss loses, and what the choice of the sampler is worth.
 void plot_gloss(const std::string& folder, int count) {
     examples::Plot loss{.name = "materials-loss",
-                        .columns = {"roughness", "pass_through on", "60 degrees",
+                        .columns = {"roughness", "straight on", "60 degrees",
                                     "80 degrees", "88 degrees"},
                         .y_label = "share of a white sky that white returns",
                         .more = "set yrange [0:1.05]\nset key inside left bottom\n"};

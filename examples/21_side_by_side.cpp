@@ -121,7 +121,7 @@ PhotonMappingSettings photon_settings(IndirectLight indirect, double effort,
 std::vector<Method> methods(const examples::Options& options) {
     std::vector<Method> all;
     using Cameras = std::vector<Camera>;
-    all.push_back({"WhittedSettings", "whitted",
+    all.push_back({"Whitted", "whitted",
                    [&options](const Cornell& scene, const Cameras& cameras,
                               double effort, std::uint64_t seed) {
                        return views_of(make_whitted(scene), cameras, options, effort,
@@ -597,7 +597,7 @@ void class_table(const Study& study, const examples::Options& options,
         const char* name;
         std::array<Sum, names.size()> sums;
     };
-    const std::array lines{Line{"WhittedSettings", of(make_whitted(scene))},
+    const std::array lines{Line{"Whitted", of(make_whitted(scene))},
                            Line{"distributed rays", of(make_distributed(scene))},
                            Line{"path tracing", truth},
                            Line{"radiosity", patches},

@@ -37,7 +37,7 @@ using Point = Vec3T<double>;
 // --- The oracle -------------------------------------------------------------------
 
 struct Quadratic { // s(t) = c + b t + a t^2
-    Real c = 0, b = 0, a = 0, w = 0, enter = 0, offset_ray_origin = 0;
+    Real c = 0, b = 0, a = 0, w = 0, enter = 0, leave = 0;
 };
 
 struct Extremum {
@@ -139,12 +139,12 @@ Truth exact(const RayT<T>& ray, const MetaballsT<T>& balls) {
                     .w = Real(blob.weight)};
         const Real middle = -q.b / (2 * q.a), height = q.c - q.b * q.b / (4 * q.a);
         const Real half = height > 0 ? Real(sqrt(height / -q.a)) : Real(0);
-        q.enter = middle - half, q.offset_ray_origin = middle + half;
+        q.enter = middle - half, q.leave = middle + half;
         if (q.enter > 0) borders.push_back(q.enter);
-        if (q.offset_ray_origin > 0) borders.push_back(q.offset_ray_origin);
+        if (q.leave > 0) borders.push_back(q.leave);
         truth.blobs.push_back(q);
         // |grad| of (1 - r^2/R^2)^2 is at most 1.54 / R; its own terms move by 2 R-errors.
-        const Real far = std::max(Real(0), q.offset_ray_origin);
+        const Real far = std::max(Real(0), q.leave);
         for (std::size_t k = 0; k < 3; ++k) size[k] = o[k] + far * abs(d[k]);
         const Real shift = eight_u * sqrt(dot3(size, size)) / Real(blob.radius);
         truth.moves += abs(q.w) * (eight_u * 3 + Real(1.54) * shift + shift * shift);
@@ -164,7 +164,7 @@ Truth exact(const RayT<T>& ray, const MetaballsT<T>& balls) {
         std::array<Real, 4> slope{0, 0, 0,
                                   0}; // d/dx of the sum of w s^2, t = a + length x
         for (const auto& q : truth.blobs) {
-            if (!(q.enter < middle && middle < q.offset_ray_origin)) continue;
+            if (!(q.enter < middle && middle < q.leave)) continue;
             const Real c = q.c + a * (q.b + a * q.a), b = (q.b + 2 * a * q.a) * length;
             const Real e = q.a * length * length;
             slope[0] += q.w * 2 * b * c;

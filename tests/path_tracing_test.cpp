@@ -389,7 +389,7 @@ TEST_CASE_TEMPLATE("path tracing: two lamps give the sum of what each gives", T,
 }
 
 TEST_CASE_TEMPLATE(
-    "path tracing: roulette and shadow rays offset_ray_origin the mean as it is", T,
+    "path tracing: roulette and shadow rays leave the mean as it is", T,
     float, double) {
     const auto scene = room<T>(true, true);
     const long long paths = 60000;

@@ -68,7 +68,7 @@ TEST_CASE_TEMPLATE("refraction: a path can be walked back", T, float, double) {
 }
 
 TEST_CASE_TEMPLATE(
-    "refraction: into the same index a ray goes pass_through on, even where it "
+    "refraction: into the same index a ray goes straight on, even where it "
     "grazes",
     T, float, double) {
     Draws draws{5};
@@ -84,7 +84,7 @@ TEST_CASE_TEMPLATE(
     }
 }
 
-TEST_CASE_TEMPLATE("refraction: pass_through down stays pass_through down", T, float,
+TEST_CASE_TEMPLATE("refraction: straight down stays straight down", T, float,
                    double) {
     for (const T eta : {T(1e-3), T(0.5), T(1), T(1.5), T(1e3)}) {
         CHECK(*ljus::refract(Vec3T<T>{0, 0, 1}, eta) == Vec3T<T>{0, 0, -1});

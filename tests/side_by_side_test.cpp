@@ -109,7 +109,7 @@ TEST_CASE("side_by_side: direct light of a small lamp, by all renderers") {
         CHECK(std::abs(mean.mean - truth.mean) < 4 * error + bias * truth.mean);
     };
     // The middle of a lamp of size 0.04 at distance 1 or so: (0.04)^2 is what it misses.
-    close("WhittedSettings", mean_of(make_whitted(scene)), 0.002);
+    close("Whitted", mean_of(make_whitted(scene)), 0.002);
     close("distributed rays", mean_of(make_distributed(scene)), 0);
     for (const auto indirect :
          {IndirectLight::rays, IndirectLight::map, IndirectLight::photons}) {
@@ -166,7 +166,7 @@ TEST_CASE("side_by_side: the matt room, by all renderers that carry its light") 
         const auto view = make_light_map_view(room.scene, all->map, {.smooth = false});
         same(blocks(4, [&](auto seed) { return image(view, seed, 16); }), truth, 0.02);
     }
-    SUBCASE("what WhittedSettings and distributed rays offset_ray_origin out") {
+    SUBCASE("what Whitted and distributed rays leave out") {
         for (const auto& seen :
              {blocks(2, [&](auto s) { return image(make_whitted(room.scene), s, 8); }),
               blocks(2, [&](auto s) {

@@ -79,7 +79,7 @@ std::string refusal(const SoapFilm& film) {
 
 } // namespace
 
-TEST_CASE_TEMPLATE("soap film: what is not reflected goes pass_through on, to 1e-12", T,
+TEST_CASE_TEMPLATE("soap film: what is not reflected goes straight on, to 1e-12", T,
                    float, double) {
     Draws draws;
     for (const FilmColor color : all_colors) {

@@ -117,12 +117,12 @@ TEST_CASE("sphere: the chord has both ends, in order, also behind the origin") {
         const auto ends = ljus::chord(Ray{.origin = {0, 0, z}}, ball);
         REQUIRE(ends);
         CHECK(ends->enter == z + 4);
-        CHECK(ends->offset_ray_origin == z + 6);
+        CHECK(ends->leave == z + 6);
     }
     const auto touch = ljus::chord(Ray{.origin = {1, 0, 0}}, Sphere{});
     REQUIRE(touch);
     CHECK(touch->enter == 0.0f);
-    CHECK(touch->offset_ray_origin == 0.0f);
+    CHECK(touch->leave == 0.0f);
 }
 
 TEST_CASE("sphere: far away it is neither lost nor found where it is not") {

@@ -37,7 +37,7 @@ TEST_CASE("stratified: as many cells as rays, as square as the number allows") {
     CHECK(is(2147483647, 2147483647, 2147483647, true)); // a prime; no overflow
 }
 
-TEST_CASE("stratified: n_rooks stand only where no grid is square enough") {
+TEST_CASE("stratified: rooks stand only where no grid is square enough") {
     for (int rays = 1; rays <= 1000; ++rays) {
         bool grid = false; // some division with sides of 1 : 4 at most
         for (int columns = 1; columns <= rays; ++columns)
@@ -119,7 +119,7 @@ TEST_CASE("stratified: keys give different orders") {
     CHECK(orders.size() > 500);
 }
 
-TEST_CASE_TEMPLATE("stratified: uniform over the pixel, in a grid and with n_rooks", T,
+TEST_CASE_TEMPLATE("stratified: uniform over the pixel, in a grid and with rooks", T,
                    float, double) {
     // 60 x 60 cells fall across the strata. Stratified counts scatter less than
     // independent ones, so the limit is generous.

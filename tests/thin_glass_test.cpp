@@ -86,7 +86,7 @@ TEST_CASE("thin glass: what textbooks say of a pane") {
           0.9 * ljus::pane_shares(green, 1.0).transmitted.z);
 }
 
-TEST_CASE_TEMPLATE("thin glass: samples are reflected, the rest goes pass_through on",
+TEST_CASE_TEMPLATE("thin glass: samples are reflected, the rest goes straight on",
                    T, float, double) {
     const ThinGlassT<T> pane{T(1.5), {T(0.9), T(0.7), T(0.3)}};
     for (const double degrees : {0.0, 45.0, 80.0, 89.0, 120.0, 179.0}) {

@@ -29,8 +29,8 @@ ljus_break_it(NAME metaballs-inside HEADER geometry/detail/metaball_quartic.hpp 
     CASES "metaballs: the first hit*")
 
 ljus_break_it(NAME metaballs-range HEADER geometry/detail/metaball_quartic.hpp TEST metaballs
-    FROM "const C end = glm::min(t_max, line.offset_ray_origin);"
-    TO   "const C end = line.offset_ray_origin;"
+    FROM "const C end = glm::min(t_max, line.leave);"
+    TO   "const C end = line.leave;"
     CASES "metaballs: the first hit*")
 
 # A seventeenth blob that forgets the sixteen before it.

@@ -27,8 +27,8 @@ ljus_break_it(NAME path-tracing-n2 HEADER materials/glass.hpp TEST path_tracing
 
 # The way through glass is not measured.
 ljus_break_it(NAME path-tracing-medium HEADER path/next_vertex.hpp TEST path_tracing
-    FROM "path.throughput *= transmittance(path.medium, distance) * through;"
-    TO   "path.throughput *= through;"
+    FROM "path.throughput *= transmittance(path.medium, vertex->distance) * passage.through;"
+    TO   "path.throughput *= passage.through;"
     CASES "path tracing: a slab*")
 
 # A lamp that the path meets is taken for the only one.

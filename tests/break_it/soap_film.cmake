@@ -26,15 +26,15 @@ ljus_break_it(NAME thin_surfaces-clear HEADER path/next_vertex.hpp TEST soap_fil
 
 # The paths that pass do not make up for those that were stopped.
 ljus_break_it(NAME thin_surfaces-chance HEADER path/next_vertex.hpp TEST soap_film
-    FROM "through *= *passed / (T(1) - stop);"
-    TO   "through *= *passed;"
+    FROM "passage.through *= *passed / (T(1) - stop);"
+    TO   "passage.through *= *passed;"
     CASES "thin sheets: what a path*")
 
 # One of 25 paths is stopped, and the 24 others are not made up for: the bubble's caustic
 # is dark.
 ljus_break_it(NAME thin_surfaces-photon HEADER path/continue_path.hpp TEST soap_film
-    FROM "next.weight / vertex.stop_probability"
-    TO   "next.weight"
+    FROM "path.throughput /= vertex.stop_probability;"
+    TO   "(void)0;"
     CASES "thin sheets: photon mapping*")
 
 # Reflected as if the film were equally thick everywhere: the bubble shows in a furnace.

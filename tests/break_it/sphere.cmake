@@ -35,7 +35,7 @@ ljus_break_it(NAME sphere-t-min HEADER geometry/sphere.hpp TEST sphere
     CASES "sphere: known hits")
 
 ljus_break_it(NAME sphere-t-max HEADER geometry/sphere.hpp TEST sphere
-    FROM " && offset_ray_origin <= t_max"
+    FROM " && leave <= t_max"
     TO   ""
     CASES "sphere: the range*")
 

@@ -2,7 +2,7 @@
 ljus_break_it(NAME stratified-remainder HEADER math/sampling_pattern.hpp TEST stratified
     FROM "if (rays % i == 0) columns = i;"
     TO   "columns = i;"
-    CASES "stratified: n_rooks stand*")
+    CASES "stratified: rooks stand*")
 
 # The scramble alone favours some places.
 ljus_break_it(NAME stratified-step HEADER math/sampling_pattern.hpp TEST stratified

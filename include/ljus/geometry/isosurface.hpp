@@ -45,7 +45,7 @@ struct LipschitzLine {
     RayT<double> ray{};           ///< The ray.
     double length = 0;            ///< Of its direction.
     double enter = 0;             ///< Where it comes into the bounds.
-    double offset_ray_origin = 0; ///< Where it goes out of them.
+    double leave = 0; ///< Where it goes out of them.
 
     /// f(O + tD).
     [[nodiscard]] double value(double t) const { return field.value(point_at(ray, t)); }
@@ -72,7 +72,7 @@ template <typename Solver = SphereTracing, std::floating_point T, LipschitzField
     if (!inside) return std::nullopt;
     const RayT<double> wide{Vec3T<double>(ray.origin), Vec3T<double>(ray.direction)};
     const LipschitzLine<Field> line{surface.field, wide, glm::length(wide.direction),
-                                    inside->enter, inside->offset_ray_origin};
+                                    inside->enter, inside->leave};
     const auto t = first_meeting(solver, line, double(ray.t_min), double(ray.t_max));
     if (!t || !(*t <= std::numeric_limits<T>::max())) return std::nullopt;
     return static_cast<T>(*t);

@@ -34,7 +34,7 @@ using Sphere = SphereT<float>; ///< SphereT in float.
 template <std::floating_point T>
 struct ChordT {
     T enter = T(0); ///< The smaller root, in units of the direction's length.
-    T offset_ray_origin = T(0); ///< The larger root, at least `enter`.
+    T leave = T(0); ///< The larger root, at least `enter`.
 };
 using Chord = ChordT<float>; ///< ChordT in float.
 
@@ -78,8 +78,8 @@ chord(const RayT<T>& ray, const SphereT<T>& sphere) noexcept {
     const C c = glm::dot(oc, oc) - r * r;
     const C large = q * inverse_a;
     const C small = q != C(0) ? c / q : C(0); // 0/0: it only touches
-    if (q > C(0)) return ChordT<C>{.enter = small, .offset_ray_origin = large};
-    return ChordT<C>{.enter = large, .offset_ray_origin = small};
+    if (q > C(0)) return ChordT<C>{.enter = small, .leave = large};
+    return ChordT<C>{.enter = large, .leave = small};
 }
 // [chord]
 
@@ -103,9 +103,9 @@ template <typename Compute = void, std::floating_point T>
     const T t_max = glm::min(ray.t_max, std::numeric_limits<T>::max());
     const T enter = static_cast<T>(hits->enter);
     if (ray.t_min <= enter && enter <= t_max) return enter;
-    const T offset_ray_origin = static_cast<T>(hits->offset_ray_origin);
-    if (ray.t_min <= offset_ray_origin && offset_ray_origin <= t_max)
-        return offset_ray_origin;
+    const T leave = static_cast<T>(hits->leave);
+    if (ray.t_min <= leave && leave <= t_max)
+        return leave;
     return std::nullopt;
 }
 // [intersect]

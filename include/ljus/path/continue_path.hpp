@@ -37,7 +37,8 @@ template <typename M, std::floating_point T>
 template <std::floating_point T, Material M>
 void follow(PathStateT<T>& path, const VertexT<T>& vertex, const M& material,
             const BsdfSampleT<T>& next, const Vec3T<T>& wi) noexcept {
-    path.throughput *= next.weight / vertex.stop_probability;
+    path.throughput *= next.weight;
+    if (vertex.stop_probability < T(1)) path.throughput /= vertex.stop_probability;
     path.eta_scale *= next.eta_scale;
     path.medium = medium_beyond(path.medium, material, vertex.wo, next.wi);
     path.previous = vertex.point.position;

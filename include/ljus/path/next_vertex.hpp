@@ -138,9 +138,48 @@ template <SceneLike S, std::floating_point T>
 }
 // [visibility]
 
+/// What thin surfaces have done to a path between two vertices.
+template <std::floating_point T>
+struct PassageT {
+    RgbT<T> through{T(1)};     ///< What they let through, over its probability.
+    T distance = T(0);         ///< From the vertex to the last of them.
+    T stop_probability = T(1); ///< Of stopping at the one where the path is, if it is.
+};
+
+/// Takes a ray through the thin surfaces in its way. At each, chance decides with the
+/// mean of R over the channels whether the path stops there, to be reflected, or passes.
+/// \param scene   The scene.
+/// \param ray     Gets its last part.
+/// \param hit     What the ray meets first; becomes what its last part meets.
+/// \param stream  A number is drawn for each thin surface.
+/// \return What they left.
+// [pass_thin_surfaces]
+template <SceneLike S, std::floating_point T, typename Stream>
+[[nodiscard]] PassageT<T> pass_thin_surfaces(const S& scene, RayT<T>& ray,
+                                             std::optional<SceneHitT<T>>& hit,
+                                             Stream& stream) {
+    PassageT<T> passage;
+    for (int surfaces = 0; hit && surfaces < max_thin_surfaces; ++surfaces) {
+        const VertexT<T> vertex = vertex_at(scene, ray, *hit);
+        const auto passed = passed_through(scene, vertex);
+        if (!passed) return passage;
+        const T stop = T(1) - (passed->x + passed->y + passed->z) / T(3);
+        if (next_1d<T>(stream) < stop) {
+            passage.stop_probability = stop;
+            return passage;
+        }
+        passage.through *= *passed / (T(1) - stop);
+        passage.distance += hit->at.t;
+        ray = spawn_ray(vertex.point, ray.direction, ray.time);
+        hit = closest_hit(scene, ray);
+    }
+    hit.reset();
+    return passage;
+}
+// [pass_thin_surfaces]
+
 /// Sends a path to its next vertex. Media and thin surfaces on the way take their part
-/// of the throughput. At a thin surface chance decides, with the mean of R over the
-/// channels, whether the path stops there, to be reflected, or passes.
+/// of the throughput.
 ///
 /// A path that begins within a material, as that of a lamp in glass, is in the medium
 /// of the first surface that it meets from behind.
@@ -154,32 +193,21 @@ template <SceneLike S, std::floating_point T, typename Stream>
 [[nodiscard]] std::optional<VertexT<T>> next_vertex(const S& scene, PathStateT<T>& path,
                                                     Stream& stream) {
     start_bounce(stream, path.branch + static_cast<std::uint64_t>(++path.depth));
-    std::optional<VertexT<T>> vertex;
-    RgbT<T> through{T(1)};
-    T distance = T(0);
-    for (int surfaces = 0;; ++surfaces) {
-        if (surfaces == max_thin_surfaces) return std::nullopt;
-        const auto hit = closest_hit(scene, path.ray);
-        if (!hit) return std::nullopt;
-        vertex = vertex_at(scene, path.ray, *hit);
-        distance += hit->at.t;
-        if (!lists_thin_surfaces<S> || !has_thin_surfaces(scene)) break;
-        const auto passed = passed_through(scene, *vertex);
-        if (!passed) break;
+    auto hit = closest_hit(scene, path.ray);
+    PassageT<T> passage;
+    if (lists_thin_surfaces<S> && has_thin_surfaces(scene))
+        passage = pass_thin_surfaces(scene, path.ray, hit, stream);
+    if (!hit) return std::nullopt;
 
-        const T stop = T(1) - (passed->x + passed->y + passed->z) / T(3);
-        vertex->stop_probability = stop;
-        if (next_1d<T>(stream) < stop) break;
-        through *= *passed / (T(1) - stop);
-        path.ray = spawn_ray(vertex->point, path.ray.direction, path.ray.time);
-    }
+    std::optional<VertexT<T>> vertex(vertex_at(scene, path.ray, *hit));
     const bool from_behind = glm::dot(vertex->frame.normal, path.ray.direction) > T(0);
     if (path.depth == 1 && from_behind)
         path.medium = scene.visit_material(vertex->object.material,
                                            [](const auto& m) { return absorption(m); });
-    vertex->distance = distance;
     vertex->medium = path.medium;
-    path.throughput *= transmittance(path.medium, distance) * through;
+    vertex->distance += passage.distance;
+    vertex->stop_probability = passage.stop_probability;
+    path.throughput *= transmittance(path.medium, vertex->distance) * passage.through;
     return vertex;
 }
 // [next_vertex]

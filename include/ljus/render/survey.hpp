@@ -172,7 +172,7 @@ template <SceneLike S>
              shadows ? "the general map keeps them" : "no map keeps them");
     const bool films = has_thin_surfaces(scene);
     plan.thin_film = item("thin film", films,
-                          films ? "rays go pass_through on through the listed films"
+                          films ? "rays go straight on through the listed films"
                                 : "no material is one");
     const bool few = found.objects <= flat_loop_limit;
     plan.flat_loop = item("flat loop", few,

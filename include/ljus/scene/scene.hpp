@@ -105,7 +105,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
             };
         });
         require(!thin || is_black(radiance), "the radiance of a thin surface", radiance,
-                "black: light goes pass_through on through it");
+                "black: light goes straight on through it");
 
         auto& array = std::get<std::vector<G>>(shapes);
         const ObjectId id{type_of<G, FirstShape, S...>(),

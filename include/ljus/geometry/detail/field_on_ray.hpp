@@ -34,7 +34,7 @@ struct IntervalT {
 template <typename L, typename T>
 concept FieldOnRay = requires(const L& line, T t) {
     { line.enter } -> std::convertible_to<T>;
-    { line.offset_ray_origin } -> std::convertible_to<T>;
+    { line.leave } -> std::convertible_to<T>;
     { line.value(t) } -> std::same_as<T>;
     { line.steepest() } -> std::same_as<T>;
     { line.range(t, t) } -> std::same_as<IntervalT<T>>;
@@ -72,7 +72,7 @@ template <std::floating_point T, FieldOnRay<T> Line>
 [[nodiscard]] std::optional<T> first_meeting(const SphereTracing& solver,
                                              const Line& line, T t_min, T t_max) {
     T t = glm::max(t_min, T(line.enter));
-    const T end = glm::min(t_max, T(line.offset_ray_origin));
+    const T end = glm::min(t_max, T(line.leave));
     const T steepest = line.steepest();
     const T side = std::copysign(T(1), line.value(t));
     for (int step = 0; step < solver.max_steps && t <= end; ++step) {
@@ -123,7 +123,7 @@ template <std::floating_point T, FieldOnRay<T> Line>
     std::array<Part, std::numeric_limits<T>::digits + 64> parts;
     std::size_t count = 0;
     const T start = glm::max(t_min, T(line.enter)),
-            end = glm::min(t_max, T(line.offset_ray_origin));
+            end = glm::min(t_max, T(line.leave));
     const T side = std::copysign(T(1), line.value(start));
     if (start <= end) parts[count++] = {start, end};
 

@@ -42,7 +42,7 @@ inline constexpr T steepest_blob = T(8) / (T(3) * std::numbers::sqrt3_v<T>);
 template <std::floating_point C>
 struct StrandT {
     C enter = C(0);             ///< Where s becomes positive.
-    C offset_ray_origin = C(0); ///< Where it ends to be.
+    C leave = C(0); ///< Where it ends to be.
     C middle = C(0);            ///< m, where the ray is nearest to the centre.
     C height = C(0);            ///< h = 1 - p^2/R^2 there.
     C bend = C(0);              ///< k = D.D / R^2.
@@ -107,7 +107,7 @@ struct MetaballLineT {
     std::span<const StrandT<C>> strands{}; ///< The blobs that the ray meets.
     C level = C(0);                        ///< L.
     C enter = C(0);                        ///< Where the first of them begins.
-    C offset_ray_origin = C(-1);           ///< Where the last of them ends.
+    C leave = C(-1);           ///< Where the last of them ends.
 
     /// f(O + tD).
     [[nodiscard]] C value(C t) const noexcept {
@@ -172,14 +172,14 @@ private:
 /// The field along a ray from its strands, which it refers to.
 /// \param strands  The strands.
 /// \param level    L.
-/// \return The line; without a strand its `offset_ray_origin` lies before its `enter`.
+/// \return The line; without a strand its `leave` lies before its `enter`.
 template <std::floating_point C>
 [[nodiscard]] MetaballLineT<C> line_of(const StrandsT<C>& strands, C level) noexcept {
     constexpr C far = std::numeric_limits<C>::infinity();
     MetaballLineT<C> line{strands.all(), level, far, -far};
     for (const auto& b : line.strands) {
         line.enter = glm::min(line.enter, b.enter);
-        line.offset_ray_origin = glm::max(line.offset_ray_origin, b.offset_ray_origin);
+        line.leave = glm::max(line.leave, b.leave);
     }
     return line;
 }

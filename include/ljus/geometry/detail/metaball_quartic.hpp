@@ -41,7 +41,7 @@ template <std::floating_point C>
     BernsteinT<C, 4> p;
     p.c.fill(-line.level);
     for (const auto& strand : line.strands) {
-        if (!(strand.enter <= a && b <= strand.offset_ray_origin)) continue;
+        if (!(strand.enter <= a && b <= strand.leave)) continue;
         const C ta = a - strand.middle, tb = b - strand.middle;
         const C s0 = strand.height - strand.bend * ta * ta;
         const C s1 = strand.height - strand.bend * ta * tb;
@@ -94,15 +94,15 @@ requires(std::same_as<Solver, QuarticPieces> || std::same_as<Solver, Radicals>)
                                                  const MetaballLineT<C>& line, C t_min,
                                                  C t_max) noexcept {
     C a = glm::max(t_min, line.enter);
-    const C end = glm::min(t_max, line.offset_ray_origin);
+    const C end = glm::min(t_max, line.leave);
     if (!(a < end)) return std::nullopt;
     const bool inside = line.value(a) >= C(0);
     while (a < end) {
         C b = end; // the next border
         for (const auto& strand : line.strands) {
             if (a < strand.enter && strand.enter < b) b = strand.enter;
-            if (a < strand.offset_ray_origin && strand.offset_ray_origin < b)
-                b = strand.offset_ray_origin;
+            if (a < strand.leave && strand.leave < b)
+                b = strand.leave;
             if constexpr (std::same_as<Solver,
                                        QuarticPieces>) // at most one change each
                 if (a < strand.middle && strand.middle < b) b = strand.middle;
