@@ -36,6 +36,6 @@ ljus_break_it(NAME thin_surfaces-photon HEADER photons/photon_path.hpp TEST soap
 
 # Reflected as if the film were equally thick everywhere: the bubble shows in a furnace.
 ljus_break_it(NAME thin_surfaces-place HEADER path/scatter.hpp TEST soap_film
-    FROM "material_at(material, surface.point.position)"
+    FROM "material_at(material, surface.point.position, surface.uv)"
     TO   "material"
     CASES "thin sheets: a bubble in a furnace*")

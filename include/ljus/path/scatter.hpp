@@ -79,7 +79,7 @@ template <std::floating_point T, typename Material>
 [[nodiscard]] std::optional<ScatteredT<T>>
 scatter(const SurfaceT<T>& surface, const Material& material, const Vec3T<T>& wo,
         const Vec3T<T>& u, Transport transport, Lobes which = Lobes::all) noexcept {
-    const auto& here = material_at(material, surface.point.position);
+    const auto& here = material_at(material, surface.point.position, surface.uv);
     const auto next = sample(here, wo, u, transport, which);
     if (!next) return std::nullopt;
     ScatteredT<T> scattered{*next, to_world(surface.frame, next->wi)};

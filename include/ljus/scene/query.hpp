@@ -6,6 +6,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "ljus/geometry/texture_coordinates.hpp"
 #include "ljus/scene/scene.hpp"
 
 namespace ljus {
@@ -103,6 +104,7 @@ struct SurfaceT {
     SurfacePointT<T> point{}; ///< Position, error bound, normal of the outer side.
     FrameT<T> frame{};        ///< Materials work in it: around the shading normal.
     ObjectT<T> object{};      ///< What it is made of, and whether it shines.
+    Vec2T<T> uv{T(0)};        ///< Of texture_coordinates(), if the material uses it.
     bool smooth = false;      ///< Whether frame.normal differs from point.normal.
     bool turned = false;      ///< Whether the ray came from different sides of the two.
 };
@@ -121,9 +123,14 @@ template <typename Scene, std::floating_point T>
 [[nodiscard]] SurfaceT<T> surface_at(const Scene& scene, const RayT<T>& ray,
                                      const SceneHitT<T>& hit) {
     SurfaceT<T> surface{.object = scene.object(hit.object)};
+    const bool uses_uv =
+        scene.visit_material(surface.object.material, [](const auto& m) {
+            return UsesUv<std::remove_cvref_t<decltype(m)>>;
+        });
     Vec3T<T>& geometric = surface.point.normal;
     Vec3T<T> normal = scene.visit_shape(hit.object, [&](const auto& shape) {
         surface.point = surface_point(shape, ray, hit.at);
+        if (uses_uv) surface.uv = texture_coordinates(shape, hit.at, surface.point);
         if constexpr (requires { shading_normal(shape, hit.at, geometric); })
             return shading_normal(shape, hit.at, geometric);
         else
@@ -155,10 +162,10 @@ template <typename Scene, std::floating_point T, typename F>
 decltype(auto) visit_material_of(const Scene& scene, const SurfaceT<T>& surface,
                                  F&& f) {
     return scene.visit_material(surface.object.material, [&](const auto& m) {
-        using Here = decltype(material_at(m, surface.point.position));
+        using Here = decltype(material_at(m, surface.point.position, surface.uv));
         // A soap film's point is no material: scatter() asks for it.
         if constexpr (Material<std::remove_cvref_t<Here>>)
-            return f(material_at(m, surface.point.position));
+            return f(material_at(m, surface.point.position, surface.uv));
         else
             return f(m);
     });
