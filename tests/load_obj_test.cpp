@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <cstdio>
+#include <ctime>
 #include <fstream>
 
 #include "ljus/io/load_json.hpp"
@@ -157,6 +158,33 @@ TEST_CASE("load_obj: polygons are cut along their own shape") {
     CHECK(area(disc.parts[0].mesh) == doctest::Approx(std::numbers::pi).epsilon(1e-4));
     CHECK(message(circle + face + " 1").find("more than 1000 corners") !=
           std::string::npos);
+}
+
+TEST_CASE("load_obj: many corners, in and out, are cut in no time") {
+    // Stars: every second corner is hollow. A second or two in n^2, not in n^3.
+    constexpr int count = 1000;
+    std::string text;
+    std::vector<double> x, y;
+    for (int i = 0; i < count; ++i) {
+        const double a = 2 * std::numbers::pi * i / count, r = i % 2 == 0 ? 1 : 0.3;
+        x.push_back(double(float(r * std::cos(a))));
+        y.push_back(double(float(r * std::sin(a))));
+        append(text, "v ", Vec3(float(x.back()), float(y.back()), 0));
+    }
+    double right = 0;
+    for (std::size_t i = 0, k = 1; i < count; ++i, k = (i + 1) % count)
+        right += (x[i] * y[k] - x[k] * y[i]) / 2;
+    std::string face = "f";
+    for (int i = 1; i <= count; ++i) face.append(" ").append(std::to_string(i));
+    constexpr int faces = 150;
+    for (int i = 0; i < faces; ++i) text.append(face).append("\n");
+    const std::clock_t before = std::clock();
+    const auto loaded = read_obj(text, "stars.obj");
+    const double seconds = double(std::clock() - before) / CLOCKS_PER_SEC;
+    const Mesh& mesh = loaded.parts[0].mesh;
+    CHECK(mesh.size() == faces * (count - 2));
+    CHECK(double(area(mesh)) == doctest::Approx(faces * right).epsilon(1e-5));
+    CHECK_MESSAGE(seconds < 15, seconds);
 }
 
 TEST_CASE("load_obj: each trouble is counted, with its first line") {

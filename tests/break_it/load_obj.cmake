@@ -24,6 +24,12 @@ ljus_break_it(NAME load-obj-line HEADER io/detail/obj_text.hpp TEST load_obj
 
 # A fan instead of ears.
 ljus_break_it(NAME polygon-fan HEADER io/detail/polygon.hpp TEST load_obj
-    FROM "if (!free) continue;"
+    FROM "if (ears[i % n] == 0) continue;"
     TO   ""
     CASES "load_obj: polygons*")
+
+# The neighbours of an ear that is cut off are not asked again.
+ljus_break_it(NAME polygon-neighbours HEADER io/detail/polygon.hpp TEST load_obj
+    FROM "ears[beside] = is_ear(beside) ? 1 : 0;"
+    TO   "ears[beside] = 1;"
+    CASES "load_obj: polygons*,load_obj: many corners*")

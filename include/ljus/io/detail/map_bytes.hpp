@@ -18,6 +18,13 @@ namespace ljus::detail {
 inline constexpr std::size_t map_magic_size = 16;
 inline constexpr std::size_t map_header = 40;
 
+// The most bytes of a file with so many entries; whoever sets no limit has none.
+inline std::size_t map_limit(std::size_t most, std::size_t bytes_of_one) noexcept {
+    const std::size_t all = static_cast<std::size_t>(-1);
+    return most < (all - map_header) / bytes_of_one ? map_header + most * bytes_of_one
+                                                    : all;
+}
+
 // Appends a number, its lowest byte first.
 template <typename Number>
 void put_number(Bytes& bytes, Number value) {

@@ -141,7 +141,7 @@ struct ObjReader {
             own.push_back(of_normal ? static_cast<long long>(*of_normal) : -1);
             points.push_back(exact[*place]);
         }
-        const auto triangles = cut_polygon(points);
+        const auto triangles = detail::cut_polygon(points);
         bool empty = triangles.empty();
         for (const auto& corner : triangles)
             empty = !add(places, own, corner, has_normals) || empty;
