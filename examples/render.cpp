@@ -106,7 +106,7 @@ std::pair<int, int> pixel_of(const std::string& text, const RenderSettings& pict
     if (!comma || second.ec != std::errc{} || second.ptr != end || x < 0 || y < 0 ||
         x >= picture.width || y >= picture.height)
         throw std::invalid_argument(
-            std::string("--explain is ").append(shown(text)) +
+            std::string("--explain is ").append(text) +
             "; it must be X,Y, from the upper left corner, within [0, " +
             std::to_string(picture.width - 1) + "],[0, " +
             std::to_string(picture.height - 1) + "]");
@@ -303,7 +303,7 @@ void body(examples::CommandLine& line) {
     else if (!request.plan)
         examples::require_writable(path);
 
-    const std::string name = loaded.name.empty() ? stem : shown(loaded.name);
+    const std::string name = loaded.name.empty() ? stem : loaded.name;
     if (!options.quiet || request.plan)
         std::printf("%s: %zu objects, %zu lights; %d x %d, %d rays a pixel, %s\n",
                     name.c_str(), loaded.scene.size(), loaded.scene.lights.size(),
