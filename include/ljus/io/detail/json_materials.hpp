@@ -134,7 +134,7 @@ SoapFilmT<T> read_film(const MaterialFields<T>& in) {
     return film;
 }
 
-// A material that a file can name, its fields besides `type`, and what makes it of them.
+// A material that a file can name, its fields besides `type`, and what reads them.
 template <std::size_t N, typename Read>
 struct MaterialRow {
     const char* name;

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/detail/map_bytes.hpp
-/// \brief Numbers in a file of a map, the same on every machine; for photon_map_file.hpp and
+/// \brief Numbers in a file of a map, the same on every machine.
 /// light_map_file.hpp.
 
 #include <algorithm>
