@@ -2,7 +2,6 @@
 
 /// \file ljus/io/detail/map_bytes.hpp
 /// \brief Numbers in a file of a map, the same on every machine.
-/// light_map_file.hpp.
 
 #include <algorithm>
 #include <bit>
