@@ -359,6 +359,21 @@ TEST_CASE("load_obj: texture coordinates and the picture of a material") {
     CHECK(at(3, 1.5f) == Rgb{0, 1, 0});
     CHECK(at(1, 0.5f) == Rgb{0, 0, 1});
     CHECK(at(3, 0.5f) == Rgb{1, 1, 1});
+    // A scene file may paint the mesh with a picture of its own.
+    const auto json = read_json_scene(
+        R"({"camera": {"position": [0, 0, 4], "look_at": [0, 0, 0], "up": [0, 1, 0],
+            "vfov_deg": 40}, "image": {"width": 8, "height": 8},
+            "materials": {"m": {"type": "picture", "file": "four.png", "map": "uv"}},
+            "objects": [{"type": "mesh", "file": "wall.obj", "material": "m"}],
+            "lights": [{"type": "sun", "direction": [0, 0, -1],
+                        "irradiance": [1, 1, 1]}]})",
+        folder.file("s.json"), ObjMeshes{});
+    const Ray green{.origin{3, 1.5f, 3}, .direction{0, 0, -1}};
+    const auto surface = surface_at(json.scene, green, *closest_hit(json.scene, green));
+    const Vec3 up{0, 0, 1};
+    visit_material_of(json.scene, surface, [&](const auto& m) {
+        CHECK(evaluate(m, up, up) == Rgb{0, std::numbers::inv_pi_v<float>, 0});
+    });
     // A scene that does not list pictures is painted in Kd, as before.
     Scene<Shapes<Mesh>, Materials<Lambertian>> plain;
     add_obj(plain, loaded);

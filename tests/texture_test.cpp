@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -258,6 +259,17 @@ TEST_CASE("texture: what is saved as PNG is loaded again; what is not is named")
     CHECK(said([&] {
               (void)decode_image(bytes, "half.png");
           }).find("half.png is damaged: ") == 0);
+    // Sizes that nobody can mean: of a bitmap, 0 x 0 and 2^30 x 2^30.
+    for (const int high : {0x00, 0x40}) {
+        Bytes bitmap(54 + 4);
+        const Bytes head{'B', 'M', 58, 0, 0, 0, 0, 0, 0, 0, 54, 0, 0, 0, 40};
+        std::copy(head.begin(), head.end(), bitmap.begin());
+        bitmap[21] = bitmap[25] = static_cast<unsigned char>(high);
+        bitmap[26] = 1;
+        bitmap[28] = 24;
+        CHECK(said([&] { (void)decode_image(bitmap, "b\n.bmp"); }).find("b?.bmp ") ==
+              0);
+    }
     CHECK(said([&] {
               (void)decode_image({}, "empty.png");
           }).find("empty.png is no picture that can be read: ") == 0);

@@ -76,6 +76,8 @@ template <std::floating_point T = float>
         throw std::runtime_error(
             detail::shown_path(path).append(" is no picture that can be read: ") +
             stbi_failure_reason() + ".");
+    if (width < 1 || height < 1)
+        throw std::runtime_error(detail::shown_path(path).append(" has no pixels."));
     if (width > max_pixels / height)
         throw std::runtime_error(detail::shown_path(path).append(" has more than ") +
                                  std::to_string(max_pixels) + " pixels.");
