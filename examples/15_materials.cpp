@@ -391,11 +391,11 @@ void tabulate_trade(const examples::Options& options) {
     const auto add = [&](const char* name, const auto& material) {
         const double evaluating =
             nanoseconds([&](const Vec3& wo, const Vec3& wi, Vec3) {
-                return evaluate(material_at(material, wi), wo, wi).x;
+                return evaluate(material_at(material, wi, ljus::Vec2{0}), wo, wi).x;
             });
         const double sampling = nanoseconds([&](const Vec3& wo, Vec3, const Vec3& u) {
-            const auto s =
-                sample(material_at(material, wo), wo, u, ljus::Transport::radiance);
+            const auto s = sample(material_at(material, wo, ljus::Vec2{0}), wo, u,
+                                  ljus::Transport::radiance);
             return s ? s->wi.x : 0.0f;
         });
         const auto timed = [&](std::uint64_t seed, double& seconds) {

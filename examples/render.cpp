@@ -6,6 +6,7 @@
 ///     render scene.json --plan                 what would run, and why
 ///     render scene.json --explain 120,80       why a pixel has its colour
 ///     render scene.json --photons shadow       the photons of a kind, as dots
+///     render scene.json --precision double     the whole scene in double
 
 #include <charconv>
 #include <cinttypes>
@@ -52,6 +53,8 @@ struct Request {
     std::string renderer = "photon";
     std::string indirect = "rays";
     std::string kernel = "epanechnikov";
+    std::string sampling = "multi-jittered";
+    std::string precision = "float";
     std::string pixel;
     std::string photons;
     int depth = 1000;
@@ -63,11 +66,24 @@ struct Request {
     double radius = 0.1;
     double general_radius = 0.3;
     double exposure = 0.0;
+    bool split_glass = false;
     bool plan = false;
 };
 
-constexpr const char* kernels[] = {"box", "cone", "gaussian", "epanechnikov",
-                                   "biweight"};
+// The names of what is chosen by a word, in the order of its enum.
+const std::vector<std::string> kernels{"box", "cone", "gaussian", "epanechnikov",
+                                       "biweight"};
+const std::vector<std::string> indirect_lights{"rays", "map", "photons", "none"};
+const std::vector<std::string> patterns{"random", "jittered", "multi-jittered",
+                                        "sobol"};
+
+/// The enumerator that a word names.
+template <typename Enum>
+Enum chosen(const std::vector<std::string>& words, const std::string& word) {
+    std::size_t i = 0;
+    while (i + 1 < words.size() && words[i] != word) ++i;
+    return static_cast<Enum>(i);
+}
 
 PhotonMappingSettings settings_of(const Request& request,
                                   const examples::Options& options) {
@@ -75,9 +91,8 @@ PhotonMappingSettings settings_of(const Request& request,
     settings.max_depth = request.depth;
     settings.roulette_depth = request.roulette;
     settings.shadow_rays = request.shadow_rays;
-    settings.indirect = request.indirect == "rays"  ? IndirectLight::rays
-                        : request.indirect == "map" ? IndirectLight::map
-                                                    : IndirectLight::none;
+    settings.split_glass = request.split_glass;
+    settings.indirect = chosen<IndirectLight>(indirect_lights, request.indirect);
     settings.caustics.photons = request.caustic_photons;
     settings.general.photons = request.general_photons;
     for (PhotonPassSettings* pass : {&settings.caustics, &settings.general}) {
@@ -89,8 +104,7 @@ PhotonMappingSettings settings_of(const Request& request,
     for (DensityEstimateSettings* gather :
          {&settings.caustics_estimate, &settings.general_estimate}) {
         gather->nearest = static_cast<std::size_t>(request.nearest);
-        for (std::uint8_t i = 0; i < std::size(kernels); ++i)
-            if (request.kernel == kernels[i]) gather->kernel = static_cast<Kernel>(i);
+        gather->kernel = chosen<Kernel>(kernels, request.kernel);
     }
     return settings;
 }
@@ -107,7 +121,7 @@ std::pair<int, int> pixel_of(const std::string& text, const RenderSettings& pict
     if (!comma || second.ec != std::errc{} || second.ptr != end || x < 0 || y < 0 ||
         x >= picture.width || y >= picture.height)
         throw std::invalid_argument(
-            std::string("--explain is ").append(shown(text)) +
+            std::string("--explain is ").append(text) +
             "; it must be X,Y, from the upper left corner, within [0, " +
             std::to_string(picture.width - 1) + "],[0, " +
             std::to_string(picture.height - 1) + "]");
@@ -136,9 +150,9 @@ void print(const Counts& counts, double seconds) {
 
 /// Renders, or explains one pixel.
 /// \return What was rendered; no image if a pixel was explained.
-template <typename Renderer>
-RenderedT<float> run(const Renderer& renderer, const Camera& camera,
-                     RenderSettings picture, const Request& request, bool quiet) {
+template <typename Renderer, std::floating_point T>
+RenderedT<T> run(const Renderer& renderer, const CameraT<T>& camera,
+                 RenderSettings picture, const Request& request, bool quiet) {
     const Stoppable<Renderer> stoppable{renderer};
     if (!request.pixel.empty()) {
         const auto [x, y] = pixel_of(request.pixel, picture);
@@ -155,9 +169,9 @@ RenderedT<float> run(const Renderer& renderer, const Camera& camera,
 }
 
 /// One pass of photons, with the time that it takes.
-PhotonMapsT<float> photon_pass(const LoadedScene& loaded,
-                               PhotonMappingSettings settings, bool caustics,
-                               bool quiet) {
+template <std::floating_point T>
+PhotonMapsT<T> photon_pass(const LoadedSceneT<T>& loaded,
+                           PhotonMappingSettings settings, bool caustics, bool quiet) {
     (caustics ? settings.general : settings.caustics).photons = 0;
     const Plan plan = survey(loaded.scene, settings);
     if (!(caustics ? plan.caustics_map.on : plan.general_map.on)) return {};
@@ -182,9 +196,9 @@ PhotonMapsT<float> photon_pass(const LoadedScene& loaded,
     return maps;
 }
 
-RenderedT<float> render_scene(const LoadedScene& loaded, const RenderSettings& picture,
-                              const Request& request,
-                              const examples::Options& options) {
+template <std::floating_point T>
+RenderedT<T> render_scene(const LoadedSceneT<T>& loaded, const RenderSettings& picture,
+                          const Request& request, const examples::Options& options) {
     if (request.renderer == "path") {
         const auto tracer =
             make_path_tracer(loaded.scene, {.max_depth = request.depth,
@@ -203,10 +217,12 @@ constexpr PhotonKind kinds[] = {PhotonKind::direct, PhotonKind::indirect,
                                 PhotonKind::shadow, PhotonKind::caustic};
 
 /// A drawing of the scene, and on it the photons of one kind, or of all.
-Image draw_photons(const LoadedScene& loaded, const RenderSettings& picture,
-                   const Request& request, const examples::Options& options) {
+template <std::floating_point T>
+ImageT<T> draw_photons(const LoadedSceneT<T>& loaded, const RenderSettings& picture,
+                       const Request& request, const examples::Options& options) {
     const auto scene = index_scene(loaded.scene);
-    Image image = scene_drawing(scene, loaded.camera, picture.width, picture.height);
+    ImageT<T> image =
+        scene_drawing(scene, loaded.camera, picture.width, picture.height);
     const PhotonMappingSettings settings = settings_of(request, options);
     for (const MapType law : {MapType::general, MapType::caustics}) {
         const bool caustics = law == MapType::caustics;
@@ -222,8 +238,8 @@ Image draw_photons(const LoadedScene& loaded, const RenderSettings& picture,
         for (const PhotonKind kind : kinds) {
             if (request.photons != "all" && request.photons != name_of(kind)) continue;
             if ((kind == PhotonKind::caustic) != caustics) continue;
-            const auto color = [kind](const Photon& photon) {
-                return photon.kind == kind ? dot_color(photon) : Rgb{0};
+            const auto color = [kind](const PhotonT<T>& photon) {
+                return photon.kind == kind ? dot_color(photon) : RgbT<T>{0};
             };
             const long long seen =
                 add_photon_dots(image, scene, loaded.camera, traced.photons, {}, color);
@@ -240,7 +256,8 @@ Image draw_photons(const LoadedScene& loaded, const RenderSettings& picture,
     return image;
 }
 
-void save(const Image& image, const std::string& path, double exposure) {
+template <std::floating_point T>
+void save(const ImageT<T>& image, const std::string& path, double exposure) {
     const std::string kind = std::filesystem::path(path).extension().string();
     if (kind == ".pfm")
         save_pfm(image, path);
@@ -250,51 +267,24 @@ void save(const Image& image, const std::string& path, double exposure) {
         save_png(image, path, {.exposure = exposure});
 }
 
-void body(examples::CommandLine& line) {
-    Request request;
-    line.about("Renders a scene file into one picture: --out NAME.png, NAME.hdr or "
-               "NAME.pfm, or a folder for SCENE.png.");
-    line.add_positional("SCENE.json", request.scene, "The scene file");
-    line.file_types({".png", ".hdr", ".pfm"});
-    line.add("--renderer", request.renderer, "photon or path", {"photon", "path"});
-    line.add("--depth", request.depth, "Surfaces on a path, mirrors counted", 1, 1000);
-    line.add("--roulette", request.roulette, "Surface from which roulette ends paths",
-             1, 1'000'000);
-    line.add("--shadow-rays", request.shadow_rays, "To each light (photon)", 1, 10'000);
-    line.add("--caustic-photons", request.caustic_photons, "Aimed at mirrors and glass",
-             0, 1'000'000'000);
-    line.add("--general-photons", request.general_photons, "For --indirect map", 0,
-             1'000'000'000);
-    line.add("--radius", request.radius, "Of a caustics estimate, scene units", 1e-6,
-             1e6);
-    line.add("--general-radius", request.general_radius,
-             "Of a general estimate, scene units", 1e-6, 1e6);
-    line.add("--nearest", request.nearest, "Photons of an estimate, 0: all in radius",
-             0, static_cast<int>(max_nearest));
-    line.add("--kernel", request.kernel, "Weight of a photon by its distance",
-             {std::begin(kernels), std::end(kernels)});
-    line.add("--indirect", request.indirect, "rays, map or none",
-             {"rays", "map", "none"});
-    line.add("--exposure", request.exposure, "Of a PNG file, in stops", -100, 100);
-    line.add("--explain", request.pixel, "X,Y: print that pixel's paths, no picture");
-    line.add("--photons", request.photons, "No rendering: photons as dots",
-             {"direct", "indirect", "shadow", "caustic", "all"});
-    line.add("--plan", request.plan, "Print what would run and why, no picture");
-    const examples::Options options = line.parse();
-
+/// Does what the user asked for, in one precision.
+template <std::floating_point T>
+void run_request(const examples::CommandLine& line, const Request& request,
+                 const examples::Options& options) {
 #ifdef LJUS_HAS_TINYOBJLOADER
     std::string troubles;
-    const LoadedScene loaded = load_json(request.scene, ObjMeshes{&troubles});
+    const auto loaded = load_json<T>(request.scene, ObjMeshesT<T>{&troubles});
     if (!options.quiet) std::fputs(troubles.c_str(), stderr);
 #else
-    const LoadedScene loaded = load_json(request.scene);
+    const auto loaded = load_json<T>(request.scene);
 #endif
     const RenderSettings picture{
         .width = line.given("--width") ? options.width : loaded.width,
         .height = line.given("--height") ? options.height : loaded.height,
         .samples = options.samples,
         .seed = options.seed,
-        .threads = options.threads};
+        .threads = options.threads,
+        .sampling = chosen<Sampling>(patterns, request.sampling)};
     require_image_size(picture.width, picture.height);
     const std::string stem = std::filesystem::path(request.scene).stem().string();
     const std::string path =
@@ -304,7 +294,7 @@ void body(examples::CommandLine& line) {
     else if (!request.plan)
         examples::require_writable(path);
 
-    const std::string name = loaded.name.empty() ? stem : shown(loaded.name);
+    const std::string name = loaded.name.empty() ? stem : loaded.name;
     if (!options.quiet || request.plan)
         std::printf("%s: %zu objects, %zu lights; %d x %d, %d rays a pixel, %s\n",
                     name.c_str(), loaded.scene.size(), loaded.scene.lights.size(),
@@ -326,13 +316,54 @@ void body(examples::CommandLine& line) {
         return;
     }
     const examples::StopWatch watch;
-    const RenderedT<float> rendered = render_scene(loaded, picture, request, options);
+    const RenderedT<T> rendered = render_scene(loaded, picture, request, options);
     if (rendered.image.pixels.empty()) return;
     const double seconds = watch.seconds();
     save(rendered.image, path, request.exposure);
     if (options.quiet) return;
     std::printf("  %-16s %8.2f s\n", "all passes", seconds);
     std::printf("  %s\n", path.c_str());
+}
+
+void body(examples::CommandLine& line) {
+    Request request;
+    line.about("Renders a scene file into one picture: --out NAME.png, NAME.hdr or "
+               "NAME.pfm, or a folder for SCENE.png.");
+    line.add_positional("SCENE.json", request.scene, "The scene file");
+    line.file_types({".png", ".hdr", ".pfm"});
+    line.add("--renderer", request.renderer, "photon or path", {"photon", "path"});
+    line.add("--depth", request.depth, "Surfaces on a path, mirrors counted", 1, 1000);
+    line.add("--roulette", request.roulette, "Surface from which roulette ends paths",
+             1, 1'000'000);
+    line.add("--shadow-rays", request.shadow_rays, "To each light (photon)", 1, 10'000);
+    line.add("--caustic-photons", request.caustic_photons, "Aimed at mirrors and glass",
+             0, 1'000'000'000);
+    line.add("--general-photons", request.general_photons,
+             "For --indirect map and photons", 0, 1'000'000'000);
+    line.add("--radius", request.radius, "Of a caustics estimate, scene units", 1e-6,
+             1e6);
+    line.add("--general-radius", request.general_radius,
+             "Of a general estimate, scene units", 1e-6, 1e6);
+    line.add("--nearest", request.nearest, "Photons of an estimate, 0: all in radius",
+             0, static_cast<int>(max_nearest));
+    line.add("--kernel", request.kernel, "Weight of a photon by its distance", kernels);
+    line.add("--indirect", request.indirect,
+             "rays, map at their ends, photons where the camera looks, or none",
+             indirect_lights);
+    line.add("--split-glass", request.split_glass, "At glass, go both ways (photon)");
+    line.add("--sampling", request.sampling, "Where in a pixel its rays go", patterns);
+    line.add("--precision", request.precision, "Of scene, photons and light",
+             {"float", "double"});
+    line.add("--exposure", request.exposure, "Of a PNG file, in stops", -100, 100);
+    line.add("--explain", request.pixel, "X,Y: print that pixel's paths, no picture");
+    line.add("--photons", request.photons, "No rendering: photons as dots",
+             {"direct", "indirect", "shadow", "caustic", "all"});
+    line.add("--plan", request.plan, "Print what would run and why, no picture");
+    const examples::Options options = line.parse();
+    if (request.precision == "double")
+        run_request<double>(line, request, options);
+    else
+        run_request<float>(line, request, options);
 }
 
 } // namespace

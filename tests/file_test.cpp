@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -136,6 +137,14 @@ TEST_CASE("file: a failure to read names the path and the reason") {
     const std::string path = folder.file("a");
     ScratchFolder::write(path, "0123456789");
     CHECK(ljus::load_file(path, 10).size() == 10);
+    CHECK(ljus::load_file(path, std::numeric_limits<std::size_t>::max()).size() == 10);
+    CHECK_THROWS_WITH(
+        (void)ljus::load_file(path, 0),
+        ("cannot read '" + path + "': it is longer than the 0 bytes that are allowed.")
+            .c_str());
+    // A path that another file has named cannot disturb a message.
+    CHECK_THROWS_WITH((void)ljus::load_file("/missing/\x1b[31m\n", 10),
+                      "cannot read '/missing/?[31m?': No such file or directory.");
     CHECK_THROWS_WITH(
         (void)ljus::load_file(path, 9),
         ("cannot read '" + path + "': it is longer than the 9 bytes that are allowed.")

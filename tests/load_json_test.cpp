@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "ljus/io/load_json.hpp"
+#include "ljus/io/png.hpp"
 #include "ljus/scene/query.hpp"
 #include "scratch_folder.hpp"
 
@@ -70,6 +71,9 @@ std::string refusal(const std::string& text) {
 std::string refusal(const std::string& from, const std::string& to) {
     return refusal(changed(from, to));
 }
+
+using Board = Textured<Lambertian, CheckerT<float, detail::FileMapT<float>>>;
+using Wallpaper = Textured<Lambertian, PictureTextureT<float, detail::FileMapT<float>>>;
 
 } // namespace
 
@@ -138,6 +142,10 @@ TEST_CASE("load_json: what may be missing may be missing") {
     CHECK(refusal(", \"pixel_filter\": \"box, exactly one pixel wide\"", "") ==
           "accepted");
     CHECK(refusal(" \"name\": \"ball\",", "") == "accepted");
+    CHECK(refusal("\"name\": \"ball\"", "\"name\": null") == "accepted");
+    const LoadedScene unnamed =
+        read_json_scene(changed("\"four things\"", "null"), "a.json");
+    CHECK(unnamed.name.empty());
 }
 
 TEST_CASE(
@@ -246,10 +254,9 @@ TEST_CASE("load_json: metal, rough matt, gloss and checkers") {
     CHECK(gloss.roughness == 0.25f);
     const auto board = first(R"({"type": "checker", "even": [1, 1, 1], "odd": [0, 0, 0],
         "origin": [1, 2, 3], "edge_u": [2, 0, 0], "edge_v": [0, 0, 4]})",
-                             Textured<Lambertian, Checker>{});
-    CHECK(board.texture.map.edge_v == Vec3{0, 0, 4});
-    CHECK(material_at(board, Vec3{1.5f, 0, 3.5f}).albedo == Rgb{1});
-    CHECK(material_at(board, Vec3{2.5f, 0, 3.5f}).albedo == Rgb{0});
+                             Board{});
+    CHECK(material_at(board, Vec3{1.5f, 0, 3.5f}, Vec2{0}).albedo == Rgb{1});
+    CHECK(material_at(board, Vec3{2.5f, 0, 3.5f}, Vec2{0}).albedo == Rgb{0});
 
     CHECK(
         refusal(with(R"({"type": "metal", "metal": "tin"})")) ==
@@ -295,6 +302,137 @@ TEST_CASE("load_json: panes, soap and gloss that keeps its light") {
           "a.json: materials.glass.thickness_nm is -1; it must be within [0, 1e6] nm.");
     CHECK(refusal(with(R"({"type": "thin-glass", "ior": 0, "tint": [1, 1, 1]})")) ==
           "a.json: materials.glass.ior is 0; it must be within [0.001, 1000].");
+}
+
+TEST_CASE("load_json: the report's sliders") {
+    const auto mixture = [](const std::string& rest) {
+        return with(R"({"type": "mixture", "color": [0.5, 0.25, 1])" + rest + "}");
+    };
+    const auto read = [&](const std::string& rest) {
+        const LoadedScene loaded = read_json_scene(mixture(rest), "a.json");
+        return std::get<std::vector<Mixture>>(loaded.scene.materials).at(0);
+    };
+    const Mixture plain = read("");
+    CHECK(plain.color == Rgb{0.5f, 0.25f, 1});
+    CHECK(plain.index == 1.5f);
+    for (const float slider :
+         {plain.reflectivity, plain.transparency, plain.specularity, plain.emissivity,
+          plain.sigma, plain.absorption.x})
+        CHECK(slider == 0);
+    const Mixture all = read(R"(, "reflectivity": 0.125, "transparency": 0.5,
+        "ior": 1.25, "specularity": 0.75, "emissivity": 3, "sigma_deg": 90,
+        "absorption": [1, 2, 3])");
+    CHECK(all.reflectivity == 0.125f);
+    CHECK(all.transparency == 0.5f);
+    CHECK(all.index == 1.25f);
+    CHECK(all.specularity == 0.75f);
+    CHECK(all.emissivity == 3);
+    CHECK(all.sigma == doctest::Approx(std::numbers::pi / 2));
+    CHECK(all.absorption == Rgb{1, 2, 3});
+    // A ball whose material shines is a light.
+    CHECK(read_json_scene(mixture(R"(, "emissivity": 3)"), "a.json")
+              .scene.lights.size() == 2);
+
+    CHECK(refusal(mixture(R"(, "reflectivity": 1.5)")) ==
+          "a.json: materials.glass.reflectivity is 1.5; it must be within [0, 1].");
+    CHECK(refusal(mixture(R"(, "emissivity": -1)")) ==
+          "a.json: materials.glass.emissivity is -1; it must be within [0, 1e12].");
+    CHECK(refusal(mixture(R"(, "shininess": 1)")) ==
+          "a.json: materials.glass.shininess is not known; the fields here are type, "
+          "color, reflectivity, transparency, ior, specularity, emissivity, sigma_deg "
+          "and absorption.");
+}
+
+TEST_CASE("load_json: each name makes its own material") {
+    // The type of the material of the ball, as the scene numbers them, and f there.
+    const auto f = [](const std::string& material) {
+        const LoadedScene loaded = read_json_scene(with(material), "a.json");
+        return loaded.scene.visit_material(
+            loaded.scene.object({1, 0}).material, [](const auto& m) {
+                const Vec3 tilted{0.6f, 0, 0.8f}, back{-0.48f, 0.36f, 0.8f};
+                return evaluate(m, tilted, back);
+            });
+    };
+    const Vec3 wo{0.6f, 0, 0.8f}, wi{-0.48f, 0.36f, 0.8f};
+    const std::pair<const char*, RoughModel> models[]{
+        {"oren-nayar-full", RoughModel::full},
+        {"oren-nayar-printed", RoughModel::as_printed},
+        {"fujii", RoughModel::fujii}};
+    for (const auto& [name, model] : models) {
+        const RoughDiffuse right{Rgb{0.5f}, std::numbers::pi_v<float> / 6, model};
+        CHECK(f(R"({"type": ")" + std::string(name) +
+                R"(", "albedo": [0.5, 0.5, 0.5], "sigma_deg": 30})")
+                  .x == doctest::Approx(evaluate(right, wo, wi).x));
+    }
+    CHECK(f(R"({"type": "fon", "albedo": [0.5, 0.5, 0.5], "roughness": 0.75})").x ==
+          evaluate(RoughDiffuse{Rgb{0.5f}, 0.75f, RoughModel::fon}, wo, wi).x);
+    const RoughMetal copper_{copper<float>, 0.5f};
+    CHECK(f(R"({"type": "rough-metal", "metal": "copper", "roughness": 0.5})") ==
+          evaluate(copper_, wo, wi));
+    CHECK(f(R"({"type": "full-rough-metal", "metal": "copper", "roughness": 0.5})") ==
+          evaluate(compensated_glossy(copper_), wo, wi));
+    const LoadedScene green = read_json_scene(
+        with(R"({"type": "dielectric", "ior": 1.25, "absorption": [3, 0, 3]})"), "a");
+    CHECK(std::get<std::vector<Glass>>(green.scene.materials).at(0).absorption ==
+          Rgb{3, 0, 3});
+}
+
+TEST_CASE("load_json: textures by a plane, a globe and the shape's own coordinates") {
+    const auto board = [](const std::string& rest) {
+        return with(R"({"type": "checker", "even": [1, 1, 1], "odd": [0, 0, 0])" +
+                    rest + "}");
+    };
+    const auto color = [&](const std::string& rest, const Vec3& place, const Vec2& uv) {
+        const LoadedScene loaded = read_json_scene(board(rest), "a.json");
+        return material_at(std::get<std::vector<Board>>(loaded.scene.materials).at(0),
+                           place, uv)
+            .albedo.x;
+    };
+    const Vec3 here{0.1f, 0, 0.1f};
+    CHECK(color(R"(, "map": "uv")", here, {0.25f, 0.25f}) == 1);
+    CHECK(color(R"(, "map": "uv")", here, {0.25f, 0.625f}) == 0);
+    CHECK(color(R"(, "map": "uv", "scale": [1, 2])", here, {0.25f, 0.625f}) == 1);
+    CHECK(color(R"(, "map": "uv", "rows": 4)", here, {0.25f, 0.625f}) == 1);
+    CHECK(color(R"(, "map": "globe", "center": [0, 0, 0])", {1, 1, -0.1f}, {}) == 0);
+    CHECK(color(R"(, "map": "globe", "center": [0, 0, 0])", {1, -1, -0.1f}, {}) == 1);
+    CHECK(color(R"(, "map": "plane", "origin": [0, 0, 0], "edge_u": [1, 0, 0],
+                "edge_v": [0, 0, 1])",
+                {0.75f, 0, 0.25f}, {}) == 0);
+
+    CHECK(refusal(board(R"(, "map": "cube")")) ==
+          "a.json: materials.glass.map is \"cube\"; it must be plane, globe or uv.");
+    CHECK(refusal(board(R"(, "map": "uv", "center": [0, 0, 0])")) ==
+          "a.json: materials.glass.center belongs to the map \"globe\", and the map "
+          "here is \"uv\".");
+    CHECK(refusal(board("")) == "a.json: materials.glass.origin is missing.");
+    CHECK(
+        refusal(board(R"(, "map": "uv", "scale": [1, 1, 1])")) ==
+        "a.json: materials.glass.scale is [1,1,1]; it must be a list of two numbers.");
+    CHECK(refusal(board(R"(, "map": "uv", "scale": [1, 0])")) ==
+          "a.json: materials.glass cannot be used: uv_map.scale is 0; it must be "
+          "finite and not 0.");
+    CHECK(refusal(board(R"(, "map": "uv", "columns": 3)")) ==
+          "a.json: materials.glass cannot be used: checker.columns is 3; it must be "
+          "even, from 2 to 1000000.");
+}
+
+TEST_CASE("load_json: a picture as a texture, and one that is not there") {
+    const ScratchFolder folder;
+    Image image = make_image<float>(2, 1);
+    image.pixels = {{1, 0, 0}, {0, 0, 1}};
+    save_png(image, folder.file("two.png"));
+    const std::string scene =
+        with(R"({"type": "picture", "file": "two.png", "map": "uv"})");
+    const LoadedScene loaded = read_json_scene(scene, folder.file("a.json"));
+    const Wallpaper& paper =
+        std::get<std::vector<Wallpaper>>(loaded.scene.materials).at(0);
+    CHECK(material_at(paper, Vec3{5}, Vec2{0.25f, 0.5f}).albedo == Rgb{1, 0, 0});
+    CHECK(material_at(paper, Vec3{5}, Vec2{0.75f, 0.5f}).albedo == Rgb{0, 0, 1});
+    CHECK(refusal(scene) == "a.json: materials.glass.file cannot be used: cannot read "
+                            "'two.png': No such file or directory.");
+    CHECK(refusal(with(R"({"type": "picture", "file": "a\nb.png", "map": "uv"})")) ==
+          "a.json: materials.glass.file cannot be used: cannot read 'a?b.png': No such "
+          "file or directory.");
 }
 
 // The good scene with a list of lights.
@@ -367,8 +505,12 @@ TEST_CASE("load_json: unknown and missing fields, types and materials are named"
           std::string::npos);
     CHECK(refusal("\"type\": \"dielectric\"", "\"type\": \"crystal\"") ==
           "a.json: materials.glass.type is \"crystal\"; it must be lambertian, "
-          "oren-nayar, mirror, dielectric, eon, metal, glossy, full-glossy, checker, "
-          "thin-glass or soap-film.");
+          "oren-nayar, mirror, dielectric, mixture, oren-nayar-full, "
+          "oren-nayar-printed, fujii, fon, eon, metal, rough-metal, full-rough-metal, "
+          "glossy, full-glossy, thin-glass, soap-film, checker or picture.");
+    CHECK(refusal("\"ior\": 1.5", "\"ior\": 1.5, \"tint\": [1, 1, 1]") ==
+          "a.json: materials.glass.tint is not known; the fields here are type, ior "
+          "and absorption.");
     CHECK(refusal("\"type\": \"sphere\"", "\"type\": \"cube\"") ==
           "a.json: objects[2].type is \"cube\"; it must be sphere, triangles or mesh.");
     CHECK(refusal("\"type\": \"sphere\", ", "") ==

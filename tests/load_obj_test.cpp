@@ -2,11 +2,15 @@
 #include <doctest/doctest.h>
 
 #include <cstdio>
+#include <ctime>
 #include <fstream>
 
 #include "ljus/io/load_json.hpp"
 #include "ljus/io/load_obj.hpp"
+#include "ljus/io/png.hpp"
 #include "ljus/math/random.hpp"
+#include "ljus/render/path_tracing.hpp"
+#include "ljus/render/render.hpp"
 #include "ljus/scenes/mesh_formulas.hpp"
 #include "scratch_folder.hpp"
 
@@ -159,6 +163,33 @@ TEST_CASE("load_obj: polygons are cut along their own shape") {
           std::string::npos);
 }
 
+TEST_CASE("load_obj: many corners, in and out, are cut in no time") {
+    // Stars: every second corner is hollow. A second or two in n^2, not in n^3.
+    constexpr int count = 1000;
+    std::string text;
+    std::vector<double> x, y;
+    for (int i = 0; i < count; ++i) {
+        const double a = 2 * std::numbers::pi * i / count, r = i % 2 == 0 ? 1 : 0.3;
+        x.push_back(double(float(r * std::cos(a))));
+        y.push_back(double(float(r * std::sin(a))));
+        append(text, "v ", Vec3(float(x.back()), float(y.back()), 0));
+    }
+    double right = 0;
+    for (std::size_t i = 0, k = 1; i < count; ++i, k = (i + 1) % count)
+        right += (x[i] * y[k] - x[k] * y[i]) / 2;
+    std::string face = "f";
+    for (int i = 1; i <= count; ++i) face.append(" ").append(std::to_string(i));
+    constexpr int faces = 150;
+    for (int i = 0; i < faces; ++i) text.append(face).append("\n");
+    const std::clock_t before = std::clock();
+    const auto loaded = read_obj(text, "stars.obj");
+    const double seconds = double(std::clock() - before) / CLOCKS_PER_SEC;
+    const Mesh& mesh = loaded.parts[0].mesh;
+    CHECK(mesh.size() == faces * (count - 2));
+    CHECK(double(area(mesh)) == doctest::Approx(faces * right).epsilon(1e-5));
+    CHECK_MESSAGE(seconds < 15, seconds);
+}
+
 TEST_CASE("load_obj: each trouble is counted, with its first line") {
     const auto check = [](const std::string& more, ObjTrouble which, long long count,
                           long long line) {
@@ -170,6 +201,11 @@ TEST_CASE("load_obj: each trouble is counted, with its first line") {
     // The cube has 17 lines.
     check("v 1 nan 2\nv 1 2\nv 1e999 0 0\nv 1 2 x\n", ObjTrouble::bad_number, 4, 18);
     check("vn 0 0 0\nvn 1 inf 0\n", ObjTrouble::bad_normal, 2, 18);
+    check("vt nan 0\nvt 1 inf\nvt x\n", ObjTrouble::bad_uv, 3, 18);
+    check("vt 0 0\nf 1/2 2/1 3/1\nf 1/-2 2/1 3/1\nf 1/1 2/1 3/99999999999\n",
+          ObjTrouble::bad_index, 3, 19);
+    check("vt 0 0\nvt nan 0\nf 1/1 2/1 3/1\nf 1/1 2/2 3/1\nf 1/1 2/1 3\n",
+          ObjTrouble::no_uv, 8, 12); // 6 of them the cube's
     check("f 1 2 9\nf 0 1 2\nf -9 1 2\nf 1 2 x\nf 1//3 2//1 3//1\n",
           ObjTrouble::bad_index, 5, 18);
     check("f 4294967297 2 3\nf 1.5 2 3\nf 1 2 99999999999999999999\n",
@@ -195,8 +231,9 @@ TEST_CASE("load_obj: a file without a face is refused with a sentence") {
     CHECK(message("\n\n# nothing\n") == hint);
     CHECK(message(std::string(1000, '\0')) == hint);
     CHECK(message("f 1 2 3\n") == "x.obj: there is no face that can be used; the first "
-                                  "trouble: line 1: 1 faces name a vertex or a normal "
-                                  "that is not there; they are left out.");
+                                  "trouble: line 1: 1 faces name a vertex, a texture "
+                                  "coordinate or a normal that is not there; they are "
+                                  "left out.");
     CHECK(message(cube, {.scale = -1})
               .find("the scale of a mesh file is -1; it must be") == 0);
     CHECK(message(cube, {.scale = 1e-40}).find("x.obj: ") == 0);
@@ -262,9 +299,183 @@ TEST_CASE("load_obj: materials of a file, and scenes that use it") {
                     std::runtime_error);
 }
 
+namespace {
+
+/// A wall in z = 0 from (0, 0) to (4, 2), with the four corners of a picture on it.
+const std::string wall = R"(mtllib m.mtl
+v 0 0 0
+v 4 0 0
+v 4 2 0
+v 0 2 0
+vt 0 0
+vt 1 0
+vt 1 1
+vt 0 1
+usemtl painted
+f 1/1 2/2 3/3 4/4
+)";
+
+/// Red and green above, blue and white below.
+Image four_colors() {
+    Image image = make_image<float>(2, 2);
+    image.pixels = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+    return image;
+}
+
+/// A folder with the picture and the material of the wall.
+struct WallFolder : ScratchFolder {
+    WallFolder() {
+        save_png(four_colors(), file("four.png"));
+        write(file("m.mtl"), "# walls\nnewmtl painted\nKd 1 1 1\nmap_Kd four.png\n");
+        write(file("wall.obj"), wall);
+    }
+};
+
+} // namespace
+
+TEST_CASE("load_obj: texture coordinates and the picture of a material") {
+    const WallFolder folder;
+    const auto loaded = load_obj(folder.file("wall.obj"));
+    CHECK(loaded.report.pictures.empty());
+    CHECK(loaded.report[ObjTrouble::no_uv].count == 0);
+    REQUIRE(loaded.parts.size() == 1);
+    const Mesh& mesh = loaded.parts[0].mesh;
+    CHECK(mesh.data().positions.size() == 4);
+    REQUIRE(mesh.data().uv.size() == 4);
+
+    Scene<Shapes<Mesh>, Materials<Lambertian, ObjPicture>> scene;
+    add_obj(scene, loaded);
+    const ObjPicture& paint = std::get<std::vector<ObjPicture>>(scene.materials).at(0);
+    const auto at = [&](float x, float y) {
+        const Ray ray{.origin{x, y, 3}, .direction{0, 0, -1}};
+        const auto hit = closest_hit(scene, ray);
+        REQUIRE(hit.has_value());
+        const auto surface = vertex_at(scene, ray, *hit);
+        CHECK(surface.uv == Vec2{x / 4, y / 2});
+        return material_at(paint, surface.point.position, surface.uv).albedo;
+    };
+    // The middles of the pixels have their colours, exactly.
+    CHECK(at(1, 1.5f) == Rgb{1, 0, 0});
+    CHECK(at(3, 1.5f) == Rgb{0, 1, 0});
+    CHECK(at(1, 0.5f) == Rgb{0, 0, 1});
+    CHECK(at(3, 0.5f) == Rgb{1, 1, 1});
+    // A scene file may paint the mesh with a picture of its own.
+    const auto json = read_json_scene(
+        R"({"camera": {"position": [0, 0, 4], "look_at": [0, 0, 0], "up": [0, 1, 0],
+            "vfov_deg": 40}, "image": {"width": 8, "height": 8},
+            "materials": {"m": {"type": "picture", "file": "four.png", "map": "uv"}},
+            "objects": [{"type": "mesh", "file": "wall.obj", "material": "m"}],
+            "lights": [{"type": "sun", "direction": [0, 0, -1],
+                        "irradiance": [1, 1, 1]}]})",
+        folder.file("s.json"), ObjMeshes{});
+    const Ray green{.origin{3, 1.5f, 3}, .direction{0, 0, -1}};
+    const auto surface = vertex_at(json.scene, green, *closest_hit(json.scene, green));
+    const Vec3 up{0, 0, 1};
+    visit_material_at(json.scene, surface, [&](const auto& m) {
+        CHECK(evaluate(m, up, up) == Rgb{0, std::numbers::inv_pi_v<float>, 0});
+    });
+    // A scene that does not list pictures is painted in Kd, as before.
+    Scene<Shapes<Mesh>, Materials<Lambertian>> plain;
+    add_obj(plain, loaded);
+    CHECK(plain.size() == 1);
+
+    // Coordinates beyond 1 repeat, and those from the end count backwards.
+    std::string wide = wall;
+    for (const char* vt : {"vt 1 0", "vt 1 1"}) wide.replace(wide.find(vt), 4, "vt 3");
+    const std::size_t f = wide.find("f 1/1");
+    wide.replace(f, wide.npos, "f 1/-4 2/-3 3/-2 4/-1\n");
+    const Mesh again = read_obj(wide, folder.file("x.obj")).parts[0].mesh;
+    CHECK(again.data().uv[1] == Vec2{3, 0});
+    const Ray ray{.origin{2, 1.5f, 3}, .direction{0, 0, -1}};
+    const auto hit = intersect(ray, again);
+    REQUIRE(hit.has_value());
+    const Vec2 uv = texture_coordinates(again, *hit, surface_point(again, ray, *hit));
+    CHECK(uv == Vec2{1.5f, 0.75f});
+    CHECK(color_at(paint.texture, Vec3{0}, uv) ==
+          color_at(paint.texture, Vec3{0}, Vec2{0.5f, 0.75f}));
+
+    // A mesh without any has those of its triangles.
+    CHECK(read_obj(cube, "c").parts[0].mesh.data().uv.empty());
+    // A vertex with two texture coordinates is two, and still one when smoothed.
+    const std::string fold = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 1\n"
+                             "f 1/1 2/1 3/1\nf 1/2 3/2 4/2\n";
+    const auto round =
+        read_obj(fold, "x", {.normals = ObjNormals::smooth}).parts[0].mesh.data();
+    REQUIRE(round.positions.size() == 6);
+    int same = 0;
+    for (std::size_t i = 0; i < 6; ++i)
+        for (std::size_t k = 0; k < i; ++k)
+            same += round.positions[i] == round.positions[k] &&
+                            round.normals[i] == round.normals[k]
+                        ? 1
+                        : 0;
+    CHECK(same == 2); // the two vertices of the common edge
+}
+
+TEST_CASE("load_obj: a picture that cannot be read is named with its line") {
+    const WallFolder folder;
+    const auto report = [&](const std::string& name) {
+        ScratchFolder::write(folder.file("m.mtl"),
+                             "newmtl other\n\nnewmtl painted\nKd 0.5 0.5 0.5\nmap_Kd " +
+                                 name + "\n");
+        const auto loaded = load_obj(folder.file("wall.obj"));
+        CHECK(loaded.pictures.empty());
+        Scene<Shapes<Mesh>, Materials<Lambertian, ObjPicture>> scene;
+        add_obj(scene, loaded);
+        CHECK(std::get<std::vector<Lambertian>>(scene.materials).at(0).albedo ==
+              Rgb{0.5f});
+        const std::string text = to_text(loaded.report);
+        return text.substr(text.find(folder.file("m.mtl")));
+    };
+    const std::string line = folder.file("m.mtl") + ", line 5: ";
+    CHECK(report("none.png") == line + "cannot read '" + folder.file("none.png") +
+                                    "': No such file or directory.\n");
+    CHECK(report("m.mtl").find(line + folder.file("m.mtl") +
+                               " is no picture that can be read: ") == 0);
+    CHECK(report("sub\\a\x1b.png") == line + "cannot read '" +
+                                          folder.file("sub/a?.png") +
+                                          "': No such file or directory.\n");
+    const auto unread = load_obj(folder.file("wall.obj"), {.pictures = false});
+    CHECK(unread.report.pictures.empty());
+}
+
+TEST_CASE("load_obj: a path-traced wall shows the four colours") {
+    // Under a white sky, in orthographic view nearly: of each quarter the mean is known.
+    // A pixel's weight falls off in a tent; of its own quarter it fills 3/4 in u and in
+    // v, its neighbour, which is on both sides because the picture repeats, the rest.
+    const WallFolder folder;
+    Scene<Shapes<Sphere, Mesh>, Materials<Lambertian, ObjPicture>> scene;
+    scene.add(Sphere{.radius = 1000}, scene.add(Lambertian{.albedo = Rgb{0}}), Rgb{1},
+              true);
+    add_obj(scene, load_obj(folder.file("wall.obj")));
+    const auto camera = look_at(
+        {.position{2, 1, 200},
+         .target{2, 1, 0},
+         .up{0, 1, 0},
+         .vfov_degrees = 2 * std::atan(1.0f / 200) * 180 / std::numbers::pi_v<float>});
+    const auto image = render(make_path_tracer(scene), camera,
+                              {.width = 64, .height = 32, .samples = 64, .threads = 1})
+                           .image;
+    const Image colors = four_colors();
+    for (int row = 0; row < 2; ++row)
+        for (int column = 0; column < 2; ++column) {
+            Rgb mean{0};
+            for (int y = 0; y < 16; ++y)
+                for (int x = 0; x < 32; ++x)
+                    mean += pixel(image, 32 * column + x, 16 * row + y) / 512.0f;
+            const Rgb right = 0.5625f * pixel(colors, column, row) +
+                              0.1875f * (pixel(colors, 1 - column, row) +
+                                         pixel(colors, column, 1 - row)) +
+                              0.0625f * pixel(colors, 1 - column, 1 - row);
+            for (int k = 0; k < 3; ++k)
+                CHECK(mean[k] == doctest::Approx(right[k]).epsilon(0.01));
+        }
+}
+
 TEST_CASE("load_obj: no file crashes it") {
     // Bytes changed, cut out, doubled and swapped in; each mesh that comes out is asked.
-    const std::string extra = "usemtl a\ng b\no c\ns off\nvt 0 1\nf 1/1 2/1 3/1\n"
+    const std::string extra = "vt 0.5 1 0\nf 1/-1/1 2/-1/1 3/1/1\nusemtl a\ng b\no "
+                              "c\ns off\nvt 0 1\nf 1/1 2/1 3/1\n"
                               "f 1/1/1 2/1/1 3/1/1\nl 1 2\nv 1e30 -1e-30 5\n";
     const std::string start = cube + extra;
     const char* const pieces[] = {

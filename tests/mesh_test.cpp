@@ -476,6 +476,13 @@ TEST_CASE("mesh: what is wrong is said with its place") {
     CHECK(message(bad) ==
           "the area of the mesh is 0; it must be above 0 and within the "
           "range.");
+    bad = good;
+    bad.uv.resize(3);
+    CHECK(message(bad).find("the number of a mesh's texture coordinates is 3; it must "
+                            "be 0 or that of its positions, ") == 0);
+    bad.uv.assign(bad.positions.size(), Vec2{0});
+    bad.uv[1].y = NAN;
+    CHECK(message(bad).find("mesh.uv[1] is (0, NaN") == 0);
     Mesh moved(good);
     const Mesh taken(std::move(moved));
     CHECK_THROWS_AS(check(moved), std::invalid_argument);
@@ -511,4 +518,46 @@ TEST_CASE("mesh: triangles without an area, and normals without a direction") {
         CHECK(is_finite(sampled.position));
         CHECK(is_finite(sampled.normal));
     }
+}
+
+TEST_CASE("mesh: texture coordinates are those of its vertices, interpolated") {
+    // Numbers that a float holds: the weights are 1/4, 1/4 and 1/2, nothing is rounded.
+    MeshData one{.positions{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, .triangles{{0, 1, 2}}};
+    const Ray down{.origin{1, 2, 9}, .direction{0, 0, -1}};
+    const auto uv_of = [](const MeshData& data, const Ray& ray) {
+        const Mesh mesh(data, 1);
+        const auto hit = intersect(ray, mesh);
+        REQUIRE(hit.has_value());
+        return texture_coordinates(mesh, *hit, surface_point(mesh, ray, *hit));
+    };
+    CHECK(uv_of(one, down) == Vec2{0.25f, 0.5f}); // none: the triangle's own
+    one.uv = {{8, -4}, {0, 16}, {2, 1}};
+    CHECK(uv_of(one, down) == Vec2{3, 3.5f});
+
+    // Where the coordinates are a linear function of the place, so is what is found,
+    // whichever triangle of a soup is met.
+    MeshData data = soup(300, 5);
+    const auto linear = [](const glm::dvec3& p) {
+        return glm::dvec2(0.5 + p.x - 2 * p.y + 0.25 * p.z, p.z - 3 * p.x);
+    };
+    for (const Vec3& p : data.positions) data.uv.emplace_back(linear(glm::dvec3(p)));
+    const Mesh mesh(data, 1);
+    Numbers numbers{7};
+    int hits = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const Vec3 from(3.0 * numbers.direction());
+        const Ray ray{.origin = from,
+                      .direction = glm::normalize(Vec3(numbers.point(0.8)) - from)};
+        const auto hit = intersect(ray, mesh);
+        if (!hit) continue;
+        ++hits;
+        const auto point = surface_point(mesh, ray, *hit);
+        const glm::dvec2 right = linear(glm::dvec3(point.position));
+        CHECK(glm::length(glm::dvec2(texture_coordinates(mesh, *hit, point)) - right) <
+              1e-5);
+    }
+    CHECK(hits > 500);
+    MeshData bare = data;
+    bare.uv = {};
+    CHECK(bytes(mesh) == bytes(Mesh(bare, 1)) + 900 * sizeof(Vec2));
 }

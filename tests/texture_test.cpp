@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -106,17 +107,17 @@ TEST_CASE(
     const Checker board{.map = flat(), .even = Rgb{0.5f}, .odd = Rgb{1}};
     const Vec3 here{0.25f, 0.25f, 0}, there{0.75f, 0.25f, 0};
     const Textured<Lambertian, Checker> matt{{.albedo = Rgb{0.8f}}, board};
-    CHECK(material_at(matt, here).albedo == Rgb{0.4f});
-    CHECK(material_at(matt, there).albedo == Rgb{0.8f});
+    CHECK(material_at(matt, here, Vec2{0}).albedo == Rgb{0.4f});
+    CHECK(material_at(matt, there, Vec2{0}).albedo == Rgb{0.8f});
     const Textured<Mirror, Checker> mirror{{}, board};
-    CHECK(material_at(mirror, here).reflectance == Rgb{0.5f});
+    CHECK(material_at(mirror, here, Vec2{0}).reflectance == Rgb{0.5f});
     CHECK(is_specular(mirror));
     const Textured<Glossy, Checker> gloss{{.reflectance = Rgb{1}}, board};
-    CHECK(material_at(gloss, here).reflectance == Rgb{0.5f});
+    CHECK(material_at(gloss, here, Vec2{0}).reflectance == Rgb{0.5f});
     const Textured<ThinGlass, Checker> pane{{}, board};
-    CHECK(material_at(pane, here).tint == Rgb{0.5f});
+    CHECK(material_at(pane, here, Vec2{0}).tint == Rgb{0.5f});
     const Lambertian plain;
-    CHECK(&material_at(plain, here) == &plain); // not even copied
+    CHECK(&material_at(plain, here, Vec2{0}) == &plain); // not even copied
 }
 
 TEST_CASE("texture: in a white furnace a textured floor emits as its fields do") {
@@ -169,6 +170,69 @@ TEST_CASE(
     CHECK(refusal(base).find("lambertian.albedo") == 0);
 }
 
+TEST_CASE("texture: a UvMap looks up by the shape's own coordinates, and repeats") {
+    const UvPicture texture{.image = four(), .map{.scale{2, 0.5f}}};
+    const auto at = [&](float u, float v) {
+        return color_at(texture, Vec3{7, 8, 9}, Vec2{u, v});
+    };
+    // u from 0 to 1 shows the image twice, v from 0 to 1 its lower half.
+    CHECK(at(0.125f, 0.5f) == Rgb{0, 0, 1});
+    CHECK(at(0.375f, 0.5f) == Rgb{1, 1, 1});
+    CHECK(at(0.625f, 0.5f) == Rgb{0, 0, 1});
+    CHECK(at(0.125f, 1.5f) == Rgb{1, 0, 0});
+    CHECK(at(-0.125f, 3.5f) == Rgb{0, 1, 0});
+    const Textured<Lambertian, UvPicture> still{{},
+                                                {.image = four(), .map{.scale{0, 1}}}};
+    CHECK(refusal(still).find("uv_map.scale is 0; it must be finite and not 0.") == 0);
+    const CheckerT<float, UvMap> board{.even = Rgb{1}, .odd = Rgb{0}};
+    CHECK(color_at(board, Vec3{9}, Vec2{0.25f, 0.25f}) == Rgb{1});
+    CHECK(color_at(board, Vec3{9}, Vec2{0.75f, 0.25f}) == Rgb{0});
+
+    // Who looks up by uv says so, and gets it; for all others it is not worked out.
+    using Wallpaper = Textured<Lambertian, UvPicture>;
+    static_assert(UsesUv<Wallpaper> && !UsesUv<Lambertian>);
+    static_assert(!UsesUv<Textured<Lambertian, PictureTexture>>);
+    const Wallpaper paper{{.albedo = Rgb{0.5f}}, {.image = four()}};
+    CHECK(material_at(paper, Vec3{9}, Vec2{0.75f, 0.75f}).albedo == Rgb{0, 0.5f, 0});
+    const Ray ray{.origin{0.75f, 0.75f, 1}, .direction{0, 0, -1}};
+    const Quad wall{.corner{0, 0, 0}, .edge_u{1, 0, 0}, .edge_v{0, 1, 0}};
+    const auto uv_of = [&](const auto& material) {
+        const auto scene = make_scene(placed(wall, material));
+        return vertex_at(scene, ray, *closest_hit(scene, ray)).uv;
+    };
+    CHECK(uv_of(paper) == Vec2{0.75f, 0.75f});
+    CHECK(uv_of(Lambertian{}) == Vec2{0});
+}
+
+TEST_CASE("texture: each shape has its own coordinates") {
+    const auto of = [](const auto& shape, const Ray& ray) {
+        const auto hit = as_hit(*intersect(ray, shape));
+        return texture_coordinates(shape, hit, surface_point(shape, ray, hit));
+    };
+    const Ray down{.origin{1.5f, 5, 2.5f}, .direction{0, -1, 0}};
+    CHECK(of(Quad{.corner{1, 0, 2}, .edge_u{2, 0, 0}, .edge_v{0, 0, 4}}, down) ==
+          Vec2{0.25f, 0.125f});
+    CHECK(of(Triangle{.v1{1, 0, 2}, .v2{3, 0, 2}, .v3{1, 0, 6}}, down) ==
+          Vec2{0.25f, 0.125f});
+    // A sphere has a globe's, far from the origin too.
+    for (const float far : {0.0f, 1e6f}) {
+        const Vec3 c{far, 0, 0};
+        const Sphere ball{.center = c, .radius = 2};
+        const auto from = [&](const Vec3& side) {
+            return of(ball, Ray{.origin = c + 3.0f * side, .direction = -side});
+        };
+        CHECK(from({1, 0, 0}).x == doctest::Approx(0));
+        CHECK(from({0, 0, -1}).x == doctest::Approx(0.25));
+        CHECK(from({-1, 0, 0}).x == doctest::Approx(0.5));
+        CHECK(from({0, 1, 0}).y == doctest::Approx(1));
+        CHECK(from({0, 0, 1}).y == doctest::Approx(0.5));
+    }
+    const Moving<Quad> moving{.shape{.edge_u{1, 0, 0}, .edge_v{0, 1, 0}},
+                              .way{5, 0, 0}};
+    CHECK(of(moving, Ray{.origin{0.25f, 0.5f, 1}, .direction{0, 0, -1}}) ==
+          Vec2{0.25f, 0.5f});
+}
+
 #if __has_include(<stb/stb_image.h>)
 TEST_CASE("texture: what is saved as PNG is loaded again; what is not is named") {
     const ScratchFolder folder;
@@ -195,6 +259,17 @@ TEST_CASE("texture: what is saved as PNG is loaded again; what is not is named")
     CHECK(said([&] {
               (void)decode_image(bytes, "half.png");
           }).find("half.png is damaged: ") == 0);
+    // Sizes that nobody can mean: of a bitmap, 0 x 0 and 2^30 x 2^30.
+    for (const int high : {0x00, 0x40}) {
+        Bytes bitmap(54 + 4);
+        const Bytes head{'B', 'M', 58, 0, 0, 0, 0, 0, 0, 0, 54, 0, 0, 0, 40};
+        std::copy(head.begin(), head.end(), bitmap.begin());
+        bitmap[21] = bitmap[25] = static_cast<unsigned char>(high);
+        bitmap[26] = 1;
+        bitmap[28] = 24;
+        CHECK(said([&] { (void)decode_image(bitmap, "b\n.bmp"); }).find("b?.bmp ") ==
+              0);
+    }
     CHECK(said([&] {
               (void)decode_image({}, "empty.png");
           }).find("empty.png is no picture that can be read: ") == 0);

@@ -39,6 +39,7 @@
 #include "ljus/geometry/solid_angle.hpp"
 #include "ljus/geometry/sphere.hpp"
 #include "ljus/geometry/surface_point.hpp"
+#include "ljus/geometry/texture_coordinates.hpp"
 #include "ljus/geometry/transform.hpp"
 #include "ljus/geometry/triangle.hpp"
 #include "ljus/geometry/watertight.hpp"

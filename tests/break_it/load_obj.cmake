@@ -24,6 +24,36 @@ ljus_break_it(NAME load-obj-line HEADER io/detail/obj_text.hpp TEST load_obj
 
 # A fan instead of ears.
 ljus_break_it(NAME polygon-fan HEADER io/detail/polygon.hpp TEST load_obj
-    FROM "if (!free) continue;"
+    FROM "if (ears[i % n] == 0) continue;"
     TO   ""
     CASES "load_obj: polygons*")
+
+# The neighbours of an ear that is cut off are not asked again.
+ljus_break_it(NAME polygon-neighbours HEADER io/detail/polygon.hpp TEST load_obj
+    FROM "ears[beside] = is_ear(beside) ? 1 : 0;"
+    TO   "ears[beside] = 1;"
+    CASES "load_obj: polygons*,load_obj: many corners*")
+
+# A hostile texture coordinate is taken for none, and its face is kept.
+ljus_break_it(NAME load-obj-uv-index HEADER io/detail/obj_reader.hpp TEST load_obj
+    FROM " || (t != 0 && !of_uv)"
+    TO   ""
+    CASES "load_obj: each trouble*")
+
+# All corners have the texture coordinates of the first.
+ljus_break_it(NAME load-obj-uv HEADER io/detail/obj_reader.hpp TEST load_obj
+    FROM "const long long t = painted[corner[k]];"
+    TO   "const long long t = painted[corner[0]];"
+    CASES "load_obj: texture coordinates*")
+
+# A seam of the picture is an edge of the surface.
+ljus_break_it(NAME load-obj-seam HEADER io/load_obj.hpp TEST load_obj
+    FROM "detail::smooth_across_seams<T>(part);"
+    TO   "smooth(part.data);"
+    CASES "load_obj: texture coordinates*")
+
+# Kd without its picture.
+ljus_break_it(NAME load-obj-picture HEADER io/load_obj.hpp TEST load_obj
+    FROM "picture != loaded.pictures.end())"
+    TO   "picture == loaded.pictures.end())"
+    CASES "load_obj: a path-traced wall*")

@@ -45,3 +45,9 @@ ljus_break_it(NAME mesh-meets HEADER accel/mesh.hpp TEST mesh
     FROM "mesh.triangle_at(place), prepared).has_value()"
     TO   "mesh.triangle_at(0 * place), prepared).has_value()"
     CASES "mesh: hits are those*")
+
+# The texture coordinates of the second and the third corner change places.
+ljus_break_it(NAME mesh-uv-corners HEADER accel/mesh.hpp TEST mesh
+    FROM "hit.u * uv[corner[1]] +"
+    TO   "hit.u * uv[corner[2]] +"
+    CASES "mesh: texture coordinates*")

@@ -1,19 +1,19 @@
 # An image upside down.
 ljus_break_it(NAME texture-upside-down HEADER image/texture.hpp TEST texture
-    FROM "(T(1) - repeat(uv.y)) * T(image.height)"
-    TO   "repeat(uv.y) * T(image.height)"
+    FROM "(T(1) - repeat(at.y)) * T(image.height)"
+    TO   "repeat(at.y) * T(image.height)"
     CASES "texture: an image*")
 
 # Pixels by their corners in place of their middles.
 ljus_break_it(NAME texture-half-pixel HEADER image/texture.hpp TEST texture
-    FROM "const T x = repeat(uv.x) * T(image.width) - T(0.5);"
-    TO   "const T x = repeat(uv.x) * T(image.width);"
+    FROM "const T x = repeat(at.x) * T(image.width) - T(0.5);"
+    TO   "const T x = repeat(at.x) * T(image.width);"
     CASES "texture: an image*")
 
 # Rounded towards zero: the fields around the origin are twice as wide.
 ljus_break_it(NAME texture-towards-zero HEADER image/texture.hpp TEST texture
-    FROM "std::floor(uv.x * T(checker.columns))"
-    TO   "std::trunc(uv.x * T(checker.columns))"
+    FROM "std::floor(at.x * T(checker.columns))"
+    TO   "std::trunc(at.x * T(checker.columns))"
     CASES "texture: a chessboard*")
 
 # The texture's colour in place of the product.
@@ -29,3 +29,21 @@ ljus_break_it(NAME textured-hook HEADER path/vertex.hpp TEST texture
     FROM "if constexpr (Material<std::remove_cvref_t<Here>>)"
     TO   "if constexpr (!Material<std::remove_cvref_t<Here>>)"
     CASES "texture: in a white furnace*")
+
+# The shape's coordinates never worked out: an image in its own first pixel's colour.
+ljus_break_it(NAME texture-no-uv HEADER path/vertex.hpp TEST texture
+    FROM "if (uses_uv(scene, vertex.object.material))"
+    TO   "if (!uses_uv(scene, vertex.object.material))"
+    CASES "texture: a UvMap*")
+
+# A ball by the coordinates of its hit, which has none.
+ljus_break_it(NAME texture-ball HEADER geometry/texture_coordinates.hpp TEST texture
+    FROM "coordinates(GlobeMapT<T>{}, point.normal)"
+    TO   "coordinates(GlobeMapT<T>{}, point.position)"
+    CASES "texture: each shape*")
+
+# The repetitions forgotten.
+ljus_break_it(NAME texture-scale HEADER image/texture.hpp TEST texture
+    FROM "return map.scale * uv;"
+    TO   "return uv;"
+    CASES "texture: a UvMap*")

@@ -33,11 +33,32 @@ done
 "$render" "$scene" "${few[@]}" --renderer path --quiet --out new >out.txt
 [ -s new/balls.png ] || wrong "no new/balls.png"
 [ ! -s out.txt ] || wrong "--quiet is not quiet: $(cat out.txt)"
-for indirect in rays map none; do
+for indirect in rays map photons none; do
     "$render" "$scene" "${few[@]}" --indirect $indirect --general-photons 500 \
         --kernel cone --nearest 20 --depth 3 --roulette 2 --quiet --out $indirect.pfm
 done
 cmp -s rays.pfm none.pfm && wrong "--indirect none changes nothing"
+cmp -s map.pfm photons.pfm && wrong "--indirect photons changes nothing"
+
+# What else there is to choose changes the picture, and is known by its name.
+"$render" "$scene" "${few[@]}" --quiet --out plain.pfm
+for choice in --split-glass "--sampling random" "--sampling jittered" "--sampling sobol" \
+    "--precision double" "--shadow-rays 2" "--radius 0.3"; do
+    # shellcheck disable=SC2086
+    "$render" "$scene" "${few[@]}" $choice --quiet --out choice.pfm
+    ! cmp -s plain.pfm choice.pfm || wrong "$choice changes nothing"
+done
+"$render" "$scene" "${few[@]}" --sampling multi-jittered --precision float \
+    --indirect rays --quiet --out choice.pfm
+cmp plain.pfm choice.pfm || wrong "the defaults are not the defaults"
+
+# A ball with a picture on it, by its own coordinates, and one of the report's material.
+cp new/a.png picture.png
+sed -e 's/"clay": .*/"clay": {"type": "picture", "file": "picture.png", "map": "uv"},/' \
+    -e 's/"mirror": {.*/"mirror": {"type": "mixture", "color": [1, 0, 0]},/' \
+    "$scene" >ball.json
+"$render" ball.json "${few[@]}" --quiet --out ball.pfm
+cmp -s plain.pfm ball.pfm && wrong "a picture and a mixture change nothing"
 
 # The same seed gives the same bytes for any number of threads; another seed does not.
 for threads in 1 2 3; do
@@ -74,6 +95,7 @@ refused "--rays" "$scene" --rays 0
 refused "--width" "$scene" --width -5
 refused "--radius" "$scene" --radius nan
 refused "--kernel" "$scene" --kernel hat
+refused "--precision" "$scene" --precision half
 refused "--nope" "$scene" --nope
 refused "cannot write" "$scene" --out /proc/none/a.png
 printf '{"name": "x",\n "camera": {"position": [1e999' >huge.json
@@ -84,6 +106,8 @@ head -c 700 "$scene" >short.json
 refused "short.json: line" short.json
 sed 's/, "emission": \[12, 11, 9\]//' "$scene" >dark.json
 refused "dark.json: objects has no light" dark.json
+sed 's/picture.png/none.png/' ball.json >none.json
+refused "none.json: materials.clay.file cannot be used: cannot read 'none.png'" none.json
 
 # A limit on the size of files: one sentence, and the older file is as it was.
 cp t1.pfm older.pfm

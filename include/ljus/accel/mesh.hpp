@@ -172,6 +172,22 @@ template <std::floating_point T>
 }
 // [shading_normal]
 
+/// Where a mesh was hit on its texture: the coordinates of the vertices, interpolated.
+/// \param mesh   The mesh.
+/// \param hit    What intersect() returned.
+/// \return (u, v); for a mesh without any, those of the triangle: `hit.u`, `hit.v`.
+// [texture_coordinates]
+template <std::floating_point T>
+[[nodiscard]] Vec2T<T> texture_coordinates(const MeshT<T>& mesh, const FlatHitT<T>& hit,
+                                           const SurfacePointT<T>& /*point*/) noexcept {
+    const auto& uv = mesh.data().uv;
+    if (uv.empty()) return {hit.u, hit.v};
+    const auto& corner = mesh.data().triangles[hit.part];
+    return (T(1) - hit.u - hit.v) * uv[corner[0]] + hit.u * uv[corner[1]] +
+           hit.v * uv[corner[2]];
+}
+// [texture_coordinates]
+
 /// A point of a mesh, uniform over its area: a triangle by its share, then a point of
 /// it, from what the choice left of u.x.
 /// \param mesh  The mesh.
@@ -235,8 +251,8 @@ template <std::floating_point T>
 [[nodiscard]] std::size_t bytes(const MeshT<T>& mesh) noexcept {
     const auto of = [](const auto& list) { return list.capacity() * sizeof(list[0]); };
     return of(mesh.data().positions) + of(mesh.data().normals) +
-           of(mesh.data().triangles) + of(mesh.area_up_to()) + mesh.tree().bytes() +
-           sizeof(mesh);
+           of(mesh.data().triangles) + of(mesh.data().uv) + of(mesh.area_up_to()) +
+           mesh.tree().bytes() + sizeof(mesh);
 }
 
 /// \}

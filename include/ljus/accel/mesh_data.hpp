@@ -23,6 +23,7 @@ struct MeshDataT {
     std::vector<Vec3T<T>> positions{}; ///< Of the vertices, in scene units.
     std::vector<Vec3T<T>> normals{};   ///< Unit, one a vertex; none: flat triangles.
     std::vector<std::array<std::uint32_t, 3>> triangles{}; ///< Counter-clockwise.
+    std::vector<Vec2T<T>> uv{}; ///< Texture coordinates, one a vertex; or none.
 };
 using MeshData = MeshDataT<float>; ///< MeshDataT in float.
 
@@ -52,12 +53,18 @@ void check(const MeshDataT<T>& data) {
     require(data.normals.empty() || data.normals.size() == data.positions.size(),
             "the number of a mesh's normals", count(data.normals.size()),
             "0 or that of its positions, " + std::to_string(data.positions.size()));
+    require(data.uv.empty() || data.uv.size() == data.positions.size(),
+            "the number of a mesh's texture coordinates", count(data.uv.size()),
+            "0 or that of its positions, " + std::to_string(data.positions.size()));
     for (std::size_t i = 0; i < data.positions.size(); ++i)
         if (!is_finite(data.positions[i]))
             require_finite(place("mesh.positions", i), data.positions[i]);
     for (std::size_t i = 0; i < data.normals.size(); ++i)
         if (!is_finite(data.normals[i]))
             require_finite(place("mesh.normals", i), data.normals[i]);
+    for (std::size_t i = 0; i < data.uv.size(); ++i)
+        if (!std::isfinite(data.uv[i].x) || !std::isfinite(data.uv[i].y))
+            require_finite(place("mesh.uv", i), Vec3T<T>{data.uv[i], T(0)});
     for (std::size_t i = 0; i < data.triangles.size(); ++i)
         for (const std::uint32_t corner : data.triangles[i])
             if (corner >= data.positions.size())

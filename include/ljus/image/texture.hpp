@@ -18,8 +18,11 @@ namespace ljus {
 /// \defgroup texture Textures
 /// \brief A map from the place to (u, v), and a colour for (u, v).
 ///
-/// A texture is anything with a `color_at(texture, place)` and a `check(texture)`. Both
-/// kinds here repeat: (u, v) and (u + 1, v) look the same.
+/// A texture is anything with a `color_at(texture, place, uv)` and a `check(texture)`;
+/// a map is anything with a `coordinates(map, place, uv)` and a `check(map)`. `uv` are
+/// the coordinates of the place on its own shape, see texture_coordinates(); a texture
+/// gets them only if it says `static constexpr bool uses_uv = true`, and else (0, 0).
+/// Both kinds here repeat: (u, v) and (u + 1, v) look the same.
 /// \{
 
 /// Coordinates of a plane, projected straight onto everything: `origin` is (0, 0),
@@ -40,14 +43,26 @@ struct GlobeMapT {
 };
 using GlobeMap = GlobeMapT<float>; ///< GlobeMapT in float.
 
+/// The coordinates that the shape itself has, as a mesh has them from its file.
+template <std::floating_point T>
+struct UvMapT {
+    static constexpr bool uses_uv = true; ///< See texture_coordinates().
+    Vec2T<T> scale{T(1)};                 ///< Repetitions from u, v = 0 to 1.
+};
+using UvMap = UvMapT<float>; ///< UvMapT in float.
+
+/// Whether a map, a texture or a material looks up by the coordinates of the shape.
+template <typename M>
+concept UsesUv = M::uses_uv;
+
 /// The coordinates of a place.
 /// \param map    The plane.
 /// \param place  In scene units.
 /// \return (u, v), in repetitions.
 // [plane map]
 template <std::floating_point T>
-[[nodiscard]] Vec2T<T> coordinates(const PlaneMapT<T>& map,
-                                   const Vec3T<T>& place) noexcept {
+[[nodiscard]] Vec2T<T> coordinates(const PlaneMapT<T>& map, const Vec3T<T>& place,
+                                   const Vec2T<T>& = Vec2T<T>{T(0)}) noexcept {
     const Vec3T<T> from = place - map.origin;
     return {glm::dot(from, map.edge_u) / glm::dot(map.edge_u, map.edge_u),
             glm::dot(from, map.edge_v) / glm::dot(map.edge_v, map.edge_v)};
@@ -60,12 +75,22 @@ template <std::floating_point T>
 /// \return (u, v) in [0, 1].
 /// \cost Two arc tangents.
 template <std::floating_point T>
-[[nodiscard]] Vec2T<T> coordinates(const GlobeMapT<T>& map,
-                                   const Vec3T<T>& place) noexcept {
+[[nodiscard]] Vec2T<T> coordinates(const GlobeMapT<T>& map, const Vec3T<T>& place,
+                                   const Vec2T<T>& = Vec2T<T>{T(0)}) noexcept {
     const Vec3T<T> d = place - map.center;
     const T u = std::atan2(-d.z, d.x) * (std::numbers::inv_pi_v<T> / T(2));
     const T v = std::atan2(d.y, std::hypot(d.x, d.z)) * std::numbers::inv_pi_v<T>;
     return {u < T(0) ? u + T(1) : u, v + T(0.5)};
+}
+
+/// The coordinates of a place on its own shape.
+/// \param map  How often they repeat.
+/// \param uv   Of texture_coordinates().
+/// \return (u, v), in repetitions.
+template <std::floating_point T>
+[[nodiscard]] Vec2T<T> coordinates(const UvMapT<T>& map, const Vec3T<T>& /*place*/,
+                                   const Vec2T<T>& uv) noexcept {
+    return map.scale * uv;
 }
 
 /// Refuses a plane whose edges span none.
@@ -88,17 +113,27 @@ void check(const GlobeMapT<T>& map) {
     require_finite("globe_map.center", map.center);
 }
 
+/// Refuses coordinates that do not change.
+/// \param map  The map.
+/// \throws std::invalid_argument naming the scale.
+template <std::floating_point T>
+void check(const UvMapT<T>& map) {
+    for (const T scale : {map.scale.x, map.scale.y})
+        require(std::isnormal(scale), "uv_map.scale", scale, "finite and not 0");
+}
+
 /// Two colours in turn, as on a chessboard of `columns` by `rows` fields.
 ///
 /// On a plane, not in space: a solid checker with a border in y = 0 decides by rounding
 /// which colour a floor at y = 0 has, pixel by pixel.
 template <std::floating_point T, typename Map = PlaneMapT<T>>
 struct CheckerT {
-    Map map{};            ///< From the place to (u, v).
-    RgbT<T> even{T(0.9)}; ///< The colour of the field at (0, 0).
-    RgbT<T> odd{T(0.1)};  ///< The colour of its neighbours.
-    int columns = 2;      ///< Fields on the way from u = 0 to 1; even.
-    int rows = 2;         ///< Fields on the way from v = 0 to 1; even.
+    static constexpr bool uses_uv = UsesUv<Map>; ///< As its map says.
+    Map map{};                                   ///< From the place to (u, v).
+    RgbT<T> even{T(0.9)};                        ///< The colour of the field at (0, 0).
+    RgbT<T> odd{T(0.1)};                         ///< The colour of its neighbours.
+    int columns = 2; ///< Fields on the way from u = 0 to 1; even.
+    int rows = 2;    ///< Fields on the way from v = 0 to 1; even.
 };
 using Checker = CheckerT<float>;                        ///< On a plane, in float.
 using GlobeChecker = CheckerT<float, GlobeMapT<float>>; ///< On a globe, in float.
@@ -106,14 +141,15 @@ using GlobeChecker = CheckerT<float, GlobeMapT<float>>; ///< On a globe, in floa
 /// The colour of a place.
 /// \param checker  The texture.
 /// \param place    In scene units.
+/// \param uv       Of texture_coordinates(); for a UvMap.
 /// \return One of the two colours.
 // [checker]
 template <std::floating_point T, typename Map>
-[[nodiscard]] RgbT<T> color_at(const CheckerT<T, Map>& checker,
-                               const Vec3T<T>& place) noexcept {
-    const Vec2T<T> uv = coordinates(checker.map, place);
+[[nodiscard]] RgbT<T> color_at(const CheckerT<T, Map>& checker, const Vec3T<T>& place,
+                               const Vec2T<T>& uv = Vec2T<T>{T(0)}) noexcept {
+    const Vec2T<T> at = coordinates(checker.map, place, uv);
     const T field =
-        std::floor(uv.x * T(checker.columns)) + std::floor(uv.y * T(checker.rows));
+        std::floor(at.x * T(checker.columns)) + std::floor(at.y * T(checker.rows));
     return std::abs(std::fmod(field, T(2))) < T(0.5) ? checker.even : checker.odd;
 }
 // [checker]
@@ -137,29 +173,34 @@ void check(const CheckerT<T, Map>& checker) {
 /// An image, its lower left corner at (0, 0), its upper right one at (1, 1).
 template <std::floating_point T, typename Map = PlaneMapT<T>>
 struct PictureTextureT {
+    static constexpr bool uses_uv = UsesUv<Map>; ///< As its map says.
     ImageT<T> image{}; ///< Linear colours in [0, 1], see load_image().
     Map map{};         ///< From the place to (u, v).
 };
 using PictureTexture = PictureTextureT<float>; ///< On a plane, in float.
+/// By the coordinates of the shape, in float.
+using UvPicture = PictureTextureT<float, UvMapT<float>>;
 
 /// The colour of a place: of the four pixels whose middles are around it, in proportion
 /// to how near they are.
 /// \param texture  The texture.
 /// \param place    In scene units.
+/// \param uv       Of texture_coordinates(); for a UvMap.
 /// \return A colour between those of the four pixels.
 // [picture]
 template <std::floating_point T, typename Map>
 [[nodiscard]] RgbT<T> color_at(const PictureTextureT<T, Map>& texture,
-                               const Vec3T<T>& place) noexcept {
+                               const Vec3T<T>& place,
+                               const Vec2T<T>& uv = Vec2T<T>{T(0)}) noexcept {
     const ImageT<T>& image = texture.image;
-    const Vec2T<T> uv = coordinates(texture.map, place);
+    const Vec2T<T> at = coordinates(texture.map, place, uv);
     // Below 1 even after rounding, and 0 for what is no number.
     const auto repeat = [](T x) {
         const T rest = x - std::floor(x);
         return rest < T(1) ? rest : T(0);
     };
-    const T x = repeat(uv.x) * T(image.width) - T(0.5);
-    const T y = (T(1) - repeat(uv.y)) * T(image.height) - T(0.5);
+    const T x = repeat(at.x) * T(image.width) - T(0.5);
+    const T y = (T(1) - repeat(at.y)) * T(image.height) - T(0.5);
     const T left = std::floor(x), top = std::floor(y);
     const auto color = [&](T column, T row) {
         const int i = (static_cast<int>(column) + image.width) % image.width;

@@ -36,13 +36,31 @@ using Bytes = std::vector<unsigned char>;
 
 namespace detail {
 
+// A text of a file as a message shows it: on one line, and not too long; `?` for each
+// control character.
+[[nodiscard]] inline std::string shown(std::string text, std::size_t limit = 48) {
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+    if (text.size() <= limit) return text;
+    // Not in the middle of a UTF-8 character.
+    while (limit > 0 && (static_cast<unsigned char>(text[limit]) & 0xc0u) == 0x80u)
+        --limit;
+    return text.substr(0, limit).append("...");
+}
+
+// A path as a message shows it: another file may have named it.
+[[nodiscard]] inline std::string shown_path(const std::string& path) {
+    return shown(path, 1000);
+}
+
 [[noreturn]] inline void fail_to_write(const std::string& path, int error) {
-    throw std::runtime_error("cannot write '" + path +
+    throw std::runtime_error("cannot write '" + shown_path(path) +
                              "': " + std::strerror(error == 0 ? EIO : error) + ".");
 }
 
 [[noreturn]] inline void fail_to_read(const std::string& path, std::string_view why) {
-    throw std::runtime_error("cannot read '" + path + "': " + std::string(why) + ".");
+    throw std::runtime_error("cannot read '" + shown_path(path) +
+                             "': " + std::string(why) + ".");
 }
 
 // The file that a save replaces: behind a symbolic link its target, so that the link
@@ -162,7 +180,9 @@ inline void save_file(const std::string& path, const Bytes& bytes) {
     for (std::size_t piece = std::size_t(1) << 16;;
          piece = std::max(piece, bytes.size())) {
         const std::size_t old_size = bytes.size();
-        const std::size_t wanted = std::min(piece, most + 1 - old_size);
+        // One byte more than is allowed tells that the file is longer.
+        const std::size_t room = most - old_size;
+        const std::size_t wanted = room < piece ? room + 1 : piece;
         bytes.resize(old_size + wanted);
         errno = 0;
         const std::size_t got =

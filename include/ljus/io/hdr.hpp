@@ -145,13 +145,15 @@ template <std::floating_point T = float>
     double exposure = 1.0;
     for (std::string line = reader.line(); !line.empty(); line = reader.line()) {
         if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe")
-            reader.fail("its header says " + line + "; only 32-bit_rle_rgbe is read");
+            reader.fail("its header says " + detail::shown(line) +
+                        "; only 32-bit_rle_rgbe is read");
         if (!line.starts_with("EXPOSURE=")) continue;
         std::string text = line.substr(9);
         text.erase(0, std::min(text.find_first_not_of(' '), text.size()));
         const double number = detail::to_number(text);
         if (!(number > 0.0) || !std::isfinite(number))
-            reader.fail("its header says " + line + ", which is no number above 0");
+            reader.fail("its header says " + detail::shown(line) +
+                        ", which is no number above 0");
         exposure *= number;
     }
     const std::string y_word = reader.word();
@@ -160,7 +162,8 @@ template <std::floating_point T = float>
     const int height = reader.size(y_size);
     const int width = reader.size(reader.word());
     if (y_word != "-Y" || x_word != "+X")
-        reader.fail("its rows go " + y_word + " " + x_word + "; only -Y +X is read");
+        reader.fail("its rows go " + detail::shown(y_word) + " " +
+                    detail::shown(x_word) + "; only -Y +X is read");
     if (width > max_pixels / height) reader.fail("its image is too large");
 
     // The image grows by rows, so that a short file with a large size takes no memory.

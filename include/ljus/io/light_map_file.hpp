@@ -67,7 +67,7 @@ inline void save_light_map(const std::string& path, const LightMap& map) {
 [[nodiscard]] inline LightMap load_light_map(const std::string& path,
                                              std::size_t most = 10'000'000) {
     const Bytes bytes = load_file(
-        path, detail::map_header + most * (detail::light_bytes + detail::grid_bytes),
+        path, detail::map_limit(most, detail::light_bytes + detail::grid_bytes),
         detail::light_map_magic);
     const auto refuse = [&](const std::string& why) {
         detail::fail_to_read(path, why);

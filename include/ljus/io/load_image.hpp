@@ -5,9 +5,13 @@
 ///
 /// The decoding is done by stb_image, whose implementation this header makes for
 /// itself, invisible to other files, as png.hpp does for the writer. A program with its
-/// own implementation in the *same* file includes that one first.
+/// own implementation in the *same* file includes that one first. Without stb_image no
+/// picture can be read, which is said when one is asked for.
 
-#if !defined(STBI_INCLUDE_STB_IMAGE_H)
+#if defined(STBI_INCLUDE_STB_IMAGE_H)
+#define LJUS_HAS_STB_IMAGE 1 // the program's own
+#elif __has_include(<stb/stb_image.h>)
+#define LJUS_HAS_STB_IMAGE 1
 #if defined(__GNUC__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
@@ -62,6 +66,7 @@ inline constexpr std::size_t max_image_file = std::size_t(1) << 28;
 /// \throws std::runtime_error  with path and reason, if it is no picture.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> decode_image(const Bytes& bytes, const std::string& path) {
+#ifdef LJUS_HAS_STB_IMAGE
     int width = 0;
     int height = 0;
     int channels = 0;
@@ -69,14 +74,18 @@ template <std::floating_point T = float>
     const auto size = static_cast<int>(bytes.size());
     if (!stbi_info_from_memory(data, size, &width, &height, &channels))
         throw std::runtime_error(
-            std::string(path).append(" is no picture that can be read: ") +
+            detail::shown_path(path).append(" is no picture that can be read: ") +
             stbi_failure_reason() + ".");
-    require_image_size(width, height);
+    if (width < 1 || height < 1)
+        throw std::runtime_error(detail::shown_path(path).append(" has no pixels."));
+    if (width > max_pixels / height)
+        throw std::runtime_error(detail::shown_path(path).append(" has more than ") +
+                                 std::to_string(max_pixels) + " pixels.");
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
         stbi_load_from_memory(data, size, &width, &height, &channels, 3),
         stbi_image_free);
     if (!pixels)
-        throw std::runtime_error(std::string(path).append(" is damaged: ") +
+        throw std::runtime_error(detail::shown_path(path).append(" is damaged: ") +
                                  stbi_failure_reason() + ".");
 
     ImageT<T> image = make_image<T>(width, height);
@@ -86,6 +95,11 @@ template <std::floating_point T = float>
     for (std::size_t i = 0; i < image.pixels.size(); ++i)
         image.pixels[i] = {linear(3 * i), linear(3 * i + 1), linear(3 * i + 2)};
     return image;
+#else
+    (void)bytes;
+    throw std::runtime_error(detail::shown_path(path).append(
+        " cannot be read: this program was made without stb_image.h."));
+#endif
 }
 
 /// Loads a picture, for a texture.

@@ -36,7 +36,7 @@ template <std::floating_point T>
 struct LoadedSceneT {
     FileSceneT<T> scene; ///< Shapes, materials and lights.
     CameraT<T> camera;   ///< Where it is seen from.
-    std::string name;    ///< Of the scene; empty if it has none.
+    std::string name;    ///< Of the scene, on one line; empty if it has none.
     int width = 0;       ///< Of its picture, in pixels.
     int height = 0;      ///< Of its picture, in pixels.
 };
@@ -66,31 +66,15 @@ CameraT<T> read_camera(const JsonField& field) {
     }
 }
 
-} // namespace detail
-
-/// Reads a scene from the text of a scene file.
-/// \param source  The text.
-/// \param file    What messages call it: the name of the file.
-/// \param load_meshes  Called as load_meshes(path, scale, normals) for each mesh;
-///         returns a vector of meshes.
-/// \return The scene. Two triangles that are one parallelogram have become one quad.
-/// \throws std::runtime_error  with one sentence that names the file, the path of the
-///         field, its value and what would be right: "scene.json: objects[3].radius is
-///         -1; it must be above 0."
-template <std::floating_point T = float, typename LoadMeshes = NoMeshes>
-[[nodiscard]] LoadedSceneT<T> read_json_scene(std::string_view source,
-                                              const std::string& file,
-                                              LoadMeshes load_meshes = {}) {
-    const nlohmann::json root = parse_json(source, file);
-    const JsonField top{root, file, ""};
+template <std::floating_point T, typename LoadMeshes>
+LoadedSceneT<T> read_scene(const JsonField& top, LoadMeshes& load_meshes) {
     require_object(top, {"format", "name", "description", "camera", "image",
                          "materials", "objects", "lights"});
-    for (const char* field : {"format", "name", "description"})
-        if (const auto comment = find(top, field)) (void)text(*comment);
+    for (const char* field : {"format", "description"}) (void)remark(top, field);
 
     LoadedSceneT<T> loaded;
-    if (const auto name = find(top, "name")) loaded.name = text(*name);
-    loaded.camera = detail::read_camera<T>(member(top, "camera"));
+    loaded.name = shown(remark(top, "name"), 200);
+    loaded.camera = read_camera<T>(member(top, "camera"));
 
     const JsonField image = member(top, "image");
     require_object(image, {"width", "height", "pixel_filter"});
@@ -109,15 +93,15 @@ template <std::floating_point T = float, typename LoadMeshes = NoMeshes>
     const JsonField list = member(top, "materials");
     if (!list.value.is_object()) refuse_value(list, "an object");
     for (const auto& [name, value] : list.value.items())
-        materials[name] = detail::read_material(
-            {value, file, path_of_member(list.path, name)}, loaded.scene);
+        materials[name] = read_material(
+            {value, top.file, path_of_member(list.path, name)}, loaded.scene);
 
     const JsonField objects = member(top, "objects");
     for (std::size_t i = 0; i < list_size(objects); ++i)
-        detail::read_object(entry(objects, i), materials, loaded.scene, load_meshes);
+        read_object(entry(objects, i), materials, loaded.scene, load_meshes);
     if (const auto lights = find(top, "lights"))
         for (std::size_t i = 0; i < list_size(*lights); ++i)
-            detail::read_light(entry(*lights, i), loaded.scene);
+            read_light(entry(*lights, i), loaded.scene);
     if (loaded.scene.lights.empty())
         refuse(objects, "has no light; at least one needs an emission above 0, or "
                         "there must be lights");
@@ -126,6 +110,25 @@ template <std::floating_point T = float, typename LoadMeshes = NoMeshes>
                             .append(std::to_string(loaded.scene.lights.size()))
                             .append(" lights; it must have at most 65535"));
     return loaded;
+}
+
+} // namespace detail
+
+/// Reads a scene from the text of a scene file.
+/// \param source  The text.
+/// \param file    What messages call it: the name of the file.
+/// \param load_meshes  Called as load_meshes(path, scale, normals) for each mesh;
+///         returns a vector of meshes.
+/// \return The scene. Two triangles that are one parallelogram have become one quad.
+/// \throws std::runtime_error  with one sentence that names the file, the path of the
+///         field, its value and what would be right: "scene.json: objects[3].radius is
+///         -1; it must be above 0."
+template <std::floating_point T = float, typename LoadMeshes = NoMeshes>
+[[nodiscard]] LoadedSceneT<T> read_json_scene(std::string_view source,
+                                              const std::string& file,
+                                              LoadMeshes load_meshes = {}) {
+    const nlohmann::json root = detail::parse_json(source, file);
+    return detail::read_scene<T>({root, file, ""}, load_meshes);
 }
 
 /// Loads a scene file.

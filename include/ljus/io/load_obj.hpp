@@ -9,9 +9,11 @@
 
 #include "ljus/accel/mesh.hpp"
 #include "ljus/io/detail/obj_reader.hpp"
+#include "ljus/io/load_image.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
+#include "ljus/materials/textured.hpp"
 #include "ljus/scene/scene.hpp"
 
 namespace ljus {
@@ -38,8 +40,15 @@ template <std::floating_point T>
 struct LoadedObjT {
     std::vector<ObjPartT<T>> parts{}; ///< One a material, in order of first use.
     ObjReport report{};               ///< What is wrong with it.
+    /// Those that could be read of the parts' materials, by their paths.
+    std::map<std::string, ImageT<T>> pictures{};
 };
 using LoadedObj = LoadedObjT<float>; ///< LoadedObjT in float.
+
+/// A wall with the picture of a material file: what add_obj() makes of map_Kd.
+template <std::floating_point T>
+using ObjPictureT = Textured<LambertianT<T>, PictureTextureT<T, UvMapT<T>>>;
+using ObjPicture = ObjPictureT<float>; ///< ObjPictureT in float.
 
 /// Reads meshes from the text of an OBJ file. Faces of one material, wherever they
 /// stand, are one mesh; those of more than three corners are cut by cut_polygon().
@@ -73,6 +82,9 @@ template <std::floating_point T = float>
     calls.normal_cb = [](void* data, Real, Real, Real) {
         static_cast<Reader*>(data)->normal();
     };
+    calls.texcoord_cb = [](void* data, Real, Real, Real) {
+        static_cast<Reader*>(data)->texture();
+    };
     calls.index_cb = [](void* data, tinyobj::index_t* corners, int count) {
         static_cast<Reader*>(data)->face(corners, static_cast<std::size_t>(count));
     };
@@ -85,24 +97,38 @@ template <std::floating_point T = float>
     if (reader.parts.empty()) {
         const std::string report = to_text(reader.report);
         throw std::runtime_error(
-            file + ": there is no face that can be used" +
+            detail::shown_path(file) + ": there is no face that can be used" +
             (report.empty()
                  ? std::string("; a mesh file has lines such as 'v 0 0 1' and "
                                "'f 1 2 3'.")
                  : "; the first trouble: " + report.substr(0, report.find('\n'))));
     }
-    count_edges(reader.whole, reader.lines, reader.report);
-    LoadedObjT<T> loaded{.report = reader.report};
+    detail::count_edges(reader.whole, reader.lines, reader.report);
+    LoadedObjT<T> loaded;
     for (auto& part : reader.parts) {
         if (!part.smooth) part.data.normals.clear();
-        if (settings.normals == ObjNormals::smooth) smooth(part.data);
+        if (!part.has_uv) part.data.uv.clear();
+        if (part.has_uv)
+            for (const long long line : part.without_uv)
+                reader.report.add(ObjTrouble::no_uv, line);
+        if (settings.normals == ObjNormals::smooth)
+            detail::smooth_across_seams<T>(part);
+        const std::string& picture = part.material.picture;
+        if (settings.pictures && !picture.empty() && !loaded.pictures.contains(picture))
+            try {
+                loaded.pictures.emplace(picture, load_image<T>(picture));
+            } catch (const std::runtime_error& wrong) {
+                reader.report.pictures.push_back(
+                    (part.material.picture_at + ": ").append(wrong.what()));
+            }
         try {
             loaded.parts.push_back(
                 {MeshT<T>(std::move(part.data)), std::move(part.material)});
         } catch (const std::invalid_argument& wrong) {
-            throw std::runtime_error(file + ": " + wrong.what());
+            throw std::runtime_error(detail::shown_path(file) + ": " + wrong.what());
         }
     }
+    loaded.report = std::move(reader.report);
     return loaded;
 }
 
@@ -120,8 +146,9 @@ template <std::floating_point T = float>
 }
 
 /// Adds all meshes of a file to a scene, each made of what the file says: glass and
-/// mirrors where the scene lists them, and else Lambert's surface with the colour Kd.
-/// What glows, glows by Ke.
+/// mirrors where the scene lists them, and else Lambert's surface with the colour Kd;
+/// with the picture of map_Kd, if there is one and the scene lists ObjPicture. What
+/// glows, glows by Ke.
 /// \param scene   A scene with meshes and Lambert's surface.
 /// \param loaded  What load_obj() returned.
 template <typename Scene, std::floating_point T>
@@ -135,7 +162,14 @@ void add_obj(Scene& scene, const LoadedObjT<T>& loaded) {
                 if (is.is_glass()) return scene.add(glass);
             if constexpr (requires { scene.add(mirror); })
                 if (is.is_mirror()) return scene.add(mirror);
-            return scene.add(LambertianT<T>{.albedo = RgbT<T>(is.diffuse)});
+            const LambertianT<T> matt{.albedo = RgbT<T>(is.diffuse)};
+            if constexpr (requires(const ObjPictureT<T>& painted) {
+                              scene.add(painted);
+                          })
+                if (const auto picture = loaded.pictures.find(is.picture);
+                    picture != loaded.pictures.end())
+                    return scene.add(ObjPictureT<T>{matt, {.image = picture->second}});
+            return scene.add(matt);
         }();
         scene.add(part.mesh, id, RgbT<T>(is.emission));
     }
@@ -171,11 +205,13 @@ struct ObjMeshesT {
         const ObjNormals which = normals == "smooth" ? ObjNormals::smooth
                                  : normals == "flat" ? ObjNormals::flat
                                                      : ObjNormals::file;
-        auto loaded = load_obj<T>(path, {.scale = scale, .normals = which});
+        auto loaded =
+            load_obj<T>(path, {.scale = scale, .normals = which, .pictures = false});
         std::vector<MeshT<T>> meshes;
         for (auto& part : loaded.parts) meshes.push_back(std::move(part.mesh));
         const std::string text = to_text(loaded.report);
-        if (report != nullptr && !text.empty()) *report += path + ":\n" + text;
+        if (report != nullptr && !text.empty())
+            *report += detail::shown_path(path) + ":\n" + text;
         return meshes;
     }
 };

@@ -22,7 +22,9 @@ namespace ljus {
 enum class ObjTrouble : std::uint8_t {
     bad_number,   ///< A coordinate that is none, or not finite; its faces are left out.
     bad_normal,   ///< A normal that is none; its faces are flat.
-    bad_index,    ///< A face with a vertex that is not there, left out.
+    bad_uv,       ///< A texture coordinate that is none; its faces have (0, 0).
+    no_uv,        ///< A face without texture coordinates in a mesh that has some.
+    bad_index,    ///< A face with a vertex, uv or normal that is not there, left out.
     few_corners,  ///< A face with fewer than three corners, left out.
     many_corners, ///< A face with more than 1000 corners, left out.
     no_area,      ///< A face without an area, left out.
@@ -35,7 +37,7 @@ enum class ObjTrouble : std::uint8_t {
 };
 
 /// How many there are.
-inline constexpr std::size_t obj_troubles = 12;
+inline constexpr std::size_t obj_troubles = 14;
 
 /// How often, and where first.
 struct ObjCount {
@@ -46,6 +48,8 @@ struct ObjCount {
 /// All of it.
 struct ObjReport {
     std::array<ObjCount, obj_troubles> counts{}; ///< By ObjTrouble.
+    /// A sentence a picture that cannot be read, with its line of the material file.
+    std::vector<std::string> pictures{};
 
     /// Counts one more.
     void add(ObjTrouble trouble, long long line) {
@@ -66,7 +70,10 @@ struct ObjReport {
         "vertices have coordinates that are no finite numbers; faces there are left "
         "out",
         "normals are no finite numbers; faces there are flat",
-        "faces name a vertex or a normal that is not there; they are left out",
+        "texture coordinates are no finite numbers; (0, 0) is taken",
+        "faces have no texture coordinates, others of their mesh do; (0, 0) is taken",
+        "faces name a vertex, a texture coordinate or a normal that is not there; they "
+        "are left out",
         "faces have fewer than three corners; they are left out",
         "faces have more than 1000 corners; they are left out",
         "faces have no area; they are left out",
@@ -86,15 +93,15 @@ struct ObjReport {
                 .append(" ")
                 .append(words[i])
                 .append(".\n");
+    for (const std::string& picture : report.pictures)
+        text.append(picture).append("\n");
     return text;
 }
 
-/// Counts the edges of a mesh that a closed surface does not have. Vertices at the same
-/// place count as one.
-/// \param data    The mesh.
-/// \param lines   Of each triangle.
-/// \param report  Takes the counts.
-/// \cost O(n log n).
+namespace detail {
+
+// Counts the edges of a mesh that a closed surface does not have, with the lines of its
+// triangles. Vertices at the same place count as one. O(n log n).
 // [count_edges]
 template <std::floating_point T>
 void count_edges(const MeshDataT<T>& data, const std::vector<long long>& lines,
@@ -136,6 +143,8 @@ void count_edges(const MeshDataT<T>& data, const std::vector<long long>& lines,
     }
 }
 // [count_edges]
+
+} // namespace detail
 
 /// \}
 

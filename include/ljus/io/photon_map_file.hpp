@@ -83,7 +83,7 @@ template <std::floating_point T = float>
                                             int threads = 0) {
     constexpr std::size_t photon_bytes = 9 * sizeof(T) + 6;
     const Bytes bytes =
-        load_file(path, detail::map_header + most * photon_bytes, detail::map_magic);
+        load_file(path, detail::map_limit(most, photon_bytes), detail::map_magic);
     const auto refuse = [&](const std::string& why) {
         detail::fail_to_read(path, why);
     };

@@ -163,16 +163,19 @@ requires std::floating_point<typename M::Scalar>
     return RgbT<typename M::Scalar>{0};
 }
 
-/// A material as it is at a point: itself, or `at_point(m, position)` of one that is
-/// not the same everywhere.
+/// A material as it is at a point: itself, or `at_point(m, position, uv)` of one that
+/// is not the same everywhere. One that looks up by uv says so by
+/// `static constexpr bool uses_uv = true`; for all others uv is not worked out.
 /// \param m         The material; must outlive the result.
 /// \param position  The point.
+/// \param uv        Its coordinates on its shape, of texture_coordinates().
 /// \return Something to sample().
 template <typename M>
 [[nodiscard]] constexpr decltype(auto)
-material_at(const M& m, const Vec3T<typename M::Scalar>& position) noexcept {
-    if constexpr (requires { at_point(m, position); })
-        return at_point(m, position);
+material_at(const M& m, const Vec3T<typename M::Scalar>& position,
+            const Vec2T<typename M::Scalar>& uv) noexcept {
+    if constexpr (requires { at_point(m, position, uv); })
+        return at_point(m, position, uv);
     else
         return (m);
 }

@@ -96,8 +96,8 @@ struct FilmPointT {
 /// \param film      The film; must outlive the result.
 /// \param position  The point.
 template <std::floating_point T>
-[[nodiscard]] FilmPointT<T> at_point(const SoapFilmT<T>& film,
-                                     const Vec3T<T>& position) noexcept {
+[[nodiscard]] FilmPointT<T> at_point(const SoapFilmT<T>& film, const Vec3T<T>& position,
+                                     const Vec2T<T>& /*uv*/) noexcept {
     return {film, thickness_at(film, position)};
 }
 

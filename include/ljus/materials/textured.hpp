@@ -19,7 +19,8 @@ namespace ljus {
 /// A material whose colour is multiplied by a texture's.
 template <Material Base, typename Texture>
 struct Textured {
-    using Scalar = typename Base::Scalar; ///< The precision of its numbers.
+    using Scalar = typename Base::Scalar;            ///< The precision of its numbers.
+    static constexpr bool uses_uv = UsesUv<Texture>; ///< As its texture says.
     Base base{};       ///< White, if the texture's colour shall stay.
     Texture texture{}; ///< In [0, 1] everywhere.
 };
@@ -45,18 +46,20 @@ colored(Base base, const RgbT<typename Base::Scalar>& color) noexcept {
 /// The material of a place: the base in the texture's colour.
 /// \param textured  The material.
 /// \param position  In scene units.
+/// \param uv        The coordinates of the place on its shape.
 /// \return A base material.
 /// \cost color_at() of the texture.
 // [at_point]
 template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] Base at_point(const Textured<Base, Texture>& textured,
-                            const Vec3T<T>& position) noexcept {
-    const RgbT<T> color = color_at(textured.texture, position);
+                            const Vec3T<T>& position, const Vec2T<T>& uv) noexcept {
+    const RgbT<T> color = color_at(textured.texture, position, uv);
     return colored(textured.base, color);
 }
 // [at_point]
 
-/// What goes straight on through a textured pane; only of a base that is thin.
+/// What goes straight on through a textured pane; only of a base that is thin, and of a
+/// texture that looks up by the place alone, which is all that is known here.
 /// \param textured  The material.
 /// \param position  Where.
 /// \param wo        Towards where the light goes.
@@ -65,7 +68,10 @@ template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] auto pass_through(const Textured<Base, Texture>& textured,
                                 const Vec3T<T>& position, const Vec3T<T>& wo) noexcept
     -> decltype(pass_through(textured.base, position, wo)) {
-    return pass_through(at_point(textured, position), position, wo);
+    static_assert(!UsesUv<Texture>,
+                  "The texture of a pane looks up by the place, not by uv.");
+    const Base here = at_point(textured, position, Vec2T<T>{T(0)});
+    return pass_through(here, position, wo);
 }
 
 /// \name What the base says
@@ -97,7 +103,7 @@ emission(const Textured<Base, Texture>& m) noexcept {
     return emission(m.base);
 }
 
-/// f of the base in its own colour; that of a place is evaluate(at_point(m, x), ...).
+/// f of the base in its own colour; that of a place is evaluate(material_at(m, ...)).
 /// \param m   The material.
 /// \param wo  Towards where the light goes.
 /// \param wi  Towards where it comes from.

@@ -77,7 +77,7 @@ template <std::floating_point T, Material M>
 scatter(const VertexT<T>& vertex, const M& material, const Vec3T<T>& u,
         Transport transport, Lobes which = Lobes::all) noexcept {
     const Vec3T<T>& wo = vertex.wo;
-    const auto& here = material_at(material, vertex.point.position);
+    const auto& here = material_at(material, vertex.point.position, vertex.uv);
     const auto next = sample(here, wo, u, transport, which);
     if (!next) return std::nullopt;
     ScatteredT<T> scattered{*next, to_world(vertex.frame, next->wi)};

@@ -3,6 +3,7 @@
 /// \file ljus/path/vertex.hpp
 /// \brief The vertex of a path: everything that is known of the place where it arrived.
 
+#include "ljus/geometry/texture_coordinates.hpp"
 #include "ljus/math/frame.hpp"
 #include "ljus/scene/query.hpp"
 
@@ -19,6 +20,7 @@ struct VertexT {
     SurfacePointT<T> point{};      ///< Position, rounding error, geometric normal.
     FrameT<T> frame{};             ///< Around the shading normal; materials work in it.
     Vec3T<T> wo{T(0), T(0), T(1)}; ///< To the vertex before: unit, in the frame.
+    Vec2T<T> uv{T(0)};             ///< Of texture_coordinates(), if a material uses it.
     ObjectId id{};                 ///< Which object.
     ObjectT<T> object{};           ///< What it is made of, and whether it emits.
     RgbT<T> medium{T(0)};          ///< Absorption before it, per scene unit.
@@ -35,6 +37,20 @@ struct VertexT {
 };
 using Vertex = VertexT<float>; ///< VertexT in float.
 // [vertex]
+
+/// Whether a material looks up by texture coordinates; a comparison in a scene that
+/// lists such a type, and nothing in any other.
+/// \param scene     The scene.
+/// \param material  One of its materials.
+template <SceneLike S>
+[[nodiscard]] bool uses_uv(const S& scene, MaterialId material) {
+    if constexpr (S::any_material([]<typename M>() { return UsesUv<M>; }))
+        return scene.visit_material(material, [](const auto& m) {
+            return UsesUv<std::remove_cvref_t<decltype(m)>>;
+        });
+    else
+        return false;
+}
 
 /// The vertex at a hit.
 ///
@@ -56,6 +72,8 @@ template <SceneLike S, std::floating_point T>
     Vec3T<T>& geometric = vertex.point.normal;
     Vec3T<T> normal = scene.visit_shape(hit.object, [&](const auto& shape) {
         vertex.point = surface_point(shape, ray, hit.at);
+        if (uses_uv(scene, vertex.object.material))
+            vertex.uv = texture_coordinates(shape, hit.at, vertex.point);
         if constexpr (requires { shading_normal(shape, hit.at, geometric); })
             return shading_normal(shape, hit.at, geometric);
         else
@@ -87,10 +105,10 @@ template <SceneLike S, std::floating_point T>
 template <SceneLike S, std::floating_point T, typename F>
 decltype(auto) visit_material_at(const S& scene, const VertexT<T>& vertex, F&& f) {
     return scene.visit_material(vertex.object.material, [&](const auto& m) {
-        using Here = decltype(material_at(m, vertex.point.position));
+        using Here = decltype(material_at(m, vertex.point.position, vertex.uv));
         // A soap film's point is no material: scatter() asks for it.
         if constexpr (Material<std::remove_cvref_t<Here>>)
-            return f(material_at(m, vertex.point.position));
+            return f(material_at(m, vertex.point.position, vertex.uv));
         else
             return f(m);
     });

@@ -95,7 +95,7 @@ struct ByteReader {
             value = c < '0' || c > '9' || value > max_size ? 2 * max_size
                                                            : 10 * value + (c - '0');
         if (value < 1 || value > max_size)
-            fail("its width or height is '" + text +
+            fail("its width or height is '" + shown(text) +
                  "', which must be a whole number of at least 1, and not above " +
                  std::to_string(max_size));
         return static_cast<int>(value);

@@ -13,36 +13,18 @@
 
 #include <nlohmann/json.hpp>
 
-#include "ljus/version.hpp"
+#include "ljus/io/file.hpp"
 
-namespace ljus {
+namespace ljus::detail {
 
-/// \defgroup json_field JSON fields
-/// \brief Optional (nlohmann-json): every error names the file and the field's path.
-/// \{
-
-/// A value within a JSON file. It refers to the file's data and its name.
+// A value within a JSON file. It refers to the file's data and its name.
 struct JsonField {
-    const nlohmann::json& value; ///< What stands there.
-    const std::string& file;     ///< The name of the file, for messages.
-    std::string path;            ///< "objects[3].radius"; empty for the whole file.
+    const nlohmann::json& value; // what stands there
+    const std::string& file;     // the name of the file, for messages
+    std::string path;            // "objects[3].radius"; empty for the whole file
 };
 
-/// A text of the file as a message shows it: on one line, and not too long.
-/// \param text   Any bytes.
-/// \param limit  More bytes than this are cut off.
-/// \return The text, `?` for each control character.
-[[nodiscard]] inline std::string shown(std::string text, std::size_t limit = 48) {
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-    if (text.size() <= limit) return text;
-    // Not in the middle of a UTF-8 character.
-    while (limit > 0 && (static_cast<unsigned char>(text[limit]) & 0xc0u) == 0x80u)
-        --limit;
-    return text.substr(0, limit).append("...");
-}
-
-/// A value as a message shows it.
+// A value as a message shows it.
 [[nodiscard]] inline std::string shown(const nlohmann::json& value) {
     // Large values are not printed only to be cut off.
     if (value.is_object()) return "an object";
@@ -54,7 +36,7 @@ struct JsonField {
     return shown(value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
-/// The path of a member: with a dot, or in brackets if its name is no plain word.
+// The path of a member: with a dot, or in brackets if its name is no plain word.
 [[nodiscard]] inline std::string path_of_member(std::string path,
                                                 const std::string& name) {
     bool plain = !name.empty() && name.size() <= 48;
@@ -66,20 +48,15 @@ struct JsonField {
     return path.append(name);
 }
 
-/// Refuses a field: "scene.json: objects[3].radius is missing."
-/// \param field  The field.
-/// \param why    The rest of the sentence, without the full stop.
-/// \throws std::runtime_error  always.
+// Refuses a field: "scene.json: objects[3].radius is missing." `why` is the rest of the
+// sentence, without the full stop.
 [[noreturn]] inline void refuse(const JsonField& field, std::string_view why) {
-    std::string message = field.file;
+    std::string message = shown_path(field.file);
     message.append(": ").append(field.path.empty() ? "the file" : field.path);
     throw std::runtime_error(message.append(" ").append(why).append("."));
 }
 
-/// Refuses a field's value: "scene.json: objects[3].radius is -1; it must be above 0."
-/// \param field  The field.
-/// \param right  What would be right.
-/// \throws std::runtime_error  always.
+// Refuses a field's value: "scene.json: objects[3].radius is -1; it must be above 0."
 [[noreturn]] inline void refuse_value(const JsonField& field, std::string_view right) {
     refuse(field, std::string("is ")
                       .append(shown(field.value))
@@ -87,10 +64,18 @@ struct JsonField {
                       .append(right));
 }
 
-/// Names in a row: "a, b or c".
+// Refuses a field for what a call said of it, in a sentence of its own.
+[[noreturn]] inline void refuse_for(const JsonField& field,
+                                    const std::exception& error) {
+    std::string why = std::string("cannot be used: ").append(error.what());
+    if (why.back() == '.') why.pop_back();
+    refuse(field, why);
+}
+
+// Names in a row: "a, b or c". Of names that a file chooses not too many are shown.
 [[nodiscard]] inline std::string in_a_row(const std::vector<std::string>& names,
-                                          std::string_view last) {
-    constexpr std::size_t most = 12;
+                                          std::string_view last,
+                                          std::size_t most = 12) {
     const std::size_t count = names.size() <= most ? names.size() : most;
     std::string row;
     for (std::size_t i = 0; i < count; ++i) {
@@ -103,28 +88,25 @@ struct JsonField {
     return count < names.size() ? row.append(", ...") : row;
 }
 
-/// Refuses what is not an object, and members that are not known.
-/// \param field  The field.
-/// \param known  The names that it may have.
-/// \throws std::runtime_error  naming the first unknown member and the known ones.
+// Refuses what is not an object, and members that are not known.
 inline void require_object(const JsonField& field,
-                           std::initializer_list<const char*> known) {
+                           const std::vector<std::string>& known) {
     if (!field.value.is_object()) refuse_value(field, "an object");
-    const std::vector<std::string> names(known.begin(), known.end());
     for (const auto& [name, value] : field.value.items()) {
         bool found = false;
-        for (const std::string& other : names) found = found || other == name;
+        for (const std::string& other : known) found = found || other == name;
         if (!found)
             refuse({value, field.file, path_of_member(field.path, name)},
                    std::string("is not known; the fields here are ") +
-                       in_a_row(names, "and"));
+                       in_a_row(known, "and"));
     }
 }
+inline void require_object(const JsonField& field,
+                           std::initializer_list<const char*> known) {
+    require_object(field, std::vector<std::string>(known.begin(), known.end()));
+}
 
-/// A member that may be missing.
-/// \param field  An object.
-/// \param name   The member's name.
-/// \return The member; nothing if there is none.
+// A member of an object that may be missing.
 [[nodiscard]] inline std::optional<JsonField> find(const JsonField& field,
                                                    const std::string& name) {
     const auto found = field.value.find(name);
@@ -132,45 +114,46 @@ inline void require_object(const JsonField& field,
     return JsonField{*found, field.file, path_of_member(field.path, name)};
 }
 
-/// A member that must be there.
-/// \param field  Should be an object.
-/// \param name   The member's name.
-/// \throws std::runtime_error  if it is missing.
+// A member that must be there.
 [[nodiscard]] inline JsonField member(const JsonField& field, const std::string& name) {
     if (!field.value.is_object()) refuse_value(field, "an object");
     if (const auto found = find(field, name)) return *found;
     refuse({field.value, field.file, path_of_member(field.path, name)}, "is missing");
 }
 
-/// An entry of a list.
-/// \param field  A list.
-/// \param i      Below its size.
+// An entry of a list; i is below its size.
 [[nodiscard]] inline JsonField entry(const JsonField& field, std::size_t i) {
     return {field.value[i], field.file, field.path + "[" + std::to_string(i) + "]"};
 }
 
-/// The number of entries of a list.
-/// \param field  Should be a list.
-/// \throws std::runtime_error  if it is something else.
+// The number of entries of a list.
 [[nodiscard]] inline std::size_t list_size(const JsonField& field) {
     if (!field.value.is_array()) refuse_value(field, "a list");
     return field.value.size();
 }
 
-/// A text.
-/// \param field  Should be a text.
-/// \throws std::runtime_error  if it is something else.
+// A text.
 [[nodiscard]] inline const std::string& text(const JsonField& field) {
     if (!field.value.is_string()) refuse_value(field, "a text in quotation marks");
     return field.value.get_ref<const std::string&>();
 }
 
-/// A number.
-/// \param field  Should be a number.
-/// \param low    The least it may be.
-/// \param high   The most.
-/// \param right  The two in words.
-/// \throws std::runtime_error  if it is something else.
+// A text for people, which may be missing or null.
+[[nodiscard]] inline std::string remark(const JsonField& field,
+                                        const std::string& name) {
+    const auto found = find(field, name);
+    return !found || found->value.is_null() ? std::string() : text(*found);
+}
+
+// One of the names in a list.
+inline void require_one_of(const JsonField& field,
+                           const std::vector<std::string>& names) {
+    for (const std::string& name : names)
+        if (text(field) == name) return;
+    refuse_value(field, in_a_row(names, "or", names.size()));
+}
+
+// A number within [low, high], which `right` says in words.
 [[nodiscard]] inline double number(const JsonField& field, double low, double high,
                                    std::string_view right) {
     if (!field.value.is_number()) refuse_value(field, "a number");
@@ -179,11 +162,7 @@ inline void require_object(const JsonField& field,
     return value;
 }
 
-/// A whole number.
-/// \param field  Should be a whole number.
-/// \param low    The least it may be.
-/// \param high   The most, at most 2^53.
-/// \throws std::runtime_error  if it is something else.
+// A whole number within [low, high], at most 2^53.
 [[nodiscard]] inline long long whole_number(const JsonField& field, long long low,
                                             long long high) {
     std::string right = "a whole number within [";
@@ -195,6 +174,12 @@ inline void require_object(const JsonField& field,
     return static_cast<long long>(value);
 }
 
-/// \}
+// The path of a file that a scene file names: beside the scene's own.
+[[nodiscard]] inline std::string path_beside(const JsonField& field) {
+    const std::string& name = text(field);
+    const std::size_t slash = field.file.find_last_of("/\\");
+    if (slash == std::string::npos || name.substr(0, 1) == "/") return name;
+    return field.file.substr(0, slash + 1) + name;
+}
 
-} // namespace ljus
+} // namespace ljus::detail

@@ -8,8 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "ljus/io/detail/json_materials.hpp"
-#include "ljus/scene/light.hpp"
+#include "ljus/io/detail/json_textures.hpp"
+#include "ljus/scene/make_light.hpp"
 
 namespace ljus {
 
@@ -24,13 +24,6 @@ namespace ljus {
 /// \{
 
 namespace detail {
-
-// A vector that says where to.
-inline glm::dvec3 way_field(const JsonField& field) {
-    const glm::dvec3 way = point_field(field);
-    if (!(glm::dot(way, way) > 0)) refuse_value(field, "a vector that is not 0");
-    return way;
-}
 
 template <typename Scene, std::floating_point T = typename Scene::Scalar>
 void read_light(const JsonField& field, Scene& scene) {
@@ -52,7 +45,7 @@ void read_light(const JsonField& field, Scene& scene) {
             scene.add(LightSourceT<T>(light));
         } catch (const std::invalid_argument& error) {
             // What is too small or too large for T, though not for the file.
-            refuse(field, std::string("cannot be used: ") + error.what());
+            refuse_for(field, error);
         }
     };
     if (text(type) == "point") {
@@ -61,7 +54,7 @@ void read_light(const JsonField& field, Scene& scene) {
                            .intensity = strength("intensity")});
     } else if (text(type) == "sun") {
         require_object(field, {"type", "direction", "irradiance"});
-        add(SunLightT<T>{.direction = vector("direction", way_field),
+        add(SunLightT<T>{.direction = vector("direction", direction_field),
                          .irradiance = strength("irradiance")});
     } else {
         require_object(field, {"type", "position", "direction", "intensity",
@@ -69,7 +62,7 @@ void read_light(const JsonField& field, Scene& scene) {
         const double outer = degrees("outer_deg", 180, "within (0, 180] degrees");
         const double inner = degrees("inner_deg", outer, "within [0, outer_deg]");
         add(SpotLightT<T>{.position = vector("position", point_field),
-                          .direction = vector("direction", way_field),
+                          .direction = vector("direction", direction_field),
                           .intensity = strength("intensity"),
                           .inner_degrees = static_cast<T>(inner),
                           .outer_degrees = static_cast<T>(outer)});

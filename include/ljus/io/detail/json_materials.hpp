@@ -1,22 +1,22 @@
 #pragma once
 
 /// \file ljus/io/detail/json_materials.hpp
-/// \brief The materials of a scene file.
+/// \brief The materials of a scene file: one row a material, and that is all.
 
-#include <cmath>
+#include <array>
 #include <numbers>
-#include <string>
-#include <vector>
+#include <tuple>
+#include <type_traits>
 
 #include <nlohmann/json.hpp>
 
-#include "ljus/io/detail/json_field.hpp"
+#include "ljus/io/detail/json_textures.hpp"
 #include "ljus/materials/compensated_glossy.hpp"
 #include "ljus/materials/eon.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
-#include "ljus/materials/oren_nayar.hpp"
+#include "ljus/materials/mixture.hpp"
 #include "ljus/materials/soap_film.hpp"
 #include "ljus/materials/textured.hpp"
 #include "ljus/scene/scene.hpp"
@@ -26,163 +26,239 @@ namespace ljus {
 /// \defgroup json_materials Materials in scene files
 /// \brief Optional (nlohmann-json): what a file may say of a material.
 ///
-/// | `type`     | its fields                                                        |
-/// |------------|-------------------------------------------------------------------|
-/// | lambertian | albedo                                                            |
-/// | oren-nayar | albedo, sigma_deg: the slope angle's deviation, degrees           |
-/// | mirror     | reflectance                                                       |
-/// | dielectric | ior: smooth, clear glass                                          |
-/// | eon        | albedo, roughness                                                 |
-/// | metal      | metal: gold, copper or silver; smooth                             |
-/// | glossy     | reflectance, roughness                                            |
-/// | full-glossy | the same; see CompensatedGlossy                                         |
-/// | checker    | even, odd; origin, edge_u, edge_v: two by two fields              |
-/// | thin-glass | ior, tint: a pane                                                 |
-/// | soap-film  | ior, thickness_nm; if it drains scale, level and up: see SoapFilm |
+/// | `type`          | its fields; those in brackets may be missing                  |
+/// |-----------------|---------------------------------------------------------------|
+/// | lambertian      | albedo                                                        |
+/// | oren-nayar      | albedo, sigma_deg: the slope angle's deviation, degrees       |
+/// | oren-nayar-full | the same; with light from facet to facet                      |
+/// | oren-nayar-printed | the same; as the report's program has it                   |
+/// | fujii           | the same; Fujii's first improvement                           |
+/// | fon             | albedo, roughness; Fujii's second                             |
+/// | eon             | albedo, roughness                                             |
+/// | mixture         | color, \[reflectivity, transparency, ior, specularity,        |
+/// |                 | emissivity, sigma_deg, absorption\]: the report's sliders     |
+/// | mirror          | reflectance                                                   |
+/// | metal           | metal: gold, copper or silver; smooth                         |
+/// | rough-metal     | metal, roughness                                              |
+/// | full-rough-metal | the same; see CompensatedGlossy                              |
+/// | glossy          | reflectance, roughness                                        |
+/// | full-glossy     | the same; see CompensatedGlossy                               |
+/// | dielectric      | ior, \[absorption\]: smooth glass                             |
+/// | thin-glass      | ior, tint: a pane                                             |
+/// | soap-film       | ior, thickness_nm; if it drains scale, level and up           |
+/// | checker         | even, odd, a map, \[columns, rows\]: two by two fields        |
+/// | picture         | file: PNG, JPEG, ... beside the scene's; a map                |
+///
+/// A map is origin, edge_u and edge_v of a plane; or "map": "globe" and its center; or
+/// "map": "uv", by the coordinates of the shape, with \[scale\], two numbers: see
+/// PlaneMap, GlobeMap, UvMap. Metals are gold, copper and silver.
 /// \{
-
-/// Whatever a scene file may name.
-template <std::floating_point T>
-using FileMaterialsT =
-    Materials<LambertianT<T>, OrenNayarT<T>, MirrorT<T>, GlassT<T>, EonT<T>, MetalT<T>,
-              GlossyT<T>, CompensatedGlossyT<T>, Textured<LambertianT<T>, CheckerT<T>>,
-              ThinGlassT<T>, SoapFilmT<T>>;
 
 namespace detail {
 
-constexpr double max_length = 1e9;
-constexpr double max_radiance = 1e12;
+// What the rows below ask of a material's fields.
+template <std::floating_point T>
+struct MaterialFields {
+    const JsonField& field;
 
-inline glm::dvec3 vector_field(const JsonField& field, double low, double high,
-                               std::string_view right) {
-    if (list_size(field) != 3) refuse_value(field, "a list of three numbers");
-    return {number(entry(field, 0), low, high, right),
-            number(entry(field, 1), low, high, right),
-            number(entry(field, 2), low, high, right)};
-}
+    T value(const char* name, double low, double high, std::string_view right) const {
+        return static_cast<T>(number(member(field, name), low, high, right));
+    }
+    bool has(const char* name) const { return find(field, name).has_value(); }
+    T unit(const char* name) const { return value(name, 0, 1, "within [0, 1]"); }
+    T slider(const char* name) const { return has(name) ? unit(name) : T(0); }
+    RgbT<T> color(const char* name) const {
+        return RgbT<T>{share_field(member(field, name))};
+    }
+    T degrees(const char* name) const {
+        return static_cast<T>(
+            number(member(field, name), 0, 90, "within [0, 90] degrees") *
+            std::numbers::pi / 180);
+    }
+    T ior() const { return value("ior", 1e-3, 1e3, "within [0.001, 1000]"); }
+    RgbT<T> absorption() const {
+        if (!has("absorption")) return RgbT<T>{T(0)};
+        return RgbT<T>{
+            vector_field(member(field, "absorption"), 0, 1e12, "within [0, 1e12]")};
+    }
+    T roughness() const {
+        const T rough = unit("roughness");
+        if (rough > T(0) && rough < min_roughness<T>)
+            refuse_value(member(field, "roughness"), "0 or within [0.01, 1]");
+        return rough;
+    }
+    GlossyT<T> gloss() const { return {color("reflectance"), roughness()}; }
+    ConductorIndexT<T> metal() const {
+        const JsonField metal = member(field, "metal");
+        require_one_of(metal, {"gold", "copper", "silver"});
+        if (text(metal) == "gold") return gold<T>;
+        return text(metal) == "copper" ? copper<T> : silver<T>;
+    }
+    GlossyT<T, ConductorIndexT<T>> rough_metal() const {
+        return {metal(), roughness()};
+    }
+    RoughDiffuseT<T> rough(RoughModel model) const {
+        return {color("albedo"), degrees("sigma_deg"), model};
+    }
+};
 
-inline glm::dvec3 point_field(const JsonField& field) {
-    return vector_field(field, -max_length, max_length, "within [-1e9, 1e9]");
-}
-
-inline glm::dvec3 share_field(const JsonField& field) {
-    return vector_field(field, 0, 1, "within [0, 1]");
-}
-
-// One of the names in a list.
-inline void require_one_of(const JsonField& field,
-                           const std::vector<std::string>& names) {
-    for (const std::string& name : names)
-        if (text(field) == name) return;
-    refuse_value(field, in_a_row(names, "or"));
+template <std::floating_point T>
+MixtureT<T> read_mixture(const MaterialFields<T>& in) {
+    MixtureT<T> mixture{.color = in.color("color"),
+                        .reflectivity = in.slider("reflectivity"),
+                        .transparency = in.slider("transparency"),
+                        .specularity = in.slider("specularity"),
+                        .absorption = in.absorption()};
+    if (in.has("ior")) mixture.index = in.ior();
+    if (in.has("sigma_deg")) mixture.sigma = in.degrees("sigma_deg");
+    if (in.has("emissivity"))
+        mixture.emissivity =
+            in.value("emissivity", 0, max_radiance, "within [0, 1e12]");
+    return mixture;
 }
 
 template <std::floating_point T>
-MetalT<T> read_metal(const JsonField& field) {
-    require_object(field, {"type", "metal"});
-    const JsonField metal = member(field, "metal");
-    require_one_of(metal, {"gold", "copper", "silver"});
-    if (text(metal) == "gold") return {.index = gold<T>};
-    return {.index = text(metal) == "copper" ? copper<T> : silver<T>};
-}
-
-template <std::floating_point T>
-CheckerT<T> read_checker(const JsonField& field) {
-    require_object(field, {"type", "even", "odd", "origin", "edge_u", "edge_v"});
-    const auto edge = [&](const char* name) {
-        const JsonField vector = member(field, name);
-        const Vec3T<T> found{point_field(vector)};
-        if (!std::isnormal(glm::dot(found, found)))
-            refuse_value(vector, "a vector that is not 0");
-        return found;
-    };
-    return {.map{.origin{point_field(member(field, "origin"))},
-                 .edge_u = edge("edge_u"),
-                 .edge_v = edge("edge_v")},
-            .even{share_field(member(field, "even"))},
-            .odd{share_field(member(field, "odd"))}};
-}
-
-template <std::floating_point T>
-SoapFilmT<T> read_film(const JsonField& field) {
-    require_object(field, {"type", "ior", "thickness_nm", "scale", "level", "up"});
-    SoapFilmT<T> film{.thickness = static_cast<T>(
-                          number(member(field, "thickness_nm"), 0,
-                                 double(max_film_thickness<T>), "within [0, 1e6] nm")),
-                      .index = static_cast<T>(
-                          number(member(field, "ior"), 1, 1e3, "within [1, 1000]"))};
-    if (find(field, "scale") || find(field, "level") || find(field, "up")) {
-        const JsonField scale = member(field, "scale"), up = member(field, "up");
-        film.scale = static_cast<T>(number(scale, 0, max_length, "within [0, 1e9]"));
-        film.level = Vec3T<T>{point_field(member(field, "level"))};
-        const glm::dvec3 way = point_field(up);
-        if (!(glm::dot(way, way) > 0)) refuse_value(up, "a vector that is not 0");
-        film.up = Vec3T<T>{glm::normalize(way)};
+SoapFilmT<T> read_film(const MaterialFields<T>& in) {
+    SoapFilmT<T> film{.thickness =
+                          in.value("thickness_nm", 0, double(max_film_thickness<T>),
+                                   "within [0, 1e6] nm"),
+                      .index = in.value("ior", 1, 1e3, "within [1, 1000]")};
+    if (in.has("scale") || in.has("level") || in.has("up")) {
+        const glm::dvec3 up = direction_field(member(in.field, "up"));
+        film.scale = in.value("scale", 0, max_length, "within [0, 1e9]");
+        film.level = Vec3T<T>{point_field(member(in.field, "level"))};
+        film.up = Vec3T<T>{glm::normalize(up)};
     }
     film.color = FilmColor::table;
     film.table = bake_film_table(film.index);
     return film;
 }
 
+// A material that a file can name, its fields besides `type`, and what reads them.
+template <std::size_t N, typename Read>
+struct MaterialRow {
+    const char* name;
+    std::array<const char*, N> fields;
+    Read read;
+};
+template <std::size_t N, typename Read>
+constexpr MaterialRow<N, Read> row(const char* name, const char* const (&fields)[N],
+                                   Read read) {
+    return {name, std::to_array(fields), read};
+}
+template <std::floating_point T, typename Texture>
+Textured<LambertianT<T>, Texture> white(Texture texture) {
+    return {{.albedo = RgbT<T>{T(1)}}, std::move(texture)};
+}
+
+// The table: a new material is a new row, and nothing else. The types that a scene of
+// a file lists, the reader of a name and the names in a message all follow from it.
+// [materials]
+template <std::floating_point T>
+constexpr auto material_rows() {
+    using In = const MaterialFields<T>&;
+    return std::tuple{
+        row("lambertian", {"albedo"},
+            [](In in) { return LambertianT<T>{in.color("albedo")}; }),
+        row("oren-nayar", {"albedo", "sigma_deg"},
+            [](In in) {
+                return OrenNayarT<T>{in.color("albedo"), in.degrees("sigma_deg")};
+            }),
+        row("mirror", {"reflectance"},
+            [](In in) { return MirrorT<T>{in.color("reflectance")}; }),
+        row("dielectric", {"ior", "absorption"},
+            [](In in) {
+                return GlassT<T>{in.ior(), in.absorption()};
+            }),
+        row("mixture",
+            {"color", "reflectivity", "transparency", "ior", "specularity",
+             "emissivity", "sigma_deg", "absorption"},
+            [](In in) { return read_mixture(in); }),
+        row("oren-nayar-full", {"albedo", "sigma_deg"},
+            [](In in) { return in.rough(RoughModel::full); }),
+        row("oren-nayar-printed", {"albedo", "sigma_deg"},
+            [](In in) { return in.rough(RoughModel::as_printed); }),
+        row("fujii", {"albedo", "sigma_deg"},
+            [](In in) { return in.rough(RoughModel::fujii); }),
+        row("fon", {"albedo", "roughness"},
+            [](In in) {
+                return RoughDiffuseT<T>{in.color("albedo"), in.unit("roughness"),
+                                        RoughModel::fon};
+            }),
+        row("eon", {"albedo", "roughness"},
+            [](In in) {
+                return EonT<T>{in.color("albedo"), in.unit("roughness")};
+            }),
+        row("metal", {"metal"}, [](In in) { return MetalT<T>{in.metal()}; }),
+        row("rough-metal", {"metal", "roughness"},
+            [](In in) { return in.rough_metal(); }),
+        row("full-rough-metal", {"metal", "roughness"},
+            [](In in) { return compensated_glossy(in.rough_metal()); }),
+        row("glossy", {"reflectance", "roughness"}, [](In in) { return in.gloss(); }),
+        row("full-glossy", {"reflectance", "roughness"},
+            [](In in) { return compensated_glossy(in.gloss()); }),
+        row("thin-glass", {"ior", "tint"},
+            [](In in) {
+                return ThinGlassT<T>{in.ior(), in.color("tint")};
+            }),
+        row("soap-film", {"ior", "thickness_nm", "scale", "level", "up"},
+            [](In in) { return read_film(in); }),
+        row("checker",
+            {"even", "odd", "map", "origin", "edge_u", "edge_v", "center", "scale",
+             "columns", "rows"},
+            [](In in) { return white<T>(read_checker<T>(in.field)); }),
+        row("picture", {"file", "map", "origin", "edge_u", "edge_v", "center", "scale"},
+            [](In in) { return white<T>(read_picture<T>(in.field)); })};
+}
+// [materials]
+
+// The types of the rows, each once: several names may stand for one type.
+template <typename... Listed, typename M>
+constexpr auto operator+(Materials<Listed...>, std::type_identity<M>) {
+    if constexpr ((std::is_same_v<M, Listed> || ...))
+        return Materials<Listed...>{};
+    else
+        return Materials<Listed..., M>{};
+}
+template <std::floating_point T, typename... Row>
+constexpr auto materials_of(const std::tuple<Row...>&) {
+    using In = const MaterialFields<T>&;
+    return (
+        Materials<>{} + ... +
+        std::type_identity<decltype(std::declval<Row>().read(std::declval<In>()))>{});
+}
+
+} // namespace detail
+
+/// Whatever a scene file may name.
+template <std::floating_point T>
+using FileMaterialsT = decltype(detail::materials_of<T>(detail::material_rows<T>()));
+
+namespace detail {
+
 template <typename Scene, std::floating_point T = typename Scene::Scalar>
 MaterialId read_material(const JsonField& field, Scene& scene) {
     if (!field.value.is_object()) refuse_value(field, "an object");
     const JsonField type = member(field, "type");
-    require_one_of(type,
-                   {"lambertian", "oren-nayar", "mirror", "dielectric", "eon", "metal",
-                    "glossy", "full-glossy", "checker", "thin-glass", "soap-film"});
-    const std::string& name = text(type);
-    const auto share = [&](const char* what) {
-        return RgbT<T>{share_field(member(field, what))};
+    MaterialId id{};
+    const auto read = [&](const auto& row) {
+        if (text(type) != row.name) return false;
+        std::vector<std::string> known{"type"};
+        known.insert(known.end(), row.fields.begin(), row.fields.end());
+        require_object(field, known);
+        try {
+            id = scene.add(row.read({field}));
+        } catch (const std::invalid_argument& error) {
+            refuse_for(field, error); // right for the file, though not for T
+        }
+        return true;
     };
-    const auto ior = [&] {
-        return static_cast<T>(
-            number(member(field, "ior"), 1e-3, 1e3, "within [0.001, 1000]"));
-    };
-    const auto roughness = [&] {
-        return static_cast<T>(
-            number(member(field, "roughness"), 0, 1, "within [0, 1]"));
-    };
-    if (name == "lambertian") {
-        require_object(field, {"type", "albedo"});
-        return scene.add(LambertianT<T>{.albedo = share("albedo")});
-    }
-    if (name == "oren-nayar") {
-        require_object(field, {"type", "albedo", "sigma_deg"});
-        const double degrees =
-            number(member(field, "sigma_deg"), 0, 90, "within [0, 90] degrees");
-        return scene.add(
-            OrenNayarT<T>{.albedo = share("albedo"),
-                          .sigma = static_cast<T>(degrees * std::numbers::pi / 180)});
-    }
-    if (name == "mirror") {
-        require_object(field, {"type", "reflectance"});
-        return scene.add(MirrorT<T>{.reflectance = share("reflectance")});
-    }
-    if (name == "eon") {
-        require_object(field, {"type", "albedo", "roughness"});
-        return scene.add(EonT<T>{.albedo = share("albedo"), .roughness = roughness()});
-    }
-    if (name == "metal") return scene.add(read_metal<T>(field));
-    if (name == "glossy" || name == "full-glossy") {
-        require_object(field, {"type", "reflectance", "roughness"});
-        const T rough = roughness();
-        if (rough > T(0) && rough < min_roughness<T>)
-            refuse_value(member(field, "roughness"), "0 or within [0.01, 1]");
-        const GlossyT<T> gloss{.reflectance = share("reflectance"), .roughness = rough};
-        if (name == "full-glossy") return scene.add(compensated_glossy(gloss));
-        return scene.add(gloss);
-    }
-    if (name == "thin-glass") {
-        require_object(field, {"type", "ior", "tint"});
-        return scene.add(ThinGlassT<T>{.index = ior(), .tint = share("tint")});
-    }
-    if (name == "soap-film") return scene.add(read_film<T>(field));
-    if (name == "checker")
-        return scene.add(Textured<LambertianT<T>, CheckerT<T>>{
-            {.albedo = RgbT<T>{T(1)}}, read_checker<T>(field)});
-    require_object(field, {"type", "ior"});
-    return scene.add(GlassT<T>{.index = ior()});
+    std::apply(
+        [&](const auto&... row) {
+            if (!(read(row) || ...)) require_one_of(type, {row.name...});
+        },
+        material_rows<T>());
+    return id;
 }
 
 } // namespace detail

@@ -40,7 +40,7 @@ struct NoMeshes {
     [[noreturn]] void operator()(const std::string& file, double,
                                  const std::string&) const {
         throw std::runtime_error(
-            file +
+            detail::shown_path(file) +
             ": meshes are not read here; load_json() must be given ObjMeshes, of "
             "ljus/io/load_obj.hpp, which needs tinyobjloader.");
     }
@@ -81,14 +81,11 @@ FlatShapesT<T> read_triangles(const JsonField& field) {
 // The meshes of an object's file.
 template <std::floating_point T, typename LoadMeshes>
 std::vector<MeshT<T>> read_meshes(const JsonField& field, LoadMeshes& load_meshes) {
-    const std::string file = text(member(field, "file"));
+    const std::string path = path_beside(member(field, "file"));
     const auto scale = find(field, "scale");
     const auto normals = find(field, "normals");
     if (normals) require_one_of(*normals, {"file", "smooth", "flat"});
     const double factor = scale ? number(*scale, 1e-9, 1e9, "within [1e-9, 1e9]") : 1.0;
-    const std::size_t slash = field.file.find_last_of("/\\");
-    const bool beside = slash != std::string::npos && file.substr(0, 1) != "/";
-    const std::string path = beside ? field.file.substr(0, slash + 1) + file : file;
     if constexpr (std::is_same_v<std::remove_cvref_t<LoadMeshes>, NoMeshes>)
         load_meshes(path, factor, normals ? text(*normals) : "file");
     else
@@ -112,7 +109,7 @@ void read_object(const JsonField& field,
     else
         require_object(field,
                        {"type", "name", "material", "emission", "vertices", "indices"});
-    if (const auto name = find(field, "name")) (void)text(*name);
+    (void)remark(field, "name");
 
     const JsonField material = member(field, "material");
     const auto known = materials.find(text(material));
@@ -132,7 +129,7 @@ void read_object(const JsonField& field,
             scene.add(shape, known->second, emission);
         } catch (const std::invalid_argument& error) {
             // What is too small or too large for T, though not for the file.
-            refuse(field, std::string("cannot be used: ") + error.what());
+            refuse_for(field, error);
         }
     };
     if (sphere) {

@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/io/detail/map_bytes.hpp
-/// \brief Numbers in a file of a map, the same on every machine; for photon_map_file.hpp and
-/// light_map_file.hpp.
+/// \brief Numbers in a file of a map, the same on every machine.
 
 #include <algorithm>
 #include <bit>
@@ -17,6 +16,13 @@ namespace ljus::detail {
 // checksum of all but these letters and itself.
 inline constexpr std::size_t map_magic_size = 16;
 inline constexpr std::size_t map_header = 40;
+
+// The most bytes of a file with so many entries; whoever sets no limit has none.
+inline std::size_t map_limit(std::size_t most, std::size_t bytes_of_one) noexcept {
+    const std::size_t all = static_cast<std::size_t>(-1);
+    return most < (all - map_header) / bytes_of_one ? map_header + most * bytes_of_one
+                                                    : all;
+}
 
 // Appends a number, its lowest byte first.
 template <typename Number>

@@ -3,6 +3,7 @@
 /// \file ljus/io/detail/obj_material.hpp
 /// \brief What mesh files say of materials.
 
+#include <algorithm>
 #include <sstream>
 
 #include <tiny_obj_loader.h>
@@ -22,13 +23,15 @@ inline constexpr std::size_t max_obj_file = std::size_t(1) << 30;
 /// What a material file says of a material; numbers as in the file, clamped to what
 /// they may be.
 struct ObjMaterial {
-    std::string name{};      ///< Empty for faces without a material.
-    glm::dvec3 diffuse{0.5}; ///< Kd, in [0, 1].
-    glm::dvec3 specular{0};  ///< Ks, in [0, 1].
-    glm::dvec3 emission{0};  ///< Ke, W/(m^2 sr), at least 0.
-    double index = 1.5;      ///< Ni, within [0.001, 1000].
-    double dissolve = 1;     ///< d: 0 is clear.
-    int illumination = 2;    ///< illum: 3, 5 and 8 mirror; 4, 6, 7 and 9 are glass.
+    std::string name{};       ///< Empty for faces without a material.
+    glm::dvec3 diffuse{0.5};  ///< Kd, in [0, 1].
+    glm::dvec3 specular{0};   ///< Ks, in [0, 1].
+    glm::dvec3 emission{0};   ///< Ke, W/(m^2 sr), at least 0.
+    double index = 1.5;       ///< Ni, within [0.001, 1000].
+    double dissolve = 1;      ///< d: 0 is clear.
+    int illumination = 2;     ///< illum: 3, 5 and 8 mirror; 4, 6, 7 and 9 are glass.
+    std::string picture{};    ///< map_Kd, which Kd multiplies: its path; empty: none.
+    std::string picture_at{}; ///< Where that stands: "room.mtl, line 12".
 
     /// Whether it is glass: by illum, or because d says that it is mostly clear.
     [[nodiscard]] bool is_glass() const noexcept {
@@ -60,6 +63,20 @@ inline ObjMaterial material_of(const tinyobj::material_t& from) {
             .illumination = from.illum};
 }
 
+// The line of a material file that names a picture, from 1; 0 for none.
+inline long long line_of_picture(std::string_view text, std::string_view picture) {
+    LineEnd end{};
+    for (long long number = 1; end.next < text.size(); ++number) {
+        const std::size_t begin = end.next;
+        end = line_end(text, begin);
+        const auto line = text.substr(begin, end.last - begin);
+        const auto words = words_of(line);
+        if (!words.empty() && words[0] == "map_Kd" && line.find(picture) != line.npos)
+            return number;
+    }
+    return 0;
+}
+
 // The materials of all files that a mesh file names; the first of a name counts.
 inline std::map<std::string, ObjMaterial>
 read_materials(std::string_view text, const std::string& folder, ObjReport& report) {
@@ -72,15 +89,28 @@ read_materials(std::string_view text, const std::string& folder, ObjReport& repo
         if (words.empty() || words[0] != "mtllib") continue;
         for (std::size_t i = 1; i < words.size(); ++i) {
             try {
-                const Bytes bytes =
-                    load_file(folder + std::string(words[i]), max_obj_file);
-                std::istringstream stream(std::string(bytes.begin(), bytes.end()));
+                const std::string path = folder + std::string(words[i]);
+                const Bytes bytes = load_file(path, max_obj_file);
+                const std::string lines(bytes.begin(), bytes.end());
+                std::istringstream stream(lines);
                 std::map<std::string, int> names;
                 std::vector<tinyobj::material_t> found;
                 std::string warning, error;
                 tinyobj::LoadMtl(&names, &found, &stream, &warning, &error);
-                for (const auto& material : found)
-                    materials.try_emplace(material.name, material_of(material));
+                for (const auto& material : found) {
+                    ObjMaterial made = material_of(material);
+                    if (std::string picture = material.diffuse_texname;
+                        !picture.empty()) {
+                        made.picture_at =
+                            shown_path(path) + ", line " +
+                            std::to_string(line_of_picture(lines, picture));
+                        std::replace(picture.begin(), picture.end(), '\\', '/');
+                        const bool whole = picture[0] == '/';
+                        const std::size_t slash = path.find_last_of("/\\") + 1;
+                        made.picture = (whole ? "" : path.substr(0, slash)) + picture;
+                    }
+                    materials.try_emplace(material.name, std::move(made));
+                }
             } catch (const std::runtime_error&) {
                 report.add(ObjTrouble::no_library, number);
             }

@@ -7,16 +7,10 @@
 
 #include "ljus/io/detail/json_field.hpp"
 
-namespace ljus {
+namespace ljus::detail {
 
-/// \defgroup parse_json Reading JSON
-/// \brief Optional (nlohmann-json): an error in the text names line and column.
-/// \{
-
-/// The deepest nesting of lists and objects that parse_json() takes.
+// The deepest nesting of lists and objects that parse_json() takes.
 inline constexpr std::size_t max_json_depth = 32;
-
-namespace detail {
 
 // Receives what nlohmann's parser reads, piece by piece, and keeps it as one value.
 struct JsonBuilder {
@@ -45,7 +39,8 @@ struct JsonBuilder {
     bool key(std::string& name) {
         keys.back() = name;
         if (open.back()->contains(name))
-            throw std::runtime_error(file + ": " + path() + " is there twice.");
+            throw std::runtime_error(shown_path(file) + ": " + path() +
+                                     " is there twice.");
         return true;
     }
 
@@ -58,8 +53,9 @@ struct JsonBuilder {
             column = c == '\n' ? 0 : column + 1;
             line += c == '\n' ? 1 : 0;
         }
-        std::string message = file + ": line " + std::to_string(line) + ", column " +
-                              std::to_string(column == 0 ? 1 : column) + ": ";
+        std::string message = shown_path(file) + ": line " + std::to_string(line) +
+                              ", column " + std::to_string(column == 0 ? 1 : column) +
+                              ": ";
         std::string why = error.what();
         if (error.id == 406) { // a number beyond the range of double
             why = path() + " is " + token + "; it must be finite";
@@ -100,9 +96,10 @@ private:
 
     bool begin(nlohmann::json value) {
         if (open.size() == max_json_depth)
-            throw std::runtime_error(
-                file + ": " + shown(path(), 96) + " is nested too deeply; at most " +
-                std::to_string(max_json_depth) + " levels are allowed.");
+            throw std::runtime_error(shown_path(file) + ": " + shown(path(), 96) +
+                                     " is nested too deeply; at most " +
+                                     std::to_string(max_json_depth) +
+                                     " levels are allowed.");
         open.push_back(place(std::move(value)));
         keys.emplace_back();
         return true;
@@ -115,24 +112,16 @@ private:
     }
 };
 
-} // namespace detail
-
-/// Reads JSON.
-/// \param source  The text.
-/// \param file    What messages call it: the name of the file.
-/// \return The value.
-/// \throws std::runtime_error  with line and column: "scene.json: line 3, column 7:
-///         unexpected end of input; expected '}'."; or with the path of a member that
-///         is there twice, or of a value that is nested too deeply.
+// Reads JSON. `file` is what messages call it; they give line and column, "scene.json:
+// line 3, column 7: unexpected end of input; expected '}'.", or the path of a member
+// that is there twice, or of a value that is nested too deeply.
 [[nodiscard]] inline nlohmann::json parse_json(std::string_view source,
                                                const std::string& file) {
     if (source.find_first_not_of(" \t\r\n") == std::string_view::npos)
-        throw std::runtime_error(file + ": the file is empty.");
-    detail::JsonBuilder builder{.source = source, .file = file};
+        throw std::runtime_error(shown_path(file) + ": the file is empty.");
+    JsonBuilder builder{.source = source, .file = file};
     nlohmann::json::sax_parse(source.begin(), source.end(), &builder);
     return std::move(builder.root);
 }
 
-/// \}
-
-} // namespace ljus
+} // namespace ljus::detail

@@ -1,0 +1,130 @@
+#pragma once
+
+/// \file ljus/io/detail/json_textures.hpp
+/// \brief Vectors and colours of a scene file, and the textures made of them.
+
+#include <variant>
+
+#include <nlohmann/json.hpp>
+
+#include "ljus/image/texture.hpp"
+#include "ljus/io/detail/json_field.hpp"
+#include "ljus/io/load_image.hpp"
+
+namespace ljus::detail {
+
+inline constexpr double max_length = 1e9;
+inline constexpr double max_radiance = 1e12;
+
+inline glm::dvec3 vector_field(const JsonField& field, double low, double high,
+                               std::string_view right) {
+    if (list_size(field) != 3) refuse_value(field, "a list of three numbers");
+    return {number(entry(field, 0), low, high, right),
+            number(entry(field, 1), low, high, right),
+            number(entry(field, 2), low, high, right)};
+}
+
+inline glm::dvec3 point_field(const JsonField& field) {
+    return vector_field(field, -max_length, max_length, "within [-1e9, 1e9]");
+}
+
+// A vector that says where to.
+inline glm::dvec3 direction_field(const JsonField& field) {
+    const glm::dvec3 way = point_field(field);
+    if (!(glm::dot(way, way) > 0)) refuse_value(field, "a vector that is not 0");
+    return way;
+}
+
+inline glm::dvec3 share_field(const JsonField& field) {
+    return vector_field(field, 0, 1, "within [0, 1]");
+}
+
+// Any of the maps: which one is known when the file is read.
+template <std::floating_point T>
+struct FileMapT {
+    static constexpr bool uses_uv = true; // one of them does
+    std::variant<PlaneMapT<T>, GlobeMapT<T>, UvMapT<T>> map{};
+};
+template <std::floating_point T>
+[[nodiscard]] Vec2T<T> coordinates(const FileMapT<T>& any, const Vec3T<T>& place,
+                                   const Vec2T<T>& uv) noexcept {
+    return std::visit([&](const auto& map) { return coordinates(map, place, uv); },
+                      any.map);
+}
+template <std::floating_point T>
+void check(const FileMapT<T>& any) {
+    std::visit([](const auto& map) { check(map); }, any.map);
+}
+
+// The map of a texture: a plane, unless its `map` says another one.
+template <std::floating_point T>
+FileMapT<T> read_map(const JsonField& field) {
+    std::string kind = "plane";
+    if (const auto map = find(field, "map")) {
+        require_one_of(*map, {"plane", "globe", "uv"});
+        kind = text(*map);
+    }
+    constexpr const char* owners[][2]{{"origin", "plane"},
+                                      {"edge_u", "plane"},
+                                      {"edge_v", "plane"},
+                                      {"center", "globe"},
+                                      {"scale", "uv"}};
+    for (const auto& [name, owner] : owners)
+        if (const auto other = find(field, name); other && kind != owner)
+            refuse(*other, std::string("belongs to the map \"")
+                               .append(owner)
+                               .append("\", and the map here is \"")
+                               .append(kind)
+                               .append("\""));
+    if (kind == "globe")
+        return {GlobeMapT<T>{.center{point_field(member(field, "center"))}}};
+    if (kind == "plane") {
+        const auto edge = [&](const char* name) {
+            const JsonField vector = member(field, name);
+            const Vec3T<T> found{point_field(vector)};
+            if (!std::isnormal(glm::dot(found, found)))
+                refuse_value(vector, "a vector that is not 0");
+            return found;
+        };
+        return {PlaneMapT<T>{.origin{point_field(member(field, "origin"))},
+                             .edge_u = edge("edge_u"),
+                             .edge_v = edge("edge_v")}};
+    }
+    UvMapT<T> map;
+    if (const auto scale = find(field, "scale")) {
+        if (list_size(*scale) != 2) refuse_value(*scale, "a list of two numbers");
+        for (int i = 0; i < 2; ++i)
+            map.scale[i] = static_cast<T>(
+                number(entry(*scale, std::size_t(i)), -1e6, 1e6, "within [-1e6, 1e6]"));
+    }
+    return {map};
+}
+
+template <std::floating_point T>
+CheckerT<T, FileMapT<T>> read_checker(const JsonField& field) {
+    CheckerT<T, FileMapT<T>> checker{.map = read_map<T>(field),
+                                     .even{share_field(member(field, "even"))},
+                                     .odd{share_field(member(field, "odd"))}};
+    const auto count = [&](const char* name, int& fields) {
+        if (const auto found = find(field, name))
+            fields = static_cast<int>(whole_number(*found, 2, 1'000'000));
+    };
+    count("columns", checker.columns);
+    count("rows", checker.rows);
+    return checker;
+}
+
+template <std::floating_point T>
+PictureTextureT<T, FileMapT<T>> read_picture(const JsonField& field) {
+    PictureTextureT<T, FileMapT<T>> texture{.map = read_map<T>(field)};
+    const JsonField file = member(field, "file");
+    const std::string path = path_beside(file);
+    try {
+        texture.image = load_image<T>(path);
+    } catch (const std::runtime_error& error) {
+        refuse_for(file, error);
+    }
+    return texture;
+}
+
+} // namespace ljus::detail
