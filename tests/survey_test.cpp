@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "ljus/render/photon_mapping.hpp"
+#include "ljus/render/render.hpp"
 #include "support/rooms.hpp"
 
 using namespace ljus;
@@ -40,11 +41,11 @@ TEST_CASE("survey: each pass is on or off for a reason that is printed") {
     CHECK_FALSE(plan.general_map.on);
     CHECK(plan.general_map.why == "no ray asks it");
     CHECK_FALSE(plan.shadow_photons.on);
-    CHECK_FALSE(plan.flat_loop.on);
-    CHECK(plan.flat_loop.why == "8 objects, a tree is faster from 3 on");
+    CHECK(plan.tree.on);
+    CHECK(plan.tree.why == "8 objects, a tree finds the first on a ray");
     Room one;
     one.add(Sphere{}, one.add(Lambertian{}));
-    CHECK(survey(one, settings).flat_loop.on);
+    CHECK_FALSE(survey(one, settings).tree.on);
 
     plan = survey(matt, settings);
     CHECK_FALSE(plan.caustics_map.on);
@@ -103,6 +104,21 @@ TEST_CASE("survey: each pass is on or off for a reason that is printed") {
         CHECK(std::string(item->pass).size() > 0);
         CHECK(item->why.size() > 0);
     }
+}
+
+TEST_CASE("survey: what the plan leaves out is not done") {
+    Room dark;
+    add_walls(dark); // nothing is lit, so no ray looks for light
+    const PhotonMapsT<float> none{};
+    const auto mapper = make_photon_mapper(dark, none);
+    CHECK_FALSE(mapper.indirect_rays);
+    const auto picture =
+        render(mapper, room_camera<float>(), {.width = 4, .height = 4, .samples = 2});
+    CHECK(picture.counts.rays() == picture.counts.camera_rays);
+    Room lit;
+    add_walls(lit);
+    add_lamps(lit, Lamp::quad, 1);
+    CHECK(make_photon_mapper(lit, none).indirect_rays);
 }
 
 TEST_CASE("survey: settings that give no picture are refused") {

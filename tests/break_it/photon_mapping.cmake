@@ -41,3 +41,9 @@ ljus_break_it(NAME photon-mapping-start HEADER path/next_vertex.hpp TEST photon_
     FROM "glm::dot(vertex->frame.normal, path.ray.direction) > T(0)"
     TO   "false"
     CASES "photon mapping: lamps and matt balls*")
+
+# The plan says that nothing is lit, and rays look for light all the same.
+ljus_break_it(NAME photon-mapping-plan HEADER render/photon_mapping.hpp TEST survey
+    FROM "survey(scene, settings).indirect_rays.on"
+    TO   "settings.max_depth > 0"
+    CASES "survey: what the plan leaves out*")

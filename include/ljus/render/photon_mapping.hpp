@@ -48,6 +48,8 @@ template <SceneLike S>
 make_photon_maps(const S& scene, const PhotonMappingSettings& settings = {}) {
     check(settings);
     const Plan plan = survey(scene, settings);
+    PhotonPassSettings general = settings.general;
+    general.shadow_photons = plan.shadow_photons.on;
     PhotonMapsT<typename S::Scalar> maps;
     const auto run = [&](MapType type, const PhotonPassSettings& pass, auto& map,
                          auto& audit) {
@@ -60,7 +62,7 @@ make_photon_maps(const S& scene, const PhotonMappingSettings& settings = {}) {
     if (plan.caustics_map.on)
         run(MapType::caustics, settings.caustics, maps.caustics, maps.caustics_audit);
     if (plan.general_map.on)
-        run(MapType::general, settings.general, maps.general, maps.general_audit);
+        run(MapType::general, general, maps.general, maps.general_audit);
     return maps;
 }
 
@@ -71,6 +73,7 @@ struct PhotonMapper {
     IndexedT<S> scene;           ///< What is rendered.
     const PhotonMapsT<typename S::Scalar>& maps; ///< Of the first pass.
     PhotonMappingSettings settings;              ///< How.
+    bool indirect_rays; ///< Whether the plan has rays between diffuse surfaces.
 };
 
 /// Makes a photon mapper.
@@ -85,7 +88,8 @@ template <SceneLike S>
 make_photon_mapper(const S& scene, const PhotonMapsT<typename S::Scalar>& maps,
                    const PhotonMappingSettings& settings = {}) {
     check(settings);
-    return {IndexedT<S>(scene), maps, settings};
+    return {IndexedT<S>(scene), maps, settings,
+            survey(scene, settings).indirect_rays.on};
 }
 /// Not of a temporary: the scene would be gone before it is rendered.
 template <SceneLike S>
@@ -197,9 +201,7 @@ template <SceneLike S, std::floating_point T, typename Log = NoLog>
                         return true;
                     }
                 // Go on by one branch; after gathering, by mirrors and glass only.
-                const bool by_rays =
-                    !gather && (settings.indirect == IndirectLight::rays ||
-                                settings.indirect == IndirectLight::map);
+                const bool by_rays = !gather && mapper.indirect_rays;
                 return continue_path(path, *vertex, material, Transport::radiance,
                                      by_rays ? Lobes::all : Lobes::specular, stream);
             };

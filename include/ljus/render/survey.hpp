@@ -7,8 +7,7 @@
 #include <string>
 
 #include "ljus/path/next_vertex.hpp"
-#include "ljus/photons/photon_map.hpp"
-#include "ljus/photons/tracing.hpp"
+#include "ljus/render/photon_mapping_settings.hpp"
 #include "ljus/scene/index.hpp"
 
 namespace ljus {
@@ -16,47 +15,6 @@ namespace ljus {
 /// \defgroup survey The survey
 /// \brief "Model only what a scene requires": each pass says what it needs of a scene.
 /// \{
-
-/// Where light that has met two diffuse surfaces comes from.
-enum class IndirectLight : std::uint8_t {
-    rays,    ///< Indirect rays, on and on.
-    map,     ///< One indirect ray, and the general map where it ends.
-    photons, ///< The general map's indirect photons where the camera looks: no indirect
-             ///< ray and little noise, but their light is blurred by the radius.
-    none     ///< Nowhere: direct light and caustics only.
-};
-
-/// How the report's renderer works. Lengths are in scene units.
-struct PhotonMappingSettings {
-    int max_depth = 1000;     ///< Surfaces on a camera path, mirrors and glass counted.
-    int roulette_depth = 4;   ///< From this surface on, roulette may end a path.
-    int shadow_rays = 1;      ///< Shadow rays to each light, at least 1.
-    bool split_glass = false; ///< At glass before anything matt, go both ways.
-    IndirectLight indirect = IndirectLight::rays; ///< Who carries indirect light.
-    PhotonPassSettings caustics{}; ///< Photons aimed at mirrors and glass.
-    PhotonPassSettings general{};  ///< Photons for all the rest.
-    DensityEstimateSettings caustics_estimate{}; ///< How caustics are estimated.
-    DensityEstimateSettings general_estimate{
-        .radius = 0.3f}; ///< How the general map is asked.
-    bool keep_general_map =
-        false; ///< Make the general map, even if no ray will ask it.
-};
-
-/// Refuses settings that give no picture.
-/// \param settings  The settings.
-/// \throws std::invalid_argument  with name and value.
-inline void check(const PhotonMappingSettings& settings) {
-    require(settings.max_depth >= 1, "max_depth",
-            static_cast<long long>(settings.max_depth), "at least 1");
-    require(settings.shadow_rays >= 1, "shadow_rays",
-            static_cast<long long>(settings.shadow_rays), "at least 1");
-    require(settings.caustics.photons >= 0, "caustics.photons",
-            settings.caustics.photons, "at least 0");
-    require(settings.general.photons >= 0, "general.photons", settings.general.photons,
-            "at least 0");
-    check(settings.caustics_estimate);
-    check(settings.general_estimate);
-}
 
 /// Whether a pass runs, and why or why not.
 struct PlanItem {
@@ -72,13 +30,13 @@ struct Plan {
     PlanItem caustics_map;   ///< Photons through mirrors and glass.
     PlanItem general_map;    ///< Direct, indirect and shadow photons.
     PlanItem shadow_photons; ///< Part of the general map.
-    PlanItem thin_film;      ///< Rays go straight on through soap films.
-    PlanItem flat_loop;      ///< How the first object on a ray is found.
+    PlanItem thin_film;      ///< Paths pass through soap films.
+    PlanItem tree;           ///< Over the shapes, or a loop over all of them.
 
     /// All items, in the order in which they are printed.
     [[nodiscard]] std::array<const PlanItem*, 7> items() const& {
         return {&shadow_rays,    &indirect_rays, &caustics_map, &general_map,
-                &shadow_photons, &thin_film,     &flat_loop};
+                &shadow_photons, &thin_film,     &tree};
     }
     /// Not of a temporary: the items would be gone before they are read.
     std::array<const PlanItem*, 7> items() const&& = delete;
@@ -124,7 +82,8 @@ template <SceneLike S>
 /// Says which passes a scene requires.
 /// \param scene     The scene.
 /// \param settings  What the user asks for.
-/// \return The plan; printed by examples, obeyed by make_photon_maps().
+/// \return The plan. make_photon_maps() and make_photon_mapper() obey it; thin films and
+///         the tree are decided by the same questions where a ray is traced.
 // [survey]
 template <SceneLike S>
 [[nodiscard]] Plan survey(const S& scene, const PhotonMappingSettings& settings) {
@@ -171,15 +130,14 @@ template <SceneLike S>
         item("shadow photons", shadows,
              shadows ? "the general map keeps them" : "no map keeps them");
     const bool films = has_thin_surfaces(scene);
-    plan.thin_film = item("thin film", films,
-                          films ? "rays go straight on through the listed films"
-                                : "no material is one");
-    const bool few = found.objects <= flat_loop_limit;
-    plan.flat_loop = item("flat loop", few,
-                          std::to_string(found.objects) +
-                              (few ? std::string(" object(s), no need for a tree")
-                                   : std::string(" objects, a tree is faster from ") +
-                                         std::to_string(flat_loop_limit + 1) + " on"));
+    plan.thin_film =
+        item("thin film", films,
+             films ? "paths pass through the listed films" : "no material is one");
+    const bool tree = needs_tree(found.objects);
+    plan.tree = item("tree", tree,
+                     std::to_string(found.objects) +
+                         (tree ? " objects, a tree finds the first on a ray"
+                               : " object(s), a loop asks each"));
     return plan;
 }
 // [survey]

@@ -18,6 +18,12 @@ namespace ljus {
 /// 3, 4, ... objects, the loop takes 34, 45, 53, ... ns a ray and the tree 35, 41, 45.
 inline constexpr std::size_t flat_loop_limit = 2;
 
+/// Whether a tree finds the first of so many shapes on a ray, or a loop over all.
+/// \param shapes  How many.
+[[nodiscard]] constexpr bool needs_tree(std::size_t shapes) noexcept {
+    return shapes > flat_loop_limit;
+}
+
 /// A box around a shape of any type: its own bounds(), or those of its bounding sphere.
 /// \param shape  The shape.
 /// \return The box.
@@ -48,7 +54,7 @@ struct IndexedScene {
     IndexedScene(const S& of)
         : scene(of), shapes(of.shapes), objects(of.objects), materials(of.materials),
           lights(of.lights) {
-        if (scene.size() <= flat_loop_limit) return;
+        if (!needs_tree(scene.size())) return;
         std::vector<BoxT<Scalar>> boxes;
         std::vector<ObjectId> all;
         std::uint32_t type = 0;
