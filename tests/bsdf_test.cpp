@@ -63,7 +63,9 @@ TEST_CASE("bsdf: a material that emits says so, and its word counts") {
 }
 
 TEST_CASE("bsdf: lobes are a set") {
-    CHECK((Lobes::diffuse | Lobes::specular) == Lobes::all);
+    CHECK((Lobes::diffuse | Lobes::glossy) == Lobes::non_specular);
+    CHECK((Lobes::non_specular | Lobes::specular) == Lobes::all);
+    CHECK_FALSE(ljus::has(Lobes::glossy, Lobes::diffuse));
     CHECK((Lobes::all & Lobes::specular) == Lobes::specular);
     CHECK((Lobes::diffuse & Lobes::specular) == Lobes::none);
     CHECK(ljus::has(Lobes::all, Lobes::non_specular));

@@ -125,7 +125,7 @@ TEST_CASE("full glossy: samples follow the density, weight is f cos over it") {
                                                        .roughness = roughness}),
                        out, Lobes::all, seed);
         check_sampling(metal(ljus::gold<double>, double(roughness)), Vec3T<double>(out),
-                       Lobes::diffuse, seed + 100);
+                       Lobes::glossy, seed + 100);
     }
 }
 
@@ -153,7 +153,7 @@ TEST_CASE("full glossy: with roughness 0 it is the mirror that gloss is") {
     CHECK(s->weight == of_gloss->weight);
     CHECK(ljus::is_black(evaluate(m, wo, ljus::reflect(wo))));
     CHECK(pdf(m, wo, ljus::reflect(wo)) == 0);
-    CHECK_FALSE(sample(m, wo, u, Transport::flux, Lobes::diffuse));
+    CHECK_FALSE(sample(m, wo, u, Transport::flux, Lobes::glossy));
 }
 
 TEST_CASE("full glossy: what is not made by compensated_glossy() is refused by name") {

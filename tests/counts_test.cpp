@@ -44,7 +44,7 @@ TEST_CASE("counts: one shadow ray a light and surface, one ray a bounce") {
     PhotonMappingSettings settings;
     const auto maps = make_photon_maps(room, settings);
     const auto mapped =
-        render(PhotonMapper<Room>{room, maps, settings}, camera, picture);
+        render(make_photon_mapper(room, maps, settings), camera, picture);
     CHECK(mapped.counts.camera_rays == 400);
     CHECK(mapped.counts.shadow_rays == 800);
     CHECK(mapped.counts.bounce_rays == 400);
@@ -57,7 +57,7 @@ TEST_CASE("counts: one shadow ray a light and surface, one ray a bounce") {
     // Depth 1: direct light only, and no other ray.
     settings.max_depth = 1;
     const auto direct =
-        render(PhotonMapper<Room>{room, maps, settings}, camera, picture);
+        render(make_photon_mapper(room, maps, settings), camera, picture);
     CHECK(direct.counts.shadow_rays == 800);
     CHECK(direct.counts.bounce_rays == 0);
 }
@@ -73,7 +73,7 @@ TEST_CASE("counts: passes that are off make no photon and ask no query") {
         const Plan plan = survey(room, settings);
         CHECK(plan.caustics_map.on == !maps.caustics.empty());
         CHECK(plan.general_map.on == !maps.general.empty());
-        return render(PhotonMapper<Room>{room, maps, settings}, camera, picture).counts;
+        return render(make_photon_mapper(room, maps, settings), camera, picture).counts;
     };
     // No mirror, no glass: no caustics.
     const Room matt = make_room<float>(Ball::lambertian, Lamp::quad, 1);

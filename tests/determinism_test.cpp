@@ -73,7 +73,7 @@ TEST_CASE_TEMPLATE("determinism: the same seed gives the same bytes on any numbe
             .width = 37, .height = 23, .samples = 3, .seed = seed, .threads = threads};
     };
     const auto tracer = make_path_tracer(room);
-    const PhotonMapper<RoomT<T>> mapper{room, maps, settings_with<T>(7, 1)};
+    const auto mapper = make_photon_mapper(room, maps, settings_with<T>(7, 1));
     const auto traced = render(tracer, camera, picture(1, 5));
     const auto mapped = render(mapper, camera, picture(1, 5));
     for (const int threads : {1, 2, 3, 4}) {
@@ -115,10 +115,9 @@ TEST_CASE("determinism: the two photon passes draw different numbers") {
 TEST_CASE("determinism: float and double render the same room") {
     const auto picture = RenderSettings{
         .width = 12, .height = 12, .samples = 100, .seed = 3, .threads = 1};
+    const auto single = make_room<float>(Ball::glass, Lamp::quad, 1);
     const auto a =
-        render(make_path_tracer(make_room<float>(Ball::glass, Lamp::quad, 1)),
-               room_camera<float>(), picture)
-            .image;
+        render(make_path_tracer(single), room_camera<float>(), picture).image;
     const auto room = make_room<double>(Ball::glass, Lamp::quad, 1);
     const auto b = render(make_path_tracer(room), room_camera<double>(), picture).image;
     double x = 0, y = 0;

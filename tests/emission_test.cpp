@@ -327,6 +327,29 @@ TEST_CASE("emission: lights are chosen by their power, and keep their colours") 
         CHECK(sum[c] == doctest::Approx(total[c]).epsilon(0.02));
 }
 
+TEST_CASE("emission: aimed at one ball, the plain way and the general one agree") {
+    Stage stage;
+    const Sphere ball{.center{0.5f, -1, 2}, .radius = 0.75f};
+    stage.scene.add(ball, stage.glass);
+    stage.scene.add(PointLight{.position{-1, 2, 0.5f}, .intensity = Rgb{3, 2, 1}});
+    const auto targets = specular_objects(stage.scene);
+    const auto choice = light_choice(stage.scene.lights);
+    for (std::uint64_t path = 0; path < 1000; ++path) {
+        auto stream = random_stream(4, Pass::user, 0, path);
+        auto again = stream;
+        const auto aimed = aim(stage.scene, choice, targets, stream);
+        REQUIRE(aimed);
+        (void)next_1d(again); // the light, the point of it, the target
+        (void)next_2d(again);
+        (void)next_1d(again);
+        const auto plain = aim_at_ball(stage.scene.lights[0], ball, next_2d(again));
+        REQUIRE(plain.ray.direction == aimed->photon.ray.direction);
+        REQUIRE(glm::distance(plain.flux, aimed->photon.flux) <
+                1e-6f * glm::length(plain.flux));
+        REQUIRE(intersect(plain.ray, ball));
+    }
+}
+
 TEST_CASE("emission: what is mirror or glass is what photons are aimed at") {
     Stage stage;
     stage.scene.add(Sphere{}, stage.matt);

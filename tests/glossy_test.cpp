@@ -116,7 +116,7 @@ TEST_CASE("glossy: samples follow the density, weight is f cos over it") {
                        out, Lobes::all, seed);
         check_sampling(MetalOf<double>{.reflectance = ljus::gold<double>,
                                        .roughness = double(roughness)},
-                       Vec3T<double>(out), Lobes::diffuse, seed + 100);
+                       Vec3T<double>(out), Lobes::glossy, seed + 100);
     }
 }
 
@@ -181,7 +181,7 @@ TEST_CASE("glossy: the smoother, the more a mirror; at roughness 0 it is one") {
     CHECK(s->specular);
     CHECK(s->wi == ljus::reflect(wo));
     CHECK(s->weight == ljus::facet_reflectance(mirror.reflectance, wo.z));
-    CHECK_FALSE(sample(mirror, wo, u, Transport::flux, Lobes::diffuse));
+    CHECK_FALSE(sample(mirror, wo, u, Transport::flux, Lobes::glossy));
 
     double farther = 1;
     for (const double roughness : {0.3, 0.1, 0.03, 0.01}) {

@@ -132,7 +132,7 @@ TEST_CASE("path log: each term of the photon mapper has the one owner of the tab
         settings.caustics = {.photons = 20000, .threads = 1};
         settings.general = {.photons = 20000, .threads = 1};
         const auto maps = make_photon_maps(room, settings);
-        const PhotonMapper<Room> mapper{room, maps, settings};
+        const auto mapper = make_photon_mapper(room, maps, settings);
         Counts counts;
         std::map<std::string, std::set<std::string>> owners;
         std::map<std::string, int> terms;
@@ -218,7 +218,7 @@ TEST_CASE("path log: the two renderers bring the same light, class of paths by c
         a.push_back(run(make_path_tracer(room), 100 + s));
         settings.caustics = {.photons = 50000, .seed = s, .threads = 1};
         const auto maps = make_photon_maps(room, settings);
-        b.push_back(run(PhotonMapper<Room>{room, maps, settings}, s));
+        b.push_back(run(make_photon_mapper(room, maps, settings), s));
     }
     int compared = 0;
     std::set<std::string> found;
@@ -260,7 +260,7 @@ TEST_CASE("path log: a mirror and a ball of glass cast no shadow ray") {
     const Camera camera = look_at({.position{0, 0, 1}, .target{0, 0, -2}});
     for (const Counts& counts :
          {render(make_path_tracer(room), camera, picture).counts,
-          render(PhotonMapper<Room>{room, maps, settings}, camera, picture).counts}) {
+          render(make_photon_mapper(room, maps, settings), camera, picture).counts}) {
         CHECK(counts.camera_rays == 16 * 16 * 4);
         CHECK(counts.bounce_rays > counts.camera_rays);
         CHECK(counts.shadow_rays == 0);
@@ -285,7 +285,7 @@ TEST_CASE("path log: a gather ray that reaches a lamp adds nothing") {
         settings.caustics.photons = 5000;
         settings.general.photons = 5000;
         const auto maps = make_photon_maps(room, settings);
-        const PhotonMapper<Room> mapper{room, maps, settings};
+        const auto mapper = make_photon_mapper(room, maps, settings);
         Counts counts;
         for (std::uint64_t path = 0; path < 2000; ++path) {
             auto stream = random_stream(1, Pass::camera, 0, path);

@@ -145,7 +145,7 @@ TEST_CASE("photon mapping: equals path tracing, material by material and light b
                     settings.caustics = {.photons = 30000, .seed = seed, .threads = 1};
                     settings.caustics_estimate = {.radius = 0.03f};
                     const auto maps = make_photon_maps(room, settings);
-                    const PhotonMapper<Room> mapper{room, maps, settings};
+                    const auto mapper = make_photon_mapper(room, maps, settings);
                     mapped.add(render(mapper, camera,
                                       {.width = size,
                                        .height = size,
@@ -285,7 +285,7 @@ TEST_CASE(
             settings.general_estimate.radius = i == 0 ? 0.16f : 0.04f;
             const auto maps = make_photon_maps(room, settings);
             Blocks mapped;
-            const PhotonMapper<Room> mapper{room, maps, settings};
+            const auto mapper = make_photon_mapper(room, maps, settings);
             mapped.add(
                 render(mapper, camera,
                        {.width = size, .height = size, .samples = 4, .threads = 1})
@@ -347,7 +347,7 @@ TEST_CASE("photon mapping: a matt ball embedded in glass in a furnace") {
             settings.caustics = {.photons = 10000, .seed = seed, .threads = 1};
             settings.caustics_estimate = way.gather;
             const auto maps = make_photon_maps(room, settings);
-            const PhotonMapper<Room> mapper{room, maps, settings};
+            const auto mapper = make_photon_mapper(room, maps, settings);
             // Towards the centre from all around.
             seen.add(mean_radiance(mapper, 2000, seed, [](RandomStream& stream) {
                          const Vec3 from =
@@ -409,7 +409,7 @@ TEST_CASE("photon mapping: lamps and matt balls within clear and coloured glass"
                 settings.caustics = {.photons = 10000, .seed = seed, .threads = 1};
                 settings.caustics_estimate = {.radius = 0.1f};
                 const auto maps = make_photon_maps(room, settings);
-                const PhotonMapper<Room> mapper{room, maps, settings};
+                const auto mapper = make_photon_mapper(room, maps, settings);
                 mapped.add(mean_radiance(mapper, 6000, seed, ray).mean);
             }
             CAPTURE(static_cast<int>(within));

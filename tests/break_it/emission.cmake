@@ -71,3 +71,9 @@ ljus_break_it(NAME aim-sun HEADER photons/aiming.hpp TEST emission
     FROM "return std::numbers::pi_v<T> * radius * radius;"
     TO   "return radius * radius;"
     CASES "emission: aimed photons bring*")
+
+# The plain way to aim: as if the light sent all of its flux into half of the sphere.
+ljus_break_it(NAME emission-aim-at-ball HEADER photons/aiming.hpp TEST emission
+    FROM "light.flux * (cone.one_minus_cos / T(2))"
+    TO   "light.flux * cone.one_minus_cos"
+    CASES "emission: aimed at one ball*")

@@ -115,9 +115,9 @@ void check_sampling(const M& m, const ljus::Vec3T<typename M::Scalar>& wo,
         if (!s || s->specular) counts.back() += 1;
         if (!s) continue;
         REQUIRE(std::abs(glm::length(s->wi) - 1) <= 4 * u);
-        REQUIRE(has(which, s->specular ? ljus::Lobes::specular : ljus::Lobes::diffuse));
+        REQUIRE(has(which, s->specular ? ljus::Lobes::specular : ljus::Lobes::non_specular));
         REQUIRE(
-            has(lobes(m), s->specular ? ljus::Lobes::specular : ljus::Lobes::diffuse));
+            has(lobes(m), s->specular ? ljus::Lobes::specular : ljus::Lobes::non_specular));
         if (s->specular) {
             REQUIRE(s->pdf == 0);
             continue;

@@ -15,7 +15,23 @@
 namespace ljus {
 
 /// \defgroup shape Shapes
-/// \brief What a scene asks of a shape; a new shape needs these overloads and no more.
+/// \brief What a scene asks of a shape.
+///
+/// A new shape needs what the concept Shape lists: intersect(), surface_point(),
+/// bounding_sphere() and check(). These it may have as well:
+///
+/// | what                                  | what for              | without it         |
+/// |---------------------------------------|-----------------------|--------------------|
+/// | bounds(shape)                         | a tight box in a tree | its sphere's box   |
+/// | meets(ray, shape)                     | faster shadow rays    | intersect()        |
+/// | shading_normal(shape, hit, normal)    | smooth normals        | the geometric one  |
+/// | area(shape), sample_area(shape, u)    | being a light         | refused as a light |
+/// | sample_towards(), pdf_towards()       | a lamp's solid angle  | points of its area |
+/// | center_sample(shape)                  | the centre of a lamp  | u = v = 1/2        |
+/// | texture_coordinates()                 | images by (u, v)      | those of the hit   |
+/// | is_flat                               | photons aimed at area | at its sphere      |
+/// | moved(shape, by)                      | Moving                | does not compile   |
+/// | patch_grid(shape, size), facet_of()   | radiosity             | left out, and said |
 /// \{
 
 /// Where a ray meets any shape; a sphere has no use for u and v.
@@ -133,6 +149,17 @@ template <typename S>
 concept HasBounds = requires(const S& shape) {
     bounding_sphere(shape);
 };
+
+/// Whether a type of shape lies in a plane: it fills little of its bounding sphere and
+/// no ray meets it twice, so that photons are aimed at points of its area.
+template <typename S>
+inline constexpr bool is_flat = false;
+/// A triangle is flat.
+template <std::floating_point T>
+inline constexpr bool is_flat<TriangleT<T>> = true;
+/// A quad is flat.
+template <std::floating_point T>
+inline constexpr bool is_flat<QuadT<T>> = true;
 
 /// What a scene asks of a shape.
 // [shape]

@@ -45,15 +45,6 @@ struct AimT {
     T size = T(0);        ///< About the solid angle over 2 pi: how often it is chosen.
 };
 
-/// Whether photons are aimed at a shape's area: flat shapes fill little of their
-/// bounding spheres, nothing at all if seen from the side, and no ray meets one twice.
-template <typename S>
-[[nodiscard]] constexpr bool aims_at_area(const S&) noexcept {
-    return requires(const S& shape) {
-        cross_of_edges(shape);
-    };
-}
-
 /// How a point of a light aims at an object: at the cone in which it sees the object's
 /// bounding sphere, or at the points of a flat one. From inside of that sphere, a lamp
 /// aims at all that it can shine on, and a point light everywhere. A spot light that is
@@ -74,7 +65,7 @@ template <SceneLike S, std::floating_point T>
             return AimT<T>{{light.direction, light.outer}, false, light.outer};
         if (cone.one_minus_cos == T(2) && light.object) // inside
             return AimT<T>{{from.normal, T(1)}, false, T(1)};
-        if (cone.one_minus_cos == T(2) || !aims_at_area(shape))
+        if (cone.one_minus_cos == T(2) || !is_flat<std::remove_cvref_t<decltype(shape)>>)
             return AimT<T>{cone, false, cone.one_minus_cos};
         const Vec3T<T> way = bound.center - from.position;
         T size = T(0);
@@ -85,6 +76,27 @@ template <SceneLike S, std::floating_point T>
     });
 }
 // [aim_at]
+
+/// A photon of a point light, aimed at one ball: the plain twin of aim(). The light
+/// sends \f$1/4\pi\f$ of its flux into each steradian, and the ball is seen in a cone of
+/// \f$2\pi(1 - \cos\theta)\f$ of them, which the photons share.
+/// \param light  A point light.
+/// \param ball   The target; the light is outside of it.
+/// \param u      Point of the unit square: where in the cone.
+/// \return The photon; its flux is that of all paths together.
+/// \report{Section 3.2.2.2}
+// [aim_at_ball]
+template <std::floating_point T>
+[[nodiscard]] EmittedPhotonT<T> aim_at_ball(const LightT<T>& light,
+                                            const SphereT<T>& ball,
+                                            const Vec2T<T>& u) noexcept {
+    const ConeT<T> cone = cone_towards(ball, light.position);
+    const Vec3T<T> local = sample_uniform_cone(u, cone.one_minus_cos);
+    return {.ray{.origin = light.position,
+                 .direction = to_world(frame_around(cone.axis), local)},
+            .flux = light.flux * (cone.one_minus_cos / T(2))};
+}
+// [aim_at_ball]
 
 /// A target that was chosen.
 template <std::floating_point T>
