@@ -73,6 +73,19 @@ struct BlockRange {
 
 namespace detail {
 
+// A body of any type, as one that a compiled loop can call: the loop below is the same
+// for all of them, and not compiled again for each.
+struct BlockBody {
+    void* body;
+    void (*call)(void* body, long long block);
+};
+
+// In blocks, by several threads; see parallel_blocks().
+LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
+                                 const ParallelSettings& options);
+
+#ifndef LJUS_CORE // else it is there already
+
 // What several threads change, they change in turn. A lock of OpenMP's, which costs
 // no header, in place of atomics, whose header costs an eighth of one of ours.
 class Mutex {
@@ -116,16 +129,9 @@ private:
     Mutex& turns_;
 };
 
-// A body of any type, as one that a compiled loop can call: the loop below is the same
-// for all of them, and not compiled again for each.
-struct BlockBody {
-    void* body;
-    void (*call)(void* body, long long block);
-};
-
 // [parallel_blocks]
-inline bool run_blocks(long long count, BlockBody body,
-                       const ParallelSettings& options) {
+LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
+                                 const ParallelSettings& options) {
     if (options.threads < 0 || options.threads > max_threads_allowed)
         throw std::invalid_argument(
             "The number of threads is " + std::to_string(options.threads) +
@@ -208,6 +214,8 @@ inline bool run_blocks(long long count, BlockBody body,
     return done >= count;
 }
 // [parallel_blocks]
+
+#endif
 
 } // namespace detail
 

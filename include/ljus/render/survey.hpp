@@ -103,6 +103,7 @@ struct SceneNeeds {
     std::size_t diffuse = 0;  ///< Those with a part that is not a mirror or glass.
     std::size_t specular = 0; ///< Those with a part that is.
     std::size_t lights = 0;   ///< Emissive objects and point lights.
+    bool films = false;       ///< Whether a material is a thin surface.
 };
 
 /// Counts what a scene is made of.
@@ -110,7 +111,9 @@ struct SceneNeeds {
 /// \return The counts.
 template <typename Scene>
 [[nodiscard]] SceneNeeds needs(const Scene& scene) {
-    SceneNeeds found{.objects = scene.size(), .lights = scene.lights.size()};
+    SceneNeeds found{.objects = scene.size(),
+                     .lights = scene.lights.size(),
+                     .films = has_thin_surfaces(scene)};
     for (const auto& objects : scene.objects)
         for (const auto& object : objects) {
             const Lobes parts = scene.visit_material(
@@ -122,13 +125,16 @@ template <typename Scene>
 }
 
 /// Says which passes a scene requires.
-/// \param scene     The scene.
+/// \param found     What the scene is made of.
 /// \param settings  What the user asks for.
-/// \return The plan; printed by examples, obeyed by make_photon_maps().
+/// \return The plan.
+[[nodiscard]] LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
+                                              const PhotonMappingSettings& settings);
+
+#ifndef LJUS_CORE // else it is there already
 // [survey]
-template <typename Scene>
-[[nodiscard]] Plan survey(const Scene& scene, const PhotonMappingSettings& settings) {
-    const SceneNeeds found = needs(scene);
+LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
+                                const PhotonMappingSettings& settings) {
     const auto of_all = [&](std::size_t count, const char* what) {
         return std::to_string(count) + " of " + std::to_string(found.objects) +
                " objects " + what;
@@ -170,10 +176,10 @@ template <typename Scene>
     plan.shadow_photons =
         item("shadow photons", shadows,
              shadows ? "the general map keeps them" : "no map keeps them");
-    const bool films = has_thin_surfaces(scene);
-    plan.thin_film = item("thin film", films,
-                          films ? "rays go pass_through on through the listed films"
-                                : "no material is one");
+    plan.thin_film =
+        item("thin film", found.films,
+             found.films ? "rays go pass_through on through the listed films"
+                         : "no material is one");
     const bool few = found.objects <= flat_loop_limit;
     plan.flat_loop = item("flat loop", few,
                           std::to_string(found.objects) +
@@ -183,6 +189,16 @@ template <typename Scene>
     return plan;
 }
 // [survey]
+#endif
+
+/// Says which passes a scene requires.
+/// \param scene     The scene.
+/// \param settings  What the user asks for.
+/// \return The plan; printed by examples, obeyed by make_photon_maps().
+template <typename Scene>
+[[nodiscard]] Plan survey(const Scene& scene, const PhotonMappingSettings& settings) {
+    return make_plan(needs(scene), settings);
+}
 
 /// \}
 
