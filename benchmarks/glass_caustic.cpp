@@ -20,6 +20,8 @@
 #include <ctime>
 #include <string>
 
+#include <ljus/inspect/metrics.hpp>
+#include <ljus/io/pfm.hpp>
 #include <ljus/ljus.hpp>
 
 namespace {

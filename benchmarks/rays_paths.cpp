@@ -10,6 +10,7 @@
 #include <cstdio>
 
 #include <ljus/ljus.hpp>
+#include <ljus/scenes/report_rooms.hpp>
 
 #include "rays_timing.hpp"
 

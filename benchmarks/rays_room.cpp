@@ -6,6 +6,7 @@
 #include <memory>
 
 #include <ljus/ljus.hpp>
+#include <ljus/scenes/report_rooms.hpp>
 
 #include "rays_scenes.hpp"
 #include "rays_timing.hpp"

@@ -1,5 +1,6 @@
-# Install rules: headers, a CMake package and a pkg-config file. Everything but the
-# headers goes to share/, because nothing is compiled.
+# Install rules: headers, a CMake package and a pkg-config file, and the compiled library
+# ljus::core unless LJUS_INSTALL_CORE is OFF. The package goes to share/, because without
+# that library nothing in it depends on the machine.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -14,6 +15,12 @@ else()
     install(DIRECTORY "${LJUS_INCLUDE_DIR}/ljus"
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.hpp")
 endif()
+if(LJUS_INSTALL_CORE)
+    install(TARGETS ljus_core EXPORT ljus-targets
+        ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+else()
+    set(ljus_any_machine ARCH_INDEPENDENT)
+endif()
 install(EXPORT ljus-targets NAMESPACE ljus:: DESTINATION "${ljus_package_folder}")
 
 configure_package_config_file(cmake/ljus-config.cmake.in
@@ -21,9 +28,10 @@ configure_package_config_file(cmake/ljus-config.cmake.in
     INSTALL_DESTINATION "${ljus_package_folder}"
     NO_SET_AND_CHECK_MACRO)
 write_basic_package_version_file("${CMAKE_CURRENT_BINARY_DIR}/ljus-config-version.cmake"
-    COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
+    COMPATIBILITY SameMinorVersion ${ljus_any_machine})
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/ljus-config.cmake"
               "${CMAKE_CURRENT_BINARY_DIR}/ljus-config-version.cmake"
+              cmake/LjusPrecompiledHeader.cmake
     DESTINATION "${ljus_package_folder}")
 
 # The folder of ljus.pc is PREFIX/share/pkgconfig, so the prefix is found from there.

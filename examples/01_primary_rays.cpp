@@ -12,7 +12,9 @@
 #include <string>
 #include <vector>
 
+#include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
+#include <ljus/scenes/cornell_box.hpp>
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"

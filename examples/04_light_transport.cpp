@@ -12,7 +12,12 @@
 #include <utility>
 #include <vector>
 
+#include <ljus/image/flip.hpp>
+#include <ljus/image/hdr_flip.hpp>
+#include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
+#include <ljus/path/light_transport.hpp>
+#include <ljus/scenes/cornell_box.hpp>
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"

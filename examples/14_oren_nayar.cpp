@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
 
 #include "common/clock.hpp"

@@ -14,6 +14,7 @@
 #include <type_traits>
 #include <vector>
 
+#include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
 
 #include "common/clock.hpp"

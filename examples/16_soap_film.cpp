@@ -11,7 +11,9 @@
 #include <string>
 #include <vector>
 
+#include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
+#include <ljus/scenes/report_room.hpp>
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"

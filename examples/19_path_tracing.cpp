@@ -13,7 +13,11 @@
 #include <string_view>
 #include <vector>
 
+#include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
+#include <ljus/scenes/cornell_box.hpp>
+#include <ljus/scenes/furnaces.hpp>
+#include <ljus/scenes/room.hpp>
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"

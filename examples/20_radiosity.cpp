@@ -12,7 +12,18 @@
 #include <string>
 #include <vector>
 
+#include <ljus/inspect/metrics.hpp>
+#include <ljus/io/light_map_file.hpp>
 #include <ljus/ljus.hpp>
+#include <ljus/math/sum.hpp>
+#include <ljus/radiosity/form_factor.hpp>
+#include <ljus/radiosity/form_factor_matrix.hpp>
+#include <ljus/radiosity/light_map.hpp>
+#include <ljus/radiosity/patch_grid.hpp>
+#include <ljus/radiosity/patches.hpp>
+#include <ljus/radiosity/radiosity.hpp>
+#include <ljus/radiosity/radiosity_solve.hpp>
+#include <ljus/scenes/cornell_box.hpp>
 #include <ljus/scenes/report_rooms.hpp>
 
 #include "common/clock.hpp"

@@ -13,7 +13,15 @@
 #include <string>
 #include <vector>
 
+#include <ljus/image/flip.hpp>
+#include <ljus/inspect/class_means.hpp>
 #include <ljus/ljus.hpp>
+#include <ljus/path/light_path_expression.hpp>
+#include <ljus/radiosity/light_map.hpp>
+#include <ljus/radiosity/patches.hpp>
+#include <ljus/radiosity/radiosity.hpp>
+#include <ljus/scenes/cornell_box.hpp>
+#include <ljus/scenes/room.hpp>
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"

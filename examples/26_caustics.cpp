@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include <ljus/inspect/photon_dots.hpp>
 #include <ljus/ljus.hpp>
 #include <ljus/scenes/report_rooms.hpp>
 

@@ -10,7 +10,9 @@
 #include <string_view>
 #include <vector>
 
+#include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
+#include <ljus/path/light_transport.hpp>
 #include <ljus/scenes/report_rooms.hpp>
 
 #include "common/clock.hpp"

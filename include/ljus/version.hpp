@@ -17,3 +17,13 @@
 #if defined(__FAST_MATH__)
 #error "Ljus relies on NaN and infinity: compile without -ffast-math."
 #endif
+
+/// Before a function that is no template and that ljus::core has compiled: `inline` to
+/// those who use headers alone.
+#ifndef LJUS_CORE_INLINE
+#ifdef LJUS_CORE
+#define LJUS_CORE_INLINE
+#else
+#define LJUS_CORE_INLINE inline
+#endif
+#endif

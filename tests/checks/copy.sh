@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# A header and the files it names, copied into an empty folder, compile there: without
-# OpenMP, with the warnings of a careful user, and by another compiler than the build's,
-# if there is one.
+# A header and the files it names, copied into an empty folder, compile there: alone, first,
+# twice, without OpenMP, with the warnings of a careful user, and by another compiler than
+# the build's, if there is one. (project.link has all of them by the build's own.)
 . "$(dirname "$0")/common.sh"
 compiler=$LJUS_CXX
 case $("$compiler" --version) in
@@ -25,7 +25,7 @@ while read -r header; do
     done
     files=$(find "$folder" -name '*.hpp' | wc -l | tr -d ' ')
     # shellcheck disable=SC2086
-    if ! echo "#include \"$header\"" | "$compiler" -std=c++20 -Wall -Wextra -Wpedantic \
+    if ! printf '#include "%s"\n' "$header" "$header" | "$compiler" -std=c++20 -Wall -Wextra -Wpedantic \
         -Wconversion -Wshadow -Werror $LJUS_PACKAGE_FLAGS -I "$folder" -fsyntax-only -x c++ -; then
         echo "$header does not compile with only the $files files that it names."
         status=1

@@ -59,8 +59,6 @@ header ljus/image/c.hpp '#include "ljus/parallel.hpp"'
 finds "one way only"
 header ljus/render/c.hpp '#include "ljus/scene/load.hpp"'
 finds "an optional header"
-header ljus/render/c.hpp
-finds "does not include \"ljus/render/c.hpp\""
 header ljus/attic/c.hpp
 finds "no floor"
 printf '#pragma once\n/// \\file ljus/math/a.hpp\n/// \\brief A.\n#include "ljus/math/c.hpp"\n' \

@@ -53,6 +53,18 @@ template <std::floating_point T>
     return std::to_string(value);
 }
 
+namespace detail {
+
+// Apart from the check, which is everywhere and has nothing to say.
+template <typename Value>
+[[noreturn]] void refuse(std::string_view what, const Value& value,
+                         std::string_view right) {
+    throw std::invalid_argument(std::string(what) + " is " + to_text(value) +
+                                "; it must be " + std::string(right) + ".");
+}
+
+} // namespace detail
+
 /// Refuses a value with one sentence: what it is, its value, what would be right.
 /// \param ok     The condition that must hold.
 /// \param what   The name of the value, e.g. "sphere.radius".
@@ -62,9 +74,7 @@ template <std::floating_point T>
 template <typename Value>
 void require(bool ok, std::string_view what, const Value& value,
              std::string_view right) {
-    if (ok) return;
-    throw std::invalid_argument(std::string(what) + " is " + to_text(value) +
-                                "; it must be " + std::string(right) + ".");
+    if (!ok) detail::refuse(what, value, right);
 }
 
 /// Refuses a vector with a NaN or infinite component.

@@ -61,6 +61,7 @@ struct SceneNeeds {
     std::size_t diffuse = 0;  ///< Those with a part that is not a mirror or glass.
     std::size_t specular = 0; ///< Those with a part that is.
     std::size_t lights = 0;   ///< Emissive objects and point lights.
+    bool films = false;       ///< Whether a material is a thin surface.
 };
 
 /// Counts what a scene is made of.
@@ -68,7 +69,9 @@ struct SceneNeeds {
 /// \return The counts.
 template <SceneLike S>
 [[nodiscard]] SceneNeeds needs(const S& scene) {
-    SceneNeeds found{.objects = scene.size(), .lights = scene.lights.size()};
+    SceneNeeds found{.objects = scene.size(),
+                     .lights = scene.lights.size(),
+                     .films = has_thin_surfaces(scene)};
     for (const auto& objects : scene.objects)
         for (const auto& object : objects) {
             const Lobes parts = scene.visit_material(
@@ -80,14 +83,17 @@ template <SceneLike S>
 }
 
 /// Says which passes a scene requires.
-/// \param scene     The scene.
+/// \param found     What the scene is made of.
 /// \param settings  What the user asks for.
 /// \return The plan. make_photon_maps() and make_photon_mapper() obey it; thin films and
 ///         the tree are decided by the same questions where a ray is traced.
+[[nodiscard]] LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
+                                              const PhotonMappingSettings& settings);
+
+#ifndef LJUS_CORE // else it is there already
 // [survey]
-template <SceneLike S>
-[[nodiscard]] Plan survey(const S& scene, const PhotonMappingSettings& settings) {
-    const SceneNeeds found = needs(scene);
+LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
+                                const PhotonMappingSettings& settings) {
     const auto of_all = [&](std::size_t count, const char* what) {
         return std::to_string(count) + " of " + std::to_string(found.objects) +
                " objects " + what;
@@ -129,10 +135,9 @@ template <SceneLike S>
     plan.shadow_photons =
         item("shadow photons", shadows,
              shadows ? "the general map keeps them" : "no map keeps them");
-    const bool films = has_thin_surfaces(scene);
-    plan.thin_film =
-        item("thin film", films,
-             films ? "paths pass through the listed films" : "no material is one");
+    plan.thin_film = item("thin film", found.films,
+                          found.films ? "paths pass through the listed films"
+                                      : "no material is one");
     const bool tree = needs_tree(found.objects);
     plan.tree = item("tree", tree,
                      std::to_string(found.objects) +
@@ -141,6 +146,16 @@ template <SceneLike S>
     return plan;
 }
 // [survey]
+#endif
+
+/// Says which passes a scene requires.
+/// \param scene     The scene.
+/// \param settings  What the user asks for.
+/// \return As make_plan().
+template <SceneLike S>
+[[nodiscard]] Plan survey(const S& scene, const PhotonMappingSettings& settings) {
+    return make_plan(needs(scene), settings);
+}
 
 /// \}
 

@@ -1,0 +1,70 @@
+#pragma once
+
+/// \file ljus/core.hpp
+/// \brief What the optional library ljus::core has compiled: the engines in float.
+///
+/// All of Ljus is in its headers. But what does not depend on a scene's types need not
+/// be compiled again for each program: one that defines `LJUS_CORE` and is linked with
+/// ljus::core takes from there what this list names, and the few functions before
+/// which LJUS_CORE_INLINE stands. ljus.hpp includes the list then, and core/core.cpp,
+/// which makes what it names; a line here is all that it takes.
+
+#include "ljus/io/png.hpp"
+#include "ljus/materials/glass.hpp"
+#include "ljus/materials/mirror.hpp"
+#include "ljus/materials/oren_nayar.hpp"
+#include "ljus/render/photon_mapping.hpp"
+#include "ljus/scene/camera.hpp"
+
+/// `extern` to those who use the library; empty where it is made.
+#ifndef LJUS_CORE_EXTERN
+#define LJUS_CORE_EXTERN extern
+#endif
+
+namespace ljus {
+
+// Sentences of the checks at the border.
+LJUS_CORE_EXTERN template std::string to_text(float);
+LJUS_CORE_EXTERN template std::string to_text(double);
+LJUS_CORE_EXTERN template std::string to_text(const Vec3&);
+LJUS_CORE_EXTERN template std::string to_text(const Vec3T<double>&);
+LJUS_CORE_EXTERN template void detail::refuse(std::string_view, const float&,
+                                              std::string_view);
+LJUS_CORE_EXTERN template void detail::refuse(std::string_view, const double&,
+                                              std::string_view);
+LJUS_CORE_EXTERN template void detail::refuse(std::string_view, const long long&,
+                                              std::string_view);
+LJUS_CORE_EXTERN template void detail::refuse(std::string_view, const Vec3&,
+                                              std::string_view);
+LJUS_CORE_EXTERN template void check(const Image&);
+
+// Trees.
+LJUS_CORE_EXTERN template BvhNodesT<float> build_bvh(std::span<const Box>,
+                                                     const BvhSettings&);
+LJUS_CORE_EXTERN template Bvh8Nodes make_bvh8(const BvhNodesT<float>&, std::uint32_t);
+
+// Photons.
+LJUS_CORE_EXTERN template LightChoice light_choice(const std::vector<LightT<float>>&);
+LJUS_CORE_EXTERN template long long join_blocks(std::vector<PhotonBlockT<float>>&,
+                                                TracedPhotonsT<float>&);
+LJUS_CORE_EXTERN template PhotonMap make_photon_map(const std::vector<Photon>&, int);
+LJUS_CORE_EXTERN template RgbT<double> flux_in_disc(const KdTree8&,
+                                                    const PhotonRecordsT<float>&,
+                                                    const FluxDiscT<float>&,
+                                                    std::uint64_t&);
+LJUS_CORE_EXTERN template Rgb estimate_radiance(const PhotonMap&, const VertexT<float>&,
+                                                const Lambertian&, const Vec3&,
+                                                const DensityEstimateSettings&,
+                                                PhotonKinds, std::uint64_t&);
+LJUS_CORE_EXTERN template Rgb estimate_radiance(const PhotonMap&, const VertexT<float>&,
+                                                const OrenNayar&, const Vec3&,
+                                                const DensityEstimateSettings&,
+                                                PhotonKinds, std::uint64_t&);
+
+// Pictures.
+LJUS_CORE_EXTERN template Camera look_at(const ViewT<float>&);
+LJUS_CORE_EXTERN template Bytes encode_png(const Image&, const PngSettings&);
+LJUS_CORE_EXTERN template void save_png(const Image&, const std::string&,
+                                        const PngSettings&);
+
+} // namespace ljus
