@@ -34,7 +34,7 @@ build_and_run() {
 }
 install_ljus() {
     run_cmake -S "$LJUS_ROOT" -B "$folder/ljus" -DCMAKE_INSTALL_PREFIX="$folder/first" \
-        -DLJUS_TESTS=OFF -DLJUS_EXAMPLES=OFF -DLJUS_FETCH=OFF $(hints) >"$folder/ljus.log" 2>&1 ||
+        -DLJUS_TESTS=OFF -DLJUS_EXAMPLES=OFF -DLJUS_FETCH=OFF $(hints) "$@" >"$folder/ljus.log" 2>&1 ||
         { cat "$folder/ljus.log"; exit 1; }
     "$LJUS_CMAKE" --build "$folder/ljus" --target install >>"$folder/ljus.log"
     # Moved, because a package may be unpacked anywhere.
@@ -60,6 +60,9 @@ case $way in
         install_ljus
         build_and_run -DCMAKE_PREFIX_PATH="$folder/prefix" $(hints)
         rm -rf "$folder/build"
+        echo "and with the compiled engines:"
+        build_and_run -DCMAKE_PREFIX_PATH="$folder/prefix" $(hints) -DLJUS_CONSUMER_CORE=ON
+        rm -rf "$folder/build"
         echo "and without OpenMP:"
         build_and_run -DCMAKE_PREFIX_PATH="$folder/prefix" $(hints) -DLJUS_OPENMP=OFF
         rm -rf "$folder/build"
@@ -76,7 +79,7 @@ case $way in
         ;;
     pkg_config)
         command -v pkg-config >/dev/null || skip "pkg-config is not installed"
-        install_ljus
+        install_ljus -DLJUS_INSTALL_CORE=OFF
         export PKG_CONFIG_PATH=$folder/prefix/share/pkgconfig
         [ "$(pkg-config --modversion ljus)" = "$LJUS_VERSION" ]
         # shellcheck disable=SC2046,SC2086
