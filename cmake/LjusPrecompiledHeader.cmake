@@ -9,6 +9,8 @@ function(ljus_use_precompiled_header target)
     if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
         return()
     endif()
+    # So that a compiler cache may look at what was precompiled.
+    target_compile_options(${target} PRIVATE -fpch-preprocess)
     if(ARGC GREATER 1)
         target_precompile_headers(${target} REUSE_FROM ${ARGV1})
     else()

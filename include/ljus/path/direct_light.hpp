@@ -71,7 +71,8 @@ template <SceneLike S, std::floating_point T, Material M>
     RgbT<T> sum{T(0)};
     for (const LightT<T>& light : scene.lights)
         for (int i = 0; i < rays; ++i) {
-            const Vec2T<T> u = stratified(strata, i, key, next_2d<T>(stream));
+            Vec2T<T> u = next_2d<T>(stream);
+            if (rays > 1) u = stratified(strata, i, key, u); // one has all of the light
             sum += direct_light(scene, light, vertex, material, u, unweighted, counts);
         }
     return sum / T(rays);
