@@ -60,30 +60,6 @@ template <std::floating_point T>
     return weight;
 }
 
-namespace detail {
-
-// Eight bytes with a sign, as integers: each is shifted to the top of its half of the
-// eight and down again. Written as a conversion it leaves the lanes.
-template <typename Byte>
-constexpr void bytes_to_integers(const Byte (&bytes)[lane_count],
-                                 std::int32_t (&wide)[lane_count]) noexcept {
-    static_assert(sizeof(Byte) == 1);
-    std::array<Byte, lane_count> copy;
-    std::copy(bytes, bytes + lane_count, copy.begin());
-    const auto half = std::bit_cast<std::array<std::uint32_t, 2>>(copy);
-    constexpr bool little = std::endian::native == std::endian::little;
-    constexpr int up[lane_count] = {little ? 24 : 0, little ? 16 : 8, little ? 8 : 16,
-                                    little ? 0 : 24, little ? 24 : 0, little ? 16 : 8,
-                                    little ? 8 : 16, little ? 0 : 24};
-    const std::uint32_t first = half[0], second = half[1];
-    for_lanes([&](int i) {
-        const std::uint32_t four = i < 4 ? first : second;
-        wide[i] = static_cast<std::int32_t>(four << up[i]) >> 24;
-    });
-}
-
-} // namespace detail
-
 /// The weighted flux in a disc, of photons that come from one side.
 ///
 /// The same photons as one by one, and the same weights within the rounding of T.
@@ -99,7 +75,8 @@ flux_in_disc(const KdTree8T<T>& tree, const PhotonRecordsT<T>& records,
              const FluxDiscT<T>& disc, std::uint64_t& gathered) {
     const T per_radius2 = T(1) / (disc.radius * disc.radius);
     const T height = disc.thickness * disc.radius;
-    const std::int32_t kinds = disc.kinds.bits;
+    const std::uint32_t kinds = std::uint32_t{disc.kinds.bits}
+                                << detail::RecordCode::kind_shift;
     const Vec3T<T> c = disc.center, n = disc.normal, d = disc.from;
     RgbT<double> sum{0};
     BlockT<T> part{}; // of some blocks: more terms would cost a float its last digits
@@ -111,11 +88,6 @@ flux_in_disc(const KdTree8T<T>& tree, const PhotonRecordsT<T>& records,
     };
     const auto visit = [&](const FoundBlockT<T>& block) {
         const RecordBlockT<T>& record = records.blocks()[block.first / 8];
-        std::int32_t nx[lane_count], ny[lane_count], nz[lane_count], kind[lane_count];
-        detail::bytes_to_integers(record.nx, nx);
-        detail::bytes_to_integers(record.ny, ny);
-        detail::bytes_to_integers(record.nz, nz);
-        detail::bytes_to_integers(record.kind, kind);
         LanesT<T> shares;
         std::int32_t inside[lane_count];
         std::int32_t count = 0;
@@ -123,14 +95,17 @@ flux_in_disc(const KdTree8T<T>& tree, const PhotonRecordsT<T>& records,
             const T h = (block.points.x[i] - c.x) * n.x +
                         (block.points.y[i] - c.y) * n.y +
                         (block.points.z[i] - c.z) * n.z;
-            const T x = T(nx[i]), y = T(ny[i]), z = T(nz[i]);
+            const std::uint32_t code = record.code[i];
+            const T x = T(detail::RecordCode::normal<0>(code));
+            const T y = T(detail::RecordCode::normal<1>(code));
+            const T z = T(detail::RecordCode::normal<2>(code));
             const T along = x * n.x + y * n.y + z * n.z;
             const T length2 = x * x + y * y + z * z;
             const T share = block.distance2.lane[i] * per_radius2;
             const std::int32_t in = (share < std::numeric_limits<T>::infinity()) &
                                     (h <= height) & (-h <= height) &
                                     !(T(2) * T(127) * along < length2) &
-                                    (kinds >> kind[i] & 1);
+                                    ((code & kinds) != 0);
             shares.lane[i] = in != 0 ? share : T(0);
             inside[i] = in;
             count += in;
