@@ -89,7 +89,8 @@ struct WideTree {
         tree.visit_blocks(center, radius, [&](const ljus::FoundBlockT<float>& block) {
             const float* const value = &values[block.first];
             ljus::for_lanes([&](int i) {
-                sums.lane[i] += block.distance2.lane[i] < infinity ? value[i] : 0.0f;
+                sums.lane[i] +=
+                    (block.found & ljus::lane_bit[i]) != 0 ? value[i] : 0.0f;
             });
         });
         float sum = 0;

@@ -94,12 +94,12 @@ void photons() {
     for (int i = 0; i < count; ++i) {
         Vec3 normal;
         const Vec3 p = on_a_wall(normal);
-        photons.push_back({.position = p,
-                           .direction = -upwards(normal),
-                           .flux = next_3d<float>(stream) / float(count),
-                           .kind = i % 8 == 0 ? PhotonKind::direct
-                                              : PhotonKind::indirect,
-                           .normal = small_normal(normal)});
+        photons.push_back(
+            {.position = p,
+             .direction = -upwards(normal),
+             .flux = next_3d<float>(stream) / float(count),
+             .kind = i % 8 == 0 ? PhotonKind::direct : PhotonKind::indirect,
+             .normal = small_normal(normal)});
     }
     const PhotonMap map = make_photon_map(photons, 1);
     std::vector<SurfaceT<float>> at(20000);
@@ -109,9 +109,9 @@ void photons() {
     }
     const Lambertian matt{};
     const Vec3 wo{0.6f, 0, 0.8f};
-    for (const auto& [name, kernel] :
-         {std::pair{"box", Kernel::box}, {"cone", Kernel::cone},
-          {"epanechnikov", Kernel::epanechnikov}})
+    for (const auto& [name, kernel] : {std::pair{"box", Kernel::box},
+                                       {"cone", Kernel::cone},
+                                       {"epanechnikov", Kernel::epanechnikov}})
         for (const int within : {10, 50, 500}) {
             const float radius =
                 std::sqrt(6 * float(within) / (float(count) * 3.14159f));
@@ -121,9 +121,9 @@ void photons() {
                 std::uint64_t gathered = 0;
                 double sum = 0;
                 for (std::size_t i = first; i < last; ++i)
-                    sum += double(estimate_radiance_plain(map, at[i], matt, wo, gather,
-                                                          one_kind(PhotonKind::indirect),
-                                                          gathered)
+                    sum += double(estimate_radiance_plain(
+                                      map, at[i], matt, wo, gather,
+                                      one_kind(PhotonKind::indirect), gathered)
                                       .x);
                 return Sums{double(gathered), sum};
             };

@@ -19,7 +19,7 @@ struct FoundBlockT {
     std::size_t first = 0;   ///< The place of the first of them in the tree's order.
     std::uint32_t found = 0; ///< Which are found: a bit each, the first point's lowest.
     const BlockT<T>& points; ///< Where they lie; NaN behind the last point of all.
-    LanesT<T> distance2;     ///< Squared, in T; infinite for those not found.
+    LanesT<T> distance2;     ///< Squared, in T; for those found, at most infinite.
 };
 
 /// The twin of KdTreeT, with the same answers: a k-d tree \cite bentley1975 of tight
@@ -94,21 +94,13 @@ public:
     // [blocks]
     template <typename Visit>
     void visit_blocks(const Vec3T<T>& center, T radius, Visit&& visit) const {
-        constexpr T infinity = std::numeric_limits<T>::infinity();
-        constexpr T most = std::numeric_limits<T>::max();
-        constexpr std::uint32_t bit[lane_count] = {1, 2, 4, 8, 16, 32, 64, 128};
         const auto reach = ReachT<T>::up_to(double(radius) * double(radius), false);
         in_ball(center, radius, reach, [&](std::size_t first, std::size_t last) {
-            for (std::size_t b = first; b < last; ++b) {
-                LanesT<T> d2 = distances2(blocks_[b], center);
-                const std::uint32_t found = reach.within(blocks_[b], center, d2);
-                if (found == 0) continue;
-                for_lanes([&](int i) {
-                    const T x = d2.lane[i] < most ? d2.lane[i] : most;
-                    d2.lane[i] = (found & bit[i]) != 0 ? x : infinity;
-                });
-                visit(FoundBlockT<T>{8 * b, found, blocks_[b], d2});
-            }
+            std::uint32_t found = in_leaf(first, last, center, reach);
+            for (std::size_t b = first; found != 0; ++b, found >>= 8)
+                if ((found & 255) != 0)
+                    visit(FoundBlockT<T>{8 * b, found & 255, blocks_[b],
+                                         distances2(blocks_[b], center)});
             return false;
         });
     }

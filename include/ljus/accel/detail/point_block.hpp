@@ -26,10 +26,17 @@ namespace ljus {
 // [for lanes]
 template <typename Body>
 constexpr void for_lanes(Body&& body) noexcept {
+#if defined(__clang__)
+#pragma clang loop unroll(disable)
+#else
 #pragma GCC unroll 1
+#endif
     for (int i = 0; i < lane_count; ++i) body(i);
 }
 // [for lanes]
+
+/// The bit of each lane in a number that has one for each.
+inline constexpr std::uint32_t lane_bit[lane_count] = {1, 2, 4, 8, 16, 32, 64, 128};
 
 /// Eight numbers of any precision.
 template <std::floating_point T>

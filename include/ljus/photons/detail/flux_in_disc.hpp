@@ -60,6 +60,43 @@ template <std::floating_point T>
     return weight;
 }
 
+namespace detail {
+
+// Which of eight photons lie in a disc: 1 for those that do, or else 0. Small loops,
+// each of a few numbers: a long one is not always made a vector of.
+template <std::floating_point T>
+[[nodiscard]] inline LanesT<T>
+lanes_in_disc(const BlockT<T>& points, const RecordBlockT<T>& record,
+              const FluxDiscT<T>& disc, std::uint32_t found) noexcept {
+    const T nx = disc.normal.x, ny = disc.normal.y, nz = disc.normal.z;
+    const T cx = disc.center.x, cy = disc.center.y, cz = disc.center.z;
+    const T limit = disc.thickness * disc.radius;
+    const std::uint32_t kinds = std::uint32_t{disc.kinds.bits}
+                                << RecordCode::kind_shift;
+    LanesT<T> height, along, length2, inside;
+    for_lanes([&](int i) {
+        height.lane[i] =
+            (points.x[i] - cx) * nx + (points.y[i] - cy) * ny + (points.z[i] - cz) * nz;
+    });
+    for_lanes([&](int i) {
+        const T x = T(RecordCode::normal<0>(record.code[i]));
+        const T y = T(RecordCode::normal<1>(record.code[i]));
+        const T z = T(RecordCode::normal<2>(record.code[i]));
+        along.lane[i] = T(2) * T(127) * (x * nx + y * ny + z * nz);
+        length2.lane[i] = x * x + y * y + z * z;
+    });
+    for_lanes([&](int i) {
+        const T h = height.lane[i];
+        const bool in = (h <= limit) & (-h <= limit) &
+                        !(along.lane[i] < length2.lane[i]) &
+                        ((record.code[i] & kinds) != 0) & ((found & lane_bit[i]) != 0);
+        inside.lane[i] = in ? T(1) : T(0);
+    });
+    return inside;
+}
+
+} // namespace detail
+
 /// The weighted flux in a disc, of photons that come from one side.
 ///
 /// The same photons as one by one, and the same weights within the rounding of T.
@@ -74,57 +111,48 @@ template <std::floating_point T>
 flux_in_disc(const KdTree8T<T>& tree, const PhotonRecordsT<T>& records,
              const FluxDiscT<T>& disc, std::uint64_t& gathered) {
     const T per_radius2 = T(1) / (disc.radius * disc.radius);
-    const T height = disc.thickness * disc.radius;
-    const std::uint32_t kinds = std::uint32_t{disc.kinds.bits}
-                                << detail::RecordCode::kind_shift;
-    const Vec3T<T> c = disc.center, n = disc.normal, d = disc.from;
+    const Vec3T<T> d = disc.from;
     RgbT<double> sum{0};
     BlockT<T> part{}; // of some blocks: more terms would cost a float its last digits
+    LanesT<T> count{};
     int parts = 0;
     const auto add_part = [&] {
-        for (std::size_t i = 0; i < lane_count; ++i) sum += RgbT<double>(part[i]);
+        for (std::size_t i = 0; i < lane_count / 2; ++i)
+            sum += RgbT<double>(part[i] + part[i + lane_count / 2]);
         part = {};
         parts = 0;
     };
     const auto visit = [&](const FoundBlockT<T>& block) {
         const RecordBlockT<T>& record = records.blocks()[block.first / 8];
-        LanesT<T> shares;
-        std::int32_t inside[lane_count];
-        std::int32_t count = 0;
+        const LanesT<T> inside =
+            detail::lanes_in_disc(block.points, record, disc, block.found);
+        // No choices between products: compilers make jumps of them. What does not lie
+        // inside is infinite or NaN at worst, and becomes 1.
+        LanesT<T> shares, lit;
         for_lanes([&](int i) {
-            const T h = (block.points.x[i] - c.x) * n.x +
-                        (block.points.y[i] - c.y) * n.y +
-                        (block.points.z[i] - c.z) * n.z;
-            const std::uint32_t code = record.code[i];
-            const T x = T(detail::RecordCode::normal<0>(code));
-            const T y = T(detail::RecordCode::normal<1>(code));
-            const T z = T(detail::RecordCode::normal<2>(code));
-            const T along = x * n.x + y * n.y + z * n.z;
-            const T length2 = x * x + y * y + z * z;
             const T share = block.distance2.lane[i] * per_radius2;
-            const std::int32_t in = (share < std::numeric_limits<T>::infinity()) &
-                                    (h <= height) & (-h <= height) &
-                                    !(T(2) * T(127) * along < length2) &
-                                    ((code & kinds) != 0);
-            shares.lane[i] = in != 0 ? share : T(0);
-            inside[i] = in;
-            count += in;
+            shares.lane[i] = share < T(1) ? share : T(1);
         });
-        gathered += static_cast<std::uint64_t>(count);
         const LanesT<T> weight = kernel_weights(disc.kernel, shares);
         for_lanes([&](int i) {
             const T towards = record.direction.x[i] * d.x +
                               record.direction.y[i] * d.y + record.direction.z[i] * d.z;
-            const bool lit = (inside[i] != 0) & (towards < T(0));
-            const T w = lit ? weight.lane[i] : T(0);
-            part.x[i] += w * record.flux.x[i];
-            part.y[i] += w * record.flux.y[i];
-            part.z[i] += w * record.flux.z[i];
+            const T facing = towards < T(0) ? T(1) : T(0);
+            lit.lane[i] = inside.lane[i] * facing * weight.lane[i];
         });
+        for_lanes([&](int i) {
+            part.x[i] += lit.lane[i] * record.flux.x[i];
+            part.y[i] += lit.lane[i] * record.flux.y[i];
+            part.z[i] += lit.lane[i] * record.flux.z[i];
+        });
+        for_lanes([&](int i) { count.lane[i] += inside.lane[i]; });
         if (++parts == 16) add_part();
     };
-    tree.visit_blocks(c, disc.radius, visit);
+    tree.visit_blocks(disc.center, disc.radius, visit);
     if (parts > 0) add_part();
+    double counted = 0;
+    for (const T lane : count.lane) counted += double(lane);
+    gathered += static_cast<std::uint64_t>(counted);
     return sum;
 }
 // [flux in disc]
