@@ -19,11 +19,15 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
-#include <limits>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include <ljus/accel/bvh8.hpp>
+#include <ljus/accel/detail/triangle_bvh.hpp>
 #include <ljus/accel/kd_tree.hpp>
+#include <ljus/geometry/shape.hpp>
 #include <ljus/photons/photon_map.hpp>
 
 #include "rays_scenes.hpp"
@@ -143,6 +147,141 @@ void photons() {
         }
 }
 
+/// The k-d trees: points on the walls of a room, and in it.
+void points() {
+    RandomStream stream = random_stream(8, Pass::user, 0, 0);
+    std::vector<Vec3> all;
+    for (int i = 0; i < 200000; ++i) {
+        Vec3 p = next_3d<float>(stream);
+        if (i % 4 != 0) p[i % 3] = 0;
+        all.push_back(p);
+    }
+    const KdTree plain_tree(all);
+    const KdTree8 fast_tree(all, 1);
+    std::vector<Vec3> centers;
+    for (int i = 0; i < 20000; ++i)
+        centers.push_back(all[static_cast<std::size_t>(i) * 10] +
+                          0.003f * next_3d<float>(stream));
+    const auto both = [&](const char* name, std::size_t queries, auto ask) {
+        const auto with = [&](const auto& tree) {
+            return [&](std::size_t first, std::size_t last) {
+                Sums sums;
+                for (std::size_t i = first; i < last; ++i) ask(tree, centers[i], sums);
+                return sums;
+            };
+        };
+        row(name, queries, 1e-9, with(plain_tree), with(fast_tree));
+    };
+    for (const float radius : {0.005f, 0.01f, 0.03f}) {
+        char title[64];
+        std::snprintf(title, sizeof title, "k-d tree, ball of %.3f", double(radius));
+        both(title, 10000, [&](const auto& tree, const Vec3& center, Sums& sums) {
+            tree.visit_within(center, radius, [&](std::uint32_t, double distance2) {
+                sums.count += 1;
+                sums.sum += distance2;
+            });
+        });
+    }
+    for (const std::size_t k : {1u, 10u, 50u, 200u}) {
+        char title[64];
+        std::snprintf(title, sizeof title, "k-d tree, %zu nearest", k);
+        both(title, 5000, [&](const auto& tree, const Vec3& center, Sums& sums) {
+            Neighbor room[200];
+            const std::size_t count =
+                tree.nearest(center, 1.0f, std::span(room, k), AnyPoint{});
+            sums.count += double(count);
+            for (std::size_t i = 0; i < count; ++i) sums.sum += room[i].distance2;
+        });
+    }
+    const auto size_of = [](const auto& tree) {
+        return Sums{double(tree.order().size()), 0};
+    };
+    row(
+        "k-d tree, build of 200 000", 1, 0,
+        [&](std::size_t, std::size_t) { return size_of(KdTree(all)); },
+        [&](std::size_t, std::size_t) { return size_of(KdTree8(all, 1)); });
+}
+
+/// The trees of boxes, over meshes and over a few shapes.
+/// \param fast   The fast tree: a TriangleBvh, or a Bvh8.
+/// \param plain  A Bvh.
+template <typename Fast>
+void rays_of(const std::string& name, const rays::Mesh& mesh, const Bvh& plain,
+             const Fast& fast, const rays::RaySets& sets) {
+    const auto nearest = [&](const auto& tree, const Ray& ray, Sums& sums) {
+        NearestHit found;
+        tree.closest(ray, [&](std::uint32_t place, Ray& rest) {
+            if (const auto hit =
+                    intersect<double>(rest, rays::triangle_at(tree, mesh, place)))
+                found.offer(*hit, tree.order()[place], rest);
+        });
+        if (!found.found) return;
+        sums.count += 1;
+        sums.sum += double(found.at.t) + double(found.number);
+    };
+    const auto any = [&](const auto& tree, const Ray& ray, Sums& sums) {
+        sums.count += tree.any(ray, [&](std::uint32_t place) {
+            return intersect<double>(ray, rays::triangle_at(tree, mesh, place))
+                .has_value();
+        });
+    };
+    const auto both = [&](const char* set_name, const std::vector<Ray>& set, auto ask) {
+        const auto with = [&](const auto& tree) {
+            return [&](std::size_t first, std::size_t last) {
+                Sums sums;
+                for (std::size_t i = first; i < last; ++i) ask(tree, set[i], sums);
+                return sums;
+            };
+        };
+        row((name + ", " + set_name).c_str(), std::min<std::size_t>(set.size(), 20000),
+            0, with(plain), with(fast));
+    };
+    both("primary", sets.primary, nearest);
+    both("diffuse", sets.diffuse, nearest);
+    both("shadow", sets.shadow, any);
+}
+
+void meshes() {
+    for (const int count : {12, 30, 6000, 70000}) {
+        const rays::Mesh mesh =
+            count > 1000 ? rays::bumpy_ball(count) : rays::balls(192 * 40);
+        rays::Mesh some = mesh;
+        if (count < 1000) { // a room of separate triangles
+            some.clear();
+            for (int i = 0; i < count; ++i)
+                some.push_back(mesh[static_cast<std::size_t>(i) * 251 % mesh.size()]);
+            for (Triangle& t : some) {
+                const Vec3 middle = (t.v1 + t.v2 + t.v3) / 3.0f;
+                for (Vec3* v : {&t.v1, &t.v2, &t.v3}) *v += 20.0f * (*v - middle);
+            }
+        }
+        const Bvh plain = rays::plain_tree(some);
+        const TriangleBvh fast = rays::wide_tree(some);
+        const auto first_hit = [&](const Ray& ray) -> std::optional<SurfacePoint> {
+            NearestHit found;
+            plain.closest(ray, [&](std::uint32_t place, Ray& rest) {
+                const std::uint32_t i = plain.order()[place];
+                if (const auto hit = intersect<double>(rest, some[i]))
+                    found.offer(*hit, i, rest);
+            });
+            if (!found.found) return std::nullopt;
+            return point_at(some[found.number], found.at.u, found.at.v);
+        };
+        const rays::RaySets sets =
+            rays::ray_sets(first_hit, {0, 0.6f, 2.6f}, Vec3{0}, {0, 1, 0},
+                           {-0.5f, 2.5f, -0.5f}, {1, 0, 0}, {0, 0, 1}, 250);
+        const std::string size = std::to_string(count);
+        std::vector<Box> boxes;
+        for (const Triangle& triangle : some) boxes.push_back(bounds(triangle));
+        if (count <= 6000) {
+            const Bvh one(boxes, {.leaf_size = 1, .threads = 1});
+            const Bvh8 eight(boxes, {.leaf_size = 1, .threads = 1});
+            rays_of("bvh, " + size, some, one, eight, sets);
+        }
+        if (count >= 6000) rays_of("triangles, " + size, some, plain, fast, sets);
+    }
+}
+
 } // namespace
 
 /// Prints the table.
@@ -150,4 +289,6 @@ int main(int argc, char** argv) {
     const std::string_view part = argc > 1 ? argv[1] : "all";
     std::printf("%-34s %10s %10s %7s\n", "", "plain, ns", "fast, ns", "ratio");
     if (part == "all" || part == "photons") photons();
+    if (part == "all" || part == "points") points();
+    if (part == "all" || part == "meshes") meshes();
 }
