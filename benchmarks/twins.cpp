@@ -213,7 +213,7 @@ void rays_of(const std::string& name, const rays::Mesh& mesh, const Bvh& plain,
         tree.closest(ray, [&](std::uint32_t place, Ray& rest) {
             if (const auto hit =
                     intersect<double>(rest, rays::triangle_at(tree, mesh, place)))
-                found.offer(*hit, tree.order()[place], rest);
+                found.offer(*hit, tree.primitive_ids()[place], rest);
         });
         if (!found.found) return;
         sums.count += 1;
@@ -260,7 +260,7 @@ void meshes() {
         const auto first_hit = [&](const Ray& ray) -> std::optional<SurfacePoint> {
             NearestHit found;
             plain.closest(ray, [&](std::uint32_t place, Ray& rest) {
-                const std::uint32_t i = plain.order()[place];
+                const std::uint32_t i = plain.primitive_ids()[place];
                 if (const auto hit = intersect<double>(rest, some[i]))
                     found.offer(*hit, i, rest);
             });

@@ -95,7 +95,7 @@ closest_hit(const SceneAt<IndexedScene<S, Compute>>& at, RayT<T> ray) {
                 ask({type, i}, order++, ray);
     } else {
         index.tree.closest(ray, [&](std::uint32_t place, RayT<T>& rest) {
-            ask(index.ids[place], index.tree.order()[place], rest);
+            ask(index.ids[place], index.tree.primitive_ids()[place], rest);
         });
     }
     if (!nearest.found) return std::nullopt;

@@ -24,12 +24,12 @@ struct Bvh8Node {
 // [wide node]
 
 /// A child in 32 bits: how many nodes' lanes lie before its node; or, for a leaf, its
-/// first place and how many there are.
+/// first slot and how many there are.
 struct Bvh8Child {
     static constexpr std::uint32_t leaf = 1u << 31; ///< Set for a leaf.
     static constexpr int count_shift = 27;          ///< Then the count, less one,
-    static constexpr std::uint32_t first = (1u << count_shift) - 1; ///< and the place.
-    /// How many things a leaf has.
+    static constexpr std::uint32_t first = (1u << count_shift) - 1; ///< and the slot.
+    /// How many primitives a leaf has.
     static constexpr std::uint32_t count(std::uint32_t child) noexcept {
         return ((child >> count_shift) & 15u) + 1;
     }
@@ -37,19 +37,19 @@ struct Bvh8Child {
     static constexpr std::uint32_t stride = sizeof(Bvh8Node) / sizeof(Lanes);
 };
 
-/// A wide tree: nodes, the root first, and the order in which leaves have things.
+/// A wide tree: nodes, the root first, and the order in which leaves have primitives.
 /// Coordinates are as seen from the middle of everything, so that a scene far from the
 /// origin is met as well as one around it.
 struct Bvh8Nodes {
     std::vector<Bvh8Node> nodes{}; ///< Empty if there is nothing.
     std::vector<std::uint32_t>
-        order{};    ///< order[place] is a thing's number, or a hole.
-    Box box{};      ///< Around everything.
-    Vec3 middle{0}; ///< Of the box.
-    Vec3 half{0};   ///< From there to its sides.
+        primitive_ids{}; ///< primitive_ids[slot] is a primitive's number, or padding.
+    Box box{};           ///< Around everything.
+    Vec3 middle{0};      ///< Of the box.
+    Vec3 half{0};        ///< From there to its sides.
 
-    /// A place between leaves that nothing has.
-    static constexpr std::uint32_t hole = std::numeric_limits<std::uint32_t>::max();
+    /// A slot between leaves that nothing has.
+    static constexpr std::uint32_t padding = std::numeric_limits<std::uint32_t>::max();
 };
 
 namespace detail {
@@ -79,10 +79,11 @@ void widen(Bvh8Nodes& wide, const BvhNodesT<T>& tree, const BvhCollapse<T>& coll
         }
         node.child[i] = Bvh8Child::leaf |
                         ((below.count - 1) << Bvh8Child::count_shift) |
-                        static_cast<std::uint32_t>(wide.order.size());
+                        static_cast<std::uint32_t>(wide.primitive_ids.size());
         for (std::uint32_t k = 0; k < below.count; ++k)
-            wide.order.push_back(tree.order[below.first + k]);
-        while (wide.order.size() % multiple != 0) wide.order.push_back(Bvh8Nodes::hole);
+            wide.primitive_ids.push_back(tree.primitive_ids[below.first + k]);
+        while (wide.primitive_ids.size() % multiple != 0)
+            wide.primitive_ids.push_back(Bvh8Nodes::padding);
     }
     wide.nodes[to] = node;
     for (std::size_t i = 0; i < count; ++i)
@@ -95,10 +96,10 @@ void widen(Bvh8Nodes& wide, const BvhNodesT<T>& tree, const BvhCollapse<T>& coll
 } // namespace detail
 
 /// Makes a tree wide.
-/// \param tree      The plain tree; its leaves have at most 16 things.
-/// \param multiple  Leaves start at multiples of so many places, holes between them.
+/// \param tree      The plain tree; its leaves have at most 16 primitives.
+/// \param multiple  Leaves start at multiples of so many slots, padding between them.
 /// \return The wide tree.
-/// \throws std::invalid_argument  if there are 2^27 places or more.
+/// \throws std::invalid_argument  if there are 2^27 slots or more.
 template <std::floating_point T>
 [[nodiscard]] Bvh8Nodes make_bvh8(const BvhNodesT<T>& tree,
                                   std::uint32_t multiple = 1) {
@@ -109,10 +110,11 @@ template <std::floating_point T>
     wide.half = 0.5f * wide.box.high - 0.5f * wide.box.low;
     wide.nodes.emplace_back();
     detail::widen(wide, tree, BvhCollapse<T>(tree), 0, 0, multiple);
-    require(wide.order.size() < Bvh8Child::first, "the number of places in a tree",
-            static_cast<long long>(wide.order.size()), "below 2^27");
+    require(wide.primitive_ids.size() < Bvh8Child::first,
+            "the number of slots in a tree",
+            static_cast<long long>(wide.primitive_ids.size()), "below 2^27");
     wide.nodes.shrink_to_fit();
-    wide.order.shrink_to_fit();
+    wide.primitive_ids.shrink_to_fit();
     return wide;
 }
 

@@ -32,7 +32,7 @@ inline Bvh8Start begin_walk(const Bvh8Nodes& wide, const Ray& ray, Leaf& leaf) {
     if (wide.nodes.empty() || !(ray.t_min <= ray.t_max)) return start;
     start.done = !make_ready(start.ray, ray, wide.middle, wide.half);
     if (start.done && is_finite(ray.origin) && is_finite(ray.direction))
-        start.found = leaf(0u, static_cast<std::uint32_t>(wide.order.size()),
+        start.found = leaf(0u, static_cast<std::uint32_t>(wide.primitive_ids.size()),
                            static_cast<const Bvh8Ray*>(nullptr));
     return start;
 }
@@ -76,7 +76,7 @@ inline std::uint64_t enter(Lanes& t, const Bvh8Nodes& wide, std::uint32_t node,
 /// The way of a search for the nearest.
 /// \param wide   The tree.
 /// \param ray    The ray; a search may shorten it.
-/// \param leaf   Called as leaf(first place, count, ready ray). For a ray that cannot
+/// \param leaf   Called as leaf(first slot, count, ready ray). For a ray that cannot
 ///               be made ready, once, with a null pointer.
 /// \param watch  Called for each node on the way.
 // [walk]

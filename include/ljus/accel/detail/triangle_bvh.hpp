@@ -20,13 +20,13 @@ struct alignas(64) TriangleLanes {
     Lanes size{}; ///< The largest component of both edges; below 0 for no triangle.
 };
 
-/// What a first look at eight triangles says: lanes, as yes_lanes() has them.
-struct FirstLook {
-    std::uint64_t maybe = 0;   ///< Those that the ray may hit.
-    std::uint64_t certain = 0; ///< Those among them that it hits.
+/// What the conservative filter says of eight triangles: lanes, as yes_lanes() has them.
+struct FilteredTriangles {
+    std::uint64_t possible = 0; ///< Those that the ray may hit.
+    std::uint64_t definite = 0; ///< Those among them that it hits.
 };
 
-/// A first look at eight triangles: the test of Moeller and Trumbore
+/// A conservative filter for eight triangles: the test of Moeller and Trumbore
 /// \cite moller1997 without its division, in float, and how far its rounding can move
 /// each number. Where a sign could change within that, a triangle's own test decides.
 /// \param block  The triangles.
@@ -34,10 +34,11 @@ struct FirstLook {
 /// \param ray    The ray.
 /// \return Which ones it may hit, and which it hits.
 /// \cost Some 90 operations for all eight together.
-// [first_look]
+// [conservative_filter]
 template <typename Caller>
-[[nodiscard]] inline FirstLook
-first_look(const TriangleLanes& block, const Bvh8Ray& ready, const Ray& ray) noexcept {
+[[nodiscard]] inline FilteredTriangles conservative_filter(const TriangleLanes& block,
+                                                           const Bvh8Ray& ready,
+                                                           const Ray& ray) noexcept {
     constexpr float min = std::numeric_limits<float>::min();
     // Each number is a sum of six products with at most 8 roundings on the way.
     constexpr float rounding = 64 * std::numeric_limits<float>::epsilon() / 2;
@@ -46,7 +47,7 @@ first_look(const TriangleLanes& block, const Bvh8Ray& ready, const Ray& ray) noe
     const float t_min = ray.t_min;
     const float t_max = ray.t_max < ready.last ? ray.t_max : ready.last;
     const auto size_of = [](float x) { return x < 0 ? -x : x; };
-    LaneMask maybe, certain;
+    LaneMask possible, definite;
     for (int i = 0; i < lane_count; ++i) {
         const float x = block.v1.x.lane[i], y = block.v1.y.lane[i];
         const float z = block.v1.z.lane[i];
@@ -85,21 +86,21 @@ first_look(const TriangleLanes& block, const Bvh8Ray& ready, const Ray& ray) noe
         const bool out =
             (inner < -wide) | (before < -near) | (behind < -far) | (size < 0);
         const bool in = (inner > wide) & (before > near) & (behind > far) & (size > 0);
-        maybe.lane[i] = out ? 0 : -1;
-        certain.lane[i] = in ? -1 : 0;
+        possible.lane[i] = out ? 0 : -1;
+        definite.lane[i] = in ? -1 : 0;
     }
-    return {yes_lanes(maybe), yes_lanes(certain)};
+    return {yes_lanes(possible), yes_lanes(definite)};
 }
-// [first_look]
+// [conservative_filter]
 
 /// A wide tree over triangles, with the searches of BvhT, and the same answers. It
-/// keeps the triangles, in its own order: what a search asks about lies where the first
-/// look has just been.
+/// keeps the triangles, in its own order: what a search asks about lies where the
+/// filter has just been.
 ///
 ///     const TriangleBvh tree(count, [&](std::uint32_t i) { return triangles[i]; });
-///     tree.closest(ray, [&](std::uint32_t place, Ray& rest) {
-///         if (const auto hit = intersect<double>(rest, tree.triangle(place)))
-///             nearest.offer(*hit, tree.order()[place], rest);
+///     tree.closest(ray, [&](std::uint32_t slot, Ray& rest) {
+///         if (const auto hit = intersect<double>(rest, tree.triangle(slot)))
+///             nearest.offer(*hit, tree.primitive_ids()[slot], rest);
 ///     });
 /// \cost About 60 bytes a triangle.
 class TriangleBvh {
@@ -122,21 +123,21 @@ public:
         tree_ = Bvh8(boxes, settings, lane_count);
         TriangleLanes empty;
         empty.size = all_lanes(-1.0f);
-        blocks_.resize(order().size() / lane_count, empty);
-        for (std::size_t place = 0; place < order().size(); ++place)
-            if (order()[place] != Bvh8::hole)
-                put(blocks_[place / lane_count], place % lane_count,
-                    triangle(order()[place]));
+        blocks_.resize(primitive_ids().size() / lane_count, empty);
+        for (std::size_t slot = 0; slot < primitive_ids().size(); ++slot)
+            if (primitive_ids()[slot] != Bvh8::padding)
+                put(blocks_[slot / lane_count], slot % lane_count,
+                    triangle(primitive_ids()[slot]));
     }
 
-    /// order()[place] is a triangle's number, or Bvh8::hole.
-    [[nodiscard]] const std::vector<std::uint32_t>& order() const noexcept {
-        return tree_.order();
+    /// primitive_ids()[slot] is a triangle's number, or Bvh8::padding.
+    [[nodiscard]] const std::vector<std::uint32_t>& primitive_ids() const noexcept {
+        return tree_.primitive_ids();
     }
-    /// The triangle at a place that is no hole, as it was given.
-    [[nodiscard]] Triangle triangle(std::uint32_t place) const noexcept {
-        const TriangleLanes& block = blocks_[place / lane_count];
-        const std::size_t lane = place % lane_count;
+    /// The triangle at a slot that is no padding, as it was given.
+    [[nodiscard]] Triangle triangle(std::uint32_t slot) const noexcept {
+        const TriangleLanes& block = blocks_[slot / lane_count];
+        const std::size_t lane = slot % lane_count;
         const auto corner = [lane](const Lanes3& v) {
             return Vec3{v.x.lane[lane], v.y.lane[lane], v.z.lane[lane]};
         };
@@ -154,23 +155,23 @@ public:
     /// As BvhT::closest(): the triangles that the ray may hit are asked.
     template <typename Test, typename Watch = NoTrace>
     void closest(Ray ray, Test&& test, Watch&& watch = {}) const {
-        const auto ask = [&](std::uint32_t place) {
-            test(place, ray);
+        const auto ask = [&](std::uint32_t slot) {
+            test(slot, ray);
             return false;
         };
-        walk_nearest(tree_.wide(), ray, look_first<false>(ray, ask), watch);
+        walk_nearest(tree_.wide(), ray, filtered_leaf<false>(ray, ask), watch);
     }
 
     /// As BvhT::any(), but a triangle that is certainly hit is not asked.
     template <typename Test, typename Watch = NoTrace>
     [[nodiscard]] bool any(const Ray& ray, Test&& test, Watch&& watch = {}) const {
-        return walk_any(tree_.wide(), ray, look_first<true>(ray, test), watch);
+        return walk_any(tree_.wide(), ray, filtered_leaf<true>(ray, test), watch);
     }
 
 private:
     // A leaf of the tree's walks.
-    template <bool certain_ends, typename Ask>
-    struct LookFirst {
+    template <bool definite_ends, typename Ask>
+    struct FilteredLeaf {
         const TriangleBvh& of;
         const Ray& ray;
         Ask& ask;
@@ -179,17 +180,17 @@ private:
                         const Bvh8Ray* ready) const {
             if (ready == nullptr || !ready->moderate)
                 return of.tree_.each_place(ask)(first, count, ready);
-            FirstLook found =
-                first_look<Ask>(of.blocks_[first / lane_count], *ready, ray);
-            if (certain_ends && found.certain != 0) return true;
-            while (found.maybe != 0)
-                if (ask(first + static_cast<std::uint32_t>(take_lane(found.maybe))))
+            FilteredTriangles found =
+                conservative_filter<Ask>(of.blocks_[first / lane_count], *ready, ray);
+            if (definite_ends && found.definite != 0) return true;
+            while (found.possible != 0)
+                if (ask(first + static_cast<std::uint32_t>(take_lane(found.possible))))
                     return true;
             return false;
         }
     };
-    template <bool certain_ends, typename Ask>
-    LookFirst<certain_ends, Ask> look_first(const Ray& ray, Ask& ask) const {
+    template <bool definite_ends, typename Ask>
+    FilteredLeaf<definite_ends, Ask> filtered_leaf(const Ray& ray, Ask& ask) const {
         return {*this, ray, ask};
     }
 
