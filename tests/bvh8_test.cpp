@@ -290,7 +290,7 @@ TEST_CASE(
     CHECK(one.primitive_ids() == many.primitive_ids());
     REQUIRE(one.tree().nodes().size() == many.tree().nodes().size());
     CHECK(std::memcmp(one.tree().nodes().data(), many.tree().nodes().data(),
-                      one.tree().nodes().size() * sizeof(Bvh8Node)) == 0);
+                      one.tree().nodes().size() * sizeof(ljus::detail::Bvh8Node)) == 0);
 }
 
 TEST_CASE("wide bvh: few nodes, for most of their places are taken") {

@@ -41,7 +41,7 @@ ljus_break_it(NAME bvh-cost HEADER accel/detail/bvh_bins.hpp TEST bvh
     CASES "bvh: the nearer child first*")
 
 # Wide boxes without slack.
-ljus_break_it(NAME wide-bvh-slack HEADER accel/detail/bvh8_ray.hpp TEST bvh8
+ljus_break_it(NAME wide-bvh-slack HEADER accel/detail/bvh8_nodes.hpp TEST bvh8
     FROM "8 * std::numeric_limits<float>::epsilon() * reach"
     TO   "0 * reach"
     CASES "wide bvh: no ray slips*,wide bvh: huge and tiny*")

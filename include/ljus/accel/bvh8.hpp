@@ -32,27 +32,28 @@ public:
                   std::uint32_t multiple = 1) {
         require(settings.leaf_size <= 16, "leaf_size",
                 static_cast<long long>(settings.leaf_size), "at most 16");
-        wide_ = make_bvh8(build_bvh(std::span<const Box>(boxes), settings), multiple);
+        wide_ = detail::make_bvh8(build_bvh(std::span<const Box>(boxes), settings),
+                                  multiple);
     }
 
     /// A slot between leaves that nothing has.
-    static constexpr std::uint32_t padding = Bvh8Nodes::padding;
+    static constexpr std::uint32_t padding = detail::Bvh8Nodes::padding;
 
     /// primitive_ids()[slot] is a primitive's number, or padding.
     [[nodiscard]] const std::vector<std::uint32_t>& primitive_ids() const noexcept {
         return wide_.primitive_ids;
     }
     /// The nodes, the root first.
-    [[nodiscard]] const std::vector<Bvh8Node>& nodes() const noexcept {
+    [[nodiscard]] const std::vector<detail::Bvh8Node>& nodes() const noexcept {
         return wide_.nodes;
     }
-    /// The tree itself, for walk_nearest() and walk_any().
-    [[nodiscard]] const Bvh8Nodes& wide() const noexcept { return wide_; }
+    /// The tree itself, for detail::walk_nearest() and detail::walk_any().
+    [[nodiscard]] const detail::Bvh8Nodes& wide() const noexcept { return wide_; }
     /// A box around everything.
     [[nodiscard]] const Box& box() const noexcept { return wide_.box; }
     /// The memory that the tree takes.
     [[nodiscard]] std::size_t bytes() const noexcept {
-        return wide_.nodes.capacity() * sizeof(Bvh8Node) +
+        return wide_.nodes.capacity() * sizeof(detail::Bvh8Node) +
                wide_.primitive_ids.capacity() * 4;
     }
 
@@ -63,19 +64,20 @@ public:
             test(slot, ray);
             return false;
         };
-        walk_nearest(wide_, ray, each_place(ask), watch);
+        detail::walk_nearest(wide_, ray, each_place(ask), watch);
     }
 
     /// Whether any of the primitives that a ray may meet says yes: as BvhT::any().
     template <typename Test, typename Watch = NoTrace>
     [[nodiscard]] bool any(const Ray& ray, Test&& test, Watch&& watch = {}) const {
-        return walk_any(wide_, ray, each_place(test), watch);
+        return detail::walk_any(wide_, ray, each_place(test), watch);
     }
 
-    /// A leaf for walk_nearest() and walk_any() that asks slot by slot.
+    /// A leaf for detail::walk_nearest() and detail::walk_any() that asks slot by slot.
     template <typename Ask>
     [[nodiscard]] auto each_place(Ask& ask) const {
-        return [this, &ask](std::uint32_t first, std::uint32_t count, const Bvh8Ray*) {
+        return [this, &ask](std::uint32_t first, std::uint32_t count,
+                            const detail::Bvh8Ray*) {
             for (std::uint32_t slot = first; slot < first + count; ++slot)
                 if (wide_.primitive_ids[slot] != padding && ask(slot)) return true;
             return false;
@@ -83,7 +85,7 @@ public:
     }
 
 private:
-    Bvh8Nodes wide_;
+    detail::Bvh8Nodes wide_;
 };
 
 /// \}

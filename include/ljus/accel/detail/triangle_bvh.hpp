@@ -12,6 +12,8 @@ namespace ljus {
 /// \brief The fast tree for a mesh. Chapter: \ref ch_bvh.
 /// \{
 
+namespace detail {
+
 /// Up to eight triangles, coordinate by coordinate: five cache lines of 64 bytes.
 struct alignas(64) TriangleLanes {
     Lanes3 v1{};  ///< First corners.
@@ -49,11 +51,11 @@ template <typename Caller>
     const auto size_of = [](float x) { return x < 0 ? -x : x; };
     LaneMask possible, definite;
     for (int i = 0; i < lane_count; ++i) {
-        const float x = block.v1.x.lane[i], y = block.v1.y.lane[i];
-        const float z = block.v1.z.lane[i];
-        const float e1x = block.v2.x.lane[i] - x, e2x = block.v3.x.lane[i] - x;
-        const float e1y = block.v2.y.lane[i] - y, e2y = block.v3.y.lane[i] - y;
-        const float e1z = block.v2.z.lane[i] - z, e2z = block.v3.z.lane[i] - z;
+        const float x = block.v1.x[i], y = block.v1.y[i];
+        const float z = block.v1.z[i];
+        const float e1x = block.v2.x[i] - x, e2x = block.v3.x[i] - x;
+        const float e1y = block.v2.y[i] - y, e2y = block.v3.y[i] - y;
+        const float e1z = block.v2.z[i] - z, e2z = block.v3.z[i] - z;
         const float tx = o.x - x, ty = o.y - y, tz = o.z - z;
         const float px = d.y * e2z - d.z * e2y;
         const float py = d.z * e2x - d.x * e2z;
@@ -93,6 +95,8 @@ template <typename Caller>
 }
 // [conservative_filter]
 
+} // namespace detail
+
 /// A wide tree over triangles, with the searches of BvhT, and the same answers. It
 /// keeps the triangles, in its own order: what a search asks about lies where the
 /// filter has just been.
@@ -118,15 +122,16 @@ public:
         std::vector<Box> boxes;
         boxes.reserve(count);
         for (std::uint32_t i = 0; i < count; ++i) boxes.push_back(bounds(triangle(i)));
-        const BvhSettings settings{
-            .leaf_size = lane_count, .at_a_time = lane_count, .threads = threads};
-        tree_ = Bvh8(boxes, settings, lane_count);
-        TriangleLanes empty;
-        empty.size = all_lanes(-1.0f);
-        blocks_.resize(primitive_ids().size() / lane_count, empty);
+        const BvhSettings settings{.leaf_size = detail::lane_count,
+                                   .at_a_time = detail::lane_count,
+                                   .threads = threads};
+        tree_ = Bvh8(boxes, settings, detail::lane_count);
+        detail::TriangleLanes empty;
+        for (float& size : empty.size.lane) size = -1; // no triangle
+        blocks_.resize(primitive_ids().size() / detail::lane_count, empty);
         for (std::size_t slot = 0; slot < primitive_ids().size(); ++slot)
             if (primitive_ids()[slot] != Bvh8::padding)
-                put(blocks_[slot / lane_count], slot % lane_count,
+                put(blocks_[slot / detail::lane_count], slot % detail::lane_count,
                     triangle(primitive_ids()[slot]));
     }
 
@@ -136,12 +141,9 @@ public:
     }
     /// The triangle at a slot that is no padding, as it was given.
     [[nodiscard]] Triangle triangle(std::uint32_t slot) const noexcept {
-        const TriangleLanes& block = blocks_[slot / lane_count];
-        const std::size_t lane = slot % lane_count;
-        const auto corner = [lane](const Lanes3& v) {
-            return Vec3{v.x.lane[lane], v.y.lane[lane], v.z.lane[lane]};
-        };
-        return {corner(block.v1), corner(block.v2), corner(block.v3)};
+        const detail::TriangleLanes& block = blocks_[slot / detail::lane_count];
+        const std::size_t lane = slot % detail::lane_count;
+        return {block.v1[lane], block.v2[lane], block.v3[lane]};
     }
     /// The tree of boxes.
     [[nodiscard]] const Bvh8& tree() const noexcept { return tree_; }
@@ -149,7 +151,7 @@ public:
     [[nodiscard]] const Box& box() const noexcept { return tree_.box(); }
     /// The memory that it takes, with what it keeps of the triangles.
     [[nodiscard]] std::size_t bytes() const noexcept {
-        return tree_.bytes() + blocks_.capacity() * sizeof(TriangleLanes);
+        return tree_.bytes() + blocks_.capacity() * sizeof(detail::TriangleLanes);
     }
 
     /// As BvhT::closest(): the triangles that the ray may hit are asked.
@@ -159,13 +161,14 @@ public:
             test(slot, ray);
             return false;
         };
-        walk_nearest(tree_.wide(), ray, filtered_leaf<false>(ray, ask), watch);
+        detail::walk_nearest(tree_.wide(), ray, filtered_leaf<false>(ray, ask), watch);
     }
 
     /// As BvhT::any(), but a triangle that is certainly hit is not asked.
     template <typename Test, typename Watch = NoTrace>
     [[nodiscard]] bool any(const Ray& ray, Test&& test, Watch&& watch = {}) const {
-        return walk_any(tree_.wide(), ray, filtered_leaf<true>(ray, test), watch);
+        return detail::walk_any(tree_.wide(), ray, filtered_leaf<true>(ray, test),
+                                watch);
     }
 
 private:
@@ -177,14 +180,15 @@ private:
         Ask& ask;
 
         bool operator()(std::uint32_t first, std::uint32_t count,
-                        const Bvh8Ray* ready) const {
+                        const detail::Bvh8Ray* ready) const {
             if (ready == nullptr || !ready->moderate)
                 return of.tree_.each_place(ask)(first, count, ready);
-            FilteredTriangles found =
-                conservative_filter<Ask>(of.blocks_[first / lane_count], *ready, ray);
+            detail::FilteredTriangles found = detail::conservative_filter<Ask>(
+                of.blocks_[first / detail::lane_count], *ready, ray);
             if (definite_ends && found.definite != 0) return true;
             while (found.possible != 0)
-                if (ask(first + static_cast<std::uint32_t>(take_lane(found.possible))))
+                if (ask(first +
+                        static_cast<std::uint32_t>(detail::take_lane(found.possible))))
                     return true;
             return false;
         }
@@ -194,22 +198,18 @@ private:
         return {*this, ray, ask};
     }
 
-    static void put(TriangleLanes& block, std::size_t lane, const Triangle& triangle) {
-        const auto set = [&](Lanes3& lanes, const Vec3& v) {
-            lanes.x.lane[lane] = v.x;
-            lanes.y.lane[lane] = v.y;
-            lanes.z.lane[lane] = v.z;
-        };
+    static void put(detail::TriangleLanes& block, std::size_t lane,
+                    const Triangle& triangle) {
         const Vec3 e1 = triangle.v2 - triangle.v1;
         const Vec3 e2 = triangle.v3 - triangle.v1;
-        set(block.v1, triangle.v1);
-        set(block.v2, triangle.v2);
-        set(block.v3, triangle.v3);
+        block.v1.set(lane, triangle.v1);
+        block.v2.set(lane, triangle.v2);
+        block.v3.set(lane, triangle.v3);
         block.size.lane[lane] = max_component(glm::max(glm::abs(e1), glm::abs(e2)));
     }
 
     Bvh8 tree_;
-    std::vector<TriangleLanes> blocks_;
+    std::vector<detail::TriangleLanes> blocks_;
 };
 
 /// \}

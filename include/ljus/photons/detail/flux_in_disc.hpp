@@ -34,11 +34,13 @@ struct FluxDiscT {
 /// \param kernel  The shape.
 /// \param x       Squared distances over the squared radius, each in [0, 1].
 template <std::floating_point T>
-[[nodiscard]] LanesT<T> kernel_weights(Kernel kernel, const LanesT<T>& x) noexcept {
-    LanesT<T> weight;
+[[nodiscard]] detail::LanesT<T> kernel_weights(Kernel kernel,
+                                               const detail::LanesT<T>& x) noexcept {
+    detail::LanesT<T> weight;
     // One loop a kernel: a constant in it, and no choice.
     const auto fill = [&](auto chosen) {
-        for_lanes([&](int i) { weight.lane[i] = kernel_weight(chosen(), x.lane[i]); });
+        detail::for_lanes(
+            [&](int i) { weight.lane[i] = kernel_weight(chosen(), x.lane[i]); });
     };
     switch (kernel) {
     case Kernel::box:
@@ -65,31 +67,31 @@ namespace detail {
 // Which of eight photons lie in a disc: 1 for those that do, or else 0. Small loops,
 // each of a few numbers: a long one is not always made a vector of.
 template <std::floating_point T>
-[[nodiscard]] inline LanesT<T>
-lanes_in_disc(const BlockT<T>& points, const RecordBlockT<T>& record,
+[[nodiscard]] inline detail::LanesT<T>
+lanes_in_disc(const detail::Lanes3T<T>& points, const RecordBlockT<T>& record,
               const FluxDiscT<T>& disc, std::uint32_t found) noexcept {
     const T nx = disc.normal.x, ny = disc.normal.y, nz = disc.normal.z;
     const T cx = disc.center.x, cy = disc.center.y, cz = disc.center.z;
     const T limit = disc.thickness * disc.radius;
     const std::uint32_t kinds = std::uint32_t{disc.kinds.bits}
                                 << RecordCode::kind_shift;
-    LanesT<T> height, along, length2, inside;
-    for_lanes([&](int i) {
+    detail::LanesT<T> height, along, length2, inside;
+    detail::for_lanes([&](int i) {
         height.lane[i] =
             (points.x[i] - cx) * nx + (points.y[i] - cy) * ny + (points.z[i] - cz) * nz;
     });
-    for_lanes([&](int i) {
+    detail::for_lanes([&](int i) {
         const T x = T(RecordCode::normal<0>(record.code[i]));
         const T y = T(RecordCode::normal<1>(record.code[i]));
         const T z = T(RecordCode::normal<2>(record.code[i]));
         along.lane[i] = T(2) * T(127) * (x * nx + y * ny + z * nz);
         length2.lane[i] = x * x + y * y + z * z;
     });
-    for_lanes([&](int i) {
+    detail::for_lanes([&](int i) {
         const T h = height.lane[i];
-        const bool in = (h <= limit) & (-h <= limit) &
-                        !(along.lane[i] < length2.lane[i]) &
-                        ((record.code[i] & kinds) != 0) & ((found & lane_bit[i]) != 0);
+        const bool in =
+            (h <= limit) & (-h <= limit) & !(along.lane[i] < length2.lane[i]) &
+            ((record.code[i] & kinds) != 0) & ((found & detail::lane_bit[i]) != 0);
         inside.lane[i] = in ? T(1) : T(0);
     });
     return inside;
@@ -113,39 +115,40 @@ flux_in_disc(const KdTree8T<T>& tree, const PhotonRecordsT<T>& records,
     const T per_radius2 = T(1) / (disc.radius * disc.radius);
     const Vec3T<T> d = disc.from;
     RgbT<double> sum{0};
-    BlockT<T> part{}; // of some blocks: more terms would cost a float its last digits
-    LanesT<T> count{};
+    detail::Lanes3T<T>
+        part{}; // of some blocks: more terms would cost a float its last digits
+    detail::LanesT<T> count{};
     int parts = 0;
     const auto add_part = [&] {
-        for (std::size_t i = 0; i < lane_count / 2; ++i)
-            sum += RgbT<double>(part[i] + part[i + lane_count / 2]);
+        for (std::size_t i = 0; i < detail::lane_count / 2; ++i)
+            sum += RgbT<double>(part[i] + part[i + detail::lane_count / 2]);
         part = {};
         parts = 0;
     };
     const auto visit = [&](const FoundBlockT<T>& block) {
         const RecordBlockT<T>& record = records.blocks()[block.first / 8];
-        const LanesT<T> inside =
+        const detail::LanesT<T> inside =
             detail::lanes_in_disc(block.points, record, disc, block.found);
         // No choices between products: compilers make jumps of them. What does not lie
         // inside is infinite or NaN at worst, and becomes 1.
-        LanesT<T> shares, lit;
-        for_lanes([&](int i) {
+        detail::LanesT<T> shares, lit;
+        detail::for_lanes([&](int i) {
             const T share = block.distance2.lane[i] * per_radius2;
             shares.lane[i] = share < T(1) ? share : T(1);
         });
-        const LanesT<T> weight = kernel_weights(disc.kernel, shares);
-        for_lanes([&](int i) {
+        const detail::LanesT<T> weight = kernel_weights(disc.kernel, shares);
+        detail::for_lanes([&](int i) {
             const T towards = record.direction.x[i] * d.x +
                               record.direction.y[i] * d.y + record.direction.z[i] * d.z;
             const T facing = towards < T(0) ? T(1) : T(0);
             lit.lane[i] = inside.lane[i] * facing * weight.lane[i];
         });
-        for_lanes([&](int i) {
+        detail::for_lanes([&](int i) {
             part.x[i] += lit.lane[i] * record.flux.x[i];
             part.y[i] += lit.lane[i] * record.flux.y[i];
             part.z[i] += lit.lane[i] * record.flux.z[i];
         });
-        for_lanes([&](int i) { count.lane[i] += inside.lane[i]; });
+        detail::for_lanes([&](int i) { count.lane[i] += inside.lane[i]; });
         if (++parts == 16) add_part();
     };
     tree.visit_blocks(disc.center, disc.radius, visit);

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "ljus/accel/detail/point_block.hpp"
+#include "ljus/math/lanes.hpp"
 #include "ljus/photons/photon.hpp"
 
 namespace ljus {
@@ -29,10 +29,11 @@ struct PhotonRecordT {
 /// Eight records, field by field: 256 bytes in float, which an estimate reads at once.
 template <std::floating_point T>
 struct RecordBlockT {
-    BlockT<T> direction;             ///< Unit, the way they travel.
-    BlockT<T> flux;                  ///< W.
-    std::uint16_t light[lane_count]; ///< The numbers of their lights.
-    std::uint32_t code[lane_count];  ///< What has happened to them, and their normals.
+    detail::Lanes3T<T> direction;            ///< Unit, the way they travel.
+    detail::Lanes3T<T> flux;                 ///< W.
+    std::uint16_t light[detail::lane_count]; ///< The numbers of their lights.
+    std::uint32_t
+        code[detail::lane_count]; ///< What has happened to them, and their normals.
 };
 
 namespace detail {
