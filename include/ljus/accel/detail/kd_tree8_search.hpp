@@ -155,6 +155,11 @@ template <std::floating_point T, typename Wanted>
                                          const Vec3T<T>& center, T radius,
                                          std::span<Neighbor> found, Wanted wanted) {
     if (found.empty() || !(radius >= T(0)) || tree.blocks.empty()) return 0;
+    if (std::is_same_v<Wanted, AnyPoint> && found.size() == 1) {
+        const auto one = nearest_point(tree, center, radius);
+        if (one) found[0] = *one;
+        return one ? 1 : 0;
+    }
     auto reach = ReachT<T>::up_to(double(radius) * double(radius), false);
     if (found.size() <= max_counted)
         return count_nearest(tree, center, reach, found, wanted);

@@ -115,9 +115,9 @@ flux_in_disc(const KdTree8T<T>& tree, const PhotonRecordsT<T>& records,
     const T per_radius2 = T(1) / (disc.radius * disc.radius);
     const Vec3T<T> d = disc.from;
     RgbT<double> sum{0};
-    detail::Lanes3T<T>
-        part{}; // of some blocks: more terms would cost a float its last digits
-    detail::LanesT<T> count{};
+    // Of some blocks: more terms would cost a float its last digits.
+    detail::Lanes3T<T> part{};
+    std::int32_t count[detail::lane_count] = {};
     int parts = 0;
     const auto add_part = [&] {
         for (std::size_t i = 0; i < detail::lane_count / 2; ++i)
@@ -148,14 +148,13 @@ flux_in_disc(const KdTree8T<T>& tree, const PhotonRecordsT<T>& records,
             part.y[i] += lit.lane[i] * record.flux.y[i];
             part.z[i] += lit.lane[i] * record.flux.z[i];
         });
-        detail::for_lanes([&](int i) { count.lane[i] += inside.lane[i]; });
+        detail::for_lanes(
+            [&](int i) { count[i] += static_cast<std::int32_t>(inside.lane[i]); });
         if (++parts == 16) add_part();
     };
     tree.visit_blocks(disc.center, disc.radius, visit);
     if (parts > 0) add_part();
-    double counted = 0;
-    for (const T lane : count.lane) counted += double(lane);
-    gathered += static_cast<std::uint64_t>(counted);
+    for (const std::int32_t lane : count) gathered += static_cast<std::uint64_t>(lane);
     return sum;
 }
 // [flux in disc]
