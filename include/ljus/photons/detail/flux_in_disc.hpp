@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "ljus/accel/kd_tree8.hpp"
@@ -113,6 +115,9 @@ template <std::floating_point T>
 flux_in_disc(const KdTree8T<T>& tree, const PhotonRecordsT<T>& records,
              const FluxDiscT<T>& disc, std::uint64_t& gathered) {
     const T per_radius2 = T(1) / (disc.radius * disc.radius);
+    const T limit = disc.thickness * disc.radius;
+    const std::uint32_t kinds = std::uint32_t{disc.kinds.bits}
+                                << detail::RecordCode::kind_shift;
     const Vec3T<T> d = disc.from;
     RgbT<double> sum{0};
     // Of some blocks: more terms would cost a float its last digits.
@@ -125,8 +130,26 @@ flux_in_disc(const KdTree8T<T>& tree, const PhotonRecordsT<T>& records,
         part = {};
         parts = 0;
     };
-    const auto visit = [&](const FoundBlockT<T>& block) {
-        const RecordBlockT<T>& record = records.blocks()[block.first / 8];
+    // Of a block of which one or two are found, these alone.
+    const auto add_one = [&](const FoundBlockT<T>& block, const RecordBlockT<T>& record,
+                             int lane) {
+        const auto i = static_cast<std::size_t>(lane);
+        const std::uint32_t code = record.code[i];
+        const T height = glm::dot(block.points[i] - disc.center, disc.normal);
+        const SmallNormal normal = detail::RecordCode::normal(code);
+        if ((code & kinds) == 0 || std::abs(height) > limit ||
+            turned_away(normal, disc.normal))
+            return;
+        ++count[0];
+        if (!(glm::dot(record.direction[i], d) < T(0))) return;
+        const T share = block.distance2.lane[i] * per_radius2;
+        const T weight = kernel_weight(disc.kernel, share < T(1) ? share : T(1));
+        part.x[i] += weight * record.flux.x[i];
+        part.y[i] += weight * record.flux.y[i];
+        part.z[i] += weight * record.flux.z[i];
+    };
+    const auto add_eight = [&](const FoundBlockT<T>& block,
+                               const RecordBlockT<T>& record) {
         const detail::LanesT<T> inside =
             detail::lanes_in_disc(block.points, record, disc, block.found);
         // No choices between products: compilers make jumps of them. What does not lie
@@ -150,6 +173,16 @@ flux_in_disc(const KdTree8T<T>& tree, const PhotonRecordsT<T>& records,
         });
         detail::for_lanes(
             [&](int i) { count[i] += static_cast<std::int32_t>(inside.lane[i]); });
+    };
+    const auto visit = [&](const FoundBlockT<T>& block) {
+        const RecordBlockT<T>& record = records.blocks()[block.first / 8];
+        if (const std::uint32_t rest = block.found & (block.found - 1);
+            (rest & (rest - 1)) == 0) {
+            add_one(block, record, std::countr_zero(block.found));
+            if (rest != 0) add_one(block, record, std::countr_zero(rest));
+        } else {
+            add_eight(block, record);
+        }
         if (++parts == 16) add_part();
     };
     tree.visit_blocks(disc.center, disc.radius, visit);
