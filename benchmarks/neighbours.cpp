@@ -85,11 +85,12 @@ struct WideTree {
         return sum;
     }
     float sum_blocks(Vec3 center, float radius) const {
-        ljus::LanesT<float> sums{};
+        ljus::detail::LanesT<float> sums{};
         tree.visit_blocks(center, radius, [&](const ljus::FoundBlockT<float>& block) {
             const float* const value = &values[block.first];
-            ljus::for_lanes([&](int i) {
-                sums.lane[i] += block.distance2.lane[i] < infinity ? value[i] : 0.0f;
+            ljus::detail::for_lanes([&](int i) {
+                sums.lane[i] +=
+                    (block.found & ljus::detail::lane_bit[i]) != 0 ? value[i] : 0.0f;
             });
         });
         float sum = 0;

@@ -26,7 +26,7 @@ struct House {
         tree.closest(ray, [&](std::uint32_t place, Ray& rest) {
             const Triangle triangle = rays::triangle_at(tree, mesh, place);
             if (const auto hit = ljus::intersect<double>(rest, triangle))
-                found.offer(*hit, tree.order()[place], rest);
+                found.offer(*hit, tree.primitive_ids()[place], rest);
         });
         return found;
     }

@@ -165,7 +165,7 @@ Triangle triangle_at(const Tree& tree, const Mesh& mesh, std::uint32_t place) {
     if constexpr (requires { tree.triangle(place); })
         return tree.triangle(place);
     else
-        return mesh[tree.order()[place]];
+        return mesh[tree.primitive_ids()[place]];
 }
 
 } // namespace rays

@@ -44,7 +44,7 @@ struct House {
         tree.closest(ray, [&](std::uint32_t place, Ray& rest) {
             const Triangle triangle = rays::triangle_at(tree, mesh, place);
             if (const auto hit = ljus::intersect<double>(rest, triangle))
-                nearest.offer(*hit, tree.order()[place], rest);
+                nearest.offer(*hit, tree.primitive_ids()[place], rest);
         });
         return nearest;
     }

@@ -56,7 +56,7 @@ std::optional<float> intersect_guarded(const Ray& ray, const Triangle& triangle)
     const Vec3 p = glm::cross(ray.direction, e2);
     const float determinant = glm::dot(p, e1);
     if (std::abs(determinant) < 1e-6f) return std::nullopt;
-    const auto hit = ljus::intersect(ray, triangle);
+    const auto hit = ljus::intersect<float>(ray, triangle);
     if (!hit) return std::nullopt;
     return hit->t;
 }
@@ -94,7 +94,7 @@ float hit(const Ray& ray, const Triangle& triangle, const Prepared& prepared) {
         const auto found = ljus::intersect<double>(ray, triangle);
         return found ? found->t : miss;
     } else {
-        const auto found = ljus::intersect(ray, triangle);
+        const auto found = ljus::intersect<float>(ray, triangle);
         return found ? found->t : miss;
     }
 }
@@ -261,7 +261,7 @@ ljus::Image tetrahedron(int size, bool printed) {
             float nearest = 1e9f;
             ljus::pixel(image, x, y) = {0.05f, 0.06f, 0.08f};
             for (std::size_t k = 0; k < faces.size(); ++k) {
-                const auto hit = ljus::intersect(ray, faces[k]);
+                const auto hit = ljus::intersect<float>(ray, faces[k]);
                 const auto t = printed ? intersect_as_printed(ray, faces[k])
                                : hit   ? std::optional(hit->t)
                                        : std::nullopt;

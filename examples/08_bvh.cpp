@@ -92,7 +92,7 @@ NearestHit first_in(const Tree& tree, auto triangle_at, const Ray& ray, auto&& w
         [&](std::uint32_t place, Ray& rest) {
             const Triangle triangle = triangle_at(place);
             if (const auto hit = ljus::intersect(rest, triangle))
-                nearest.offer(*hit, tree.order()[place], rest);
+                nearest.offer(*hit, tree.primitive_ids()[place], rest);
         },
         watch);
     return nearest;
@@ -111,13 +111,13 @@ struct Plain {
     template <typename Watch = ljus::NoTrace>
     NearestHit first(const Ray& ray, Watch&& watch = {}) const {
         const auto triangle_at = [&](std::uint32_t place) {
-            return mesh[tree.order()[place]];
+            return mesh[tree.primitive_ids()[place]];
         };
         return first_in(tree, triangle_at, ray, watch);
     }
     [[nodiscard]] std::size_t bytes() const {
         return tree.nodes().capacity() * sizeof(tree.nodes()[0]) +
-               tree.order().capacity() * 4;
+               tree.primitive_ids().capacity() * 4;
     }
 };
 

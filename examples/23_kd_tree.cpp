@@ -85,7 +85,7 @@ struct Plan {
 /// The boxes of all ranges after some halvings, over the photons.
 void draw_boxes(const examples::Options& options, const std::vector<Vec3>& points) {
     const KdTree8 tree{std::span<const Vec3>(points)};
-    const auto shape = KdTree8Shape::of(points.size());
+    const auto shape = detail::KdTree8Shape::of(points.size());
     for (const int depth : {2, 4, 6, 8, 99}) {
         Plan plan(points, options.width);
         for (const Vec3& p : points) plan.dot(p, Rgb{0.5f});

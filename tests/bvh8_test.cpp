@@ -45,7 +45,7 @@ Triangle triangle_at(const Tree& tree, const Crowd& crowd, std::uint32_t place) 
     if constexpr (requires { tree.triangle(place); })
         return tree.triangle(place);
     else
-        return crowd[tree.order()[place]];
+        return crowd[tree.primitive_ids()[place]];
 }
 
 template <typename Tree>
@@ -54,7 +54,7 @@ Found by_tree(const Tree& tree, const Crowd& crowd, const Ray& ray) {
     tree.closest(ray, [&](std::uint32_t place, Ray& rest) {
         const Triangle triangle = triangle_at(tree, crowd, place);
         if (const auto hit = intersect<double>(rest, triangle))
-            nearest.offer(*hit, tree.order()[place], rest);
+            nearest.offer(*hit, tree.primitive_ids()[place], rest);
     });
     if (!nearest.found) return {};
     return {nearest.number, nearest.at.t, nearest.at.u, nearest.at.v};
@@ -166,10 +166,10 @@ TEST_CASE("wide bvh: the triangles are kept as they were given") {
     const Crowd crowd = soup(n, 500, 1, 0.1, Vec3(1e3f, 0, -0.0f));
     const TriangleBvh tree(500, [&](std::uint32_t i) { return crowd[i]; });
     int kept = 0;
-    for (std::uint32_t place = 0; place < tree.order().size(); ++place) {
-        if (tree.order()[place] == Bvh8::hole) continue;
+    for (std::uint32_t place = 0; place < tree.primitive_ids().size(); ++place) {
+        if (tree.primitive_ids()[place] == Bvh8::padding) continue;
         const Triangle triangle = tree.triangle(place);
-        const Triangle& given = crowd[tree.order()[place]];
+        const Triangle& given = crowd[tree.primitive_ids()[place]];
         REQUIRE(std::memcmp(&triangle, &given, sizeof(Triangle)) == 0);
         ++kept;
     }
@@ -260,11 +260,13 @@ TEST_CASE(
             const bool hit = by_tree(trees.triangles, mesh, ray).number != ~0u;
             leaks += !hit;
             leaks += !trees.triangles.any(ray, [&](std::uint32_t place) {
-                return intersect<Watertight>(ray, mesh[trees.triangles.order()[place]])
+                return intersect<Watertight>(
+                           ray, mesh[trees.triangles.primitive_ids()[place]])
                     .has_value();
             });
             leaks += !trees.wide.any(ray, [&](std::uint32_t place) {
-                return intersect<Watertight>(ray, mesh[trees.wide.order()[place]])
+                return intersect<Watertight>(ray,
+                                             mesh[trees.wide.primitive_ids()[place]])
                     .has_value();
             });
             if (i % 16) continue;
@@ -285,10 +287,10 @@ TEST_CASE(
     const TriangleBvh one(count, at, 1), many(count, at, 5);
     MESSAGE("bytes a triangle: " << double(one.bytes()) / count);
     CHECK(double(one.bytes()) / count <= 100);
-    CHECK(one.order() == many.order());
+    CHECK(one.primitive_ids() == many.primitive_ids());
     REQUIRE(one.tree().nodes().size() == many.tree().nodes().size());
     CHECK(std::memcmp(one.tree().nodes().data(), many.tree().nodes().data(),
-                      one.tree().nodes().size() * sizeof(Bvh8Node)) == 0);
+                      one.tree().nodes().size() * sizeof(ljus::detail::Bvh8Node)) == 0);
 }
 
 TEST_CASE("wide bvh: few nodes, for most of their places are taken") {

@@ -46,7 +46,7 @@ Found by_loop(const Crowd& crowd, const Ray& ray) {
 Found by_tree(const Bvh& tree, const Crowd& crowd, const Ray& ray) {
     NearestHit nearest;
     tree.closest(ray, [&](std::uint32_t place, Ray& rest) {
-        const std::uint32_t number = tree.order()[place];
+        const std::uint32_t number = tree.primitive_ids()[place];
         if (const auto hit = intersect<double>(rest, crowd[number]))
             nearest.offer(*hit, number, rest);
     });
@@ -56,7 +56,7 @@ Found by_tree(const Bvh& tree, const Crowd& crowd, const Ray& ray) {
 
 bool any_by_tree(const Bvh& tree, const Crowd& crowd, const Ray& ray) {
     return tree.any(ray, [&](std::uint32_t place) {
-        return intersect<double>(ray, crowd[tree.order()[place]]).has_value();
+        return intersect<double>(ray, crowd[tree.primitive_ids()[place]]).has_value();
     });
 }
 
@@ -105,7 +105,7 @@ void check_sound(const Bvh& tree, const std::vector<Box>& boxes,
         };
         REQUIRE(nodes[i].count <= leaf_size);
         for (std::uint32_t k = 0; k < nodes[i].count; ++k) {
-            const std::uint32_t number = tree.order()[nodes[i].first + k];
+            const std::uint32_t number = tree.primitive_ids()[nodes[i].first + k];
             ++seen[number];
             REQUIRE(holds(boxes[number]));
         }
@@ -119,7 +119,7 @@ void check_sound(const Bvh& tree, const std::vector<Box>& boxes,
     CHECK(visited == nodes.size());
     CHECK(deepest <= bvh_depth);
     for (const int times : seen) REQUIRE(times == 1);
-    CHECK(tree.order().size() == boxes.size());
+    CHECK(tree.primitive_ids().size() == boxes.size());
     CHECK(nodes.size() <= 2 * boxes.size());
 }
 
@@ -213,7 +213,7 @@ TEST_CASE("bvh: a wide range of leaves, and the same bytes for any number of thr
         check_sound(one, boxes, leaf_size);
         for (const int threads : {2, 3, 8}) {
             const Bvh many(boxes, {.leaf_size = leaf_size, .threads = threads});
-            REQUIRE(many.order() == one.order());
+            REQUIRE(many.primitive_ids() == one.primitive_ids());
             REQUIRE(many.nodes().size() == one.nodes().size());
             REQUIRE(std::memcmp(many.nodes().data(), one.nodes().data(),
                                 one.nodes().size() * sizeof one.nodes()[0]) == 0);
@@ -221,7 +221,7 @@ TEST_CASE("bvh: a wide range of leaves, and the same bytes for any number of thr
     }
     // At most so many bytes a thing.
     const Bvh finest(boxes, {.leaf_size = 1});
-    CHECK(finest.nodes().capacity() * 32 + finest.order().capacity() * 4 <=
+    CHECK(finest.nodes().capacity() * 32 + finest.primitive_ids().capacity() * 4 <=
           68 * boxes.size());
 }
 
@@ -239,7 +239,7 @@ TEST_CASE("bvh: the nearer child first, so that little is visited") {
             ray,
             [&](std::uint32_t place, Ray& rest) {
                 ++tests;
-                const std::uint32_t number = tree.order()[place];
+                const std::uint32_t number = tree.primitive_ids()[place];
                 if (const auto hit = intersect<double>(rest, crowd[number]))
                     nearest.offer(*hit, number, rest);
             },
@@ -282,7 +282,7 @@ TEST_CASE("bvh: in double as in float") {
                 nearest = std::min(nearest, hit->t);
         double found = std::numeric_limits<double>::infinity();
         tree.closest(ray, [&](std::uint32_t place, RayT<double>& rest) {
-            const auto hit = intersect(rest, crowd[tree.order()[place]]);
+            const auto hit = intersect(rest, crowd[tree.primitive_ids()[place]]);
             if (hit) rest.t_max = found = hit->t;
         });
         REQUIRE(found == nearest);

@@ -92,7 +92,7 @@ TEST_CASE("kd_tree8: each range is halved by one of the axes") {
             CAPTURE(set.name);
             CAPTURE(n);
             const KdTree8 tree{std::span<const Vec3>(set.points)};
-            const auto shape = ljus::KdTree8Shape::of(n);
+            const auto shape = ljus::detail::KdTree8Shape::of(n);
             for (int depth = 0; depth < shape.halvings; ++depth)
                 for (std::uint64_t i = 0; i < 1ull << depth; ++i) {
                     const auto point = [&](std::uint64_t block) {

@@ -38,10 +38,10 @@ void compare_with_sorting() {
         std::sort(sorted.begin(), sorted.end());
         while (values.size() % 8 != 0) values.push_back(infinity);
         const auto k = std::size_t(1 + numbers.below(int(n)));
-        REQUIRE(ljus::select_smallest(values.data(), n, k) == sorted[k - 1]);
+        REQUIRE(ljus::detail::select_smallest(values.data(), n, k) == sorted[k - 1]);
 
         const auto spare = std::size_t(numbers.below(30));
-        const T near = ljus::select_smallest(values.data(), n, k, spare);
+        const T near = ljus::detail::select_smallest(values.data(), n, k, spare);
         const auto through = std::size_t(
             std::upper_bound(sorted.begin(), sorted.end(), near) - sorted.begin());
         REQUIRE(through >= k);

@@ -1,8 +1,12 @@
 /// \file lanes_test.cpp
-/// \brief Eight at a time must be what one at a time is, bit by bit.
+/// \brief Eight at a time must be what one at a time is.
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 
 #include <doctest/doctest.h>
@@ -11,6 +15,7 @@
 #include "ljus/math/random.hpp"
 
 using namespace ljus;
+using namespace ljus::detail;
 
 namespace {
 
@@ -32,78 +37,53 @@ Lanes numbers(RandomStream& stream) {
     return result;
 }
 
-/// The same bits, or NaN both: the bits of a NaN are not promised.
-bool same(float a, float b) {
-    return (std::isnan(a) && std::isnan(b)) ||
-           std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
-}
-
 } // namespace
 
-TEST_CASE("lanes: arithmetic is that of single floats, to the bit") {
+TEST_CASE("lanes: those up to a bound, as bits; NaN is none of them") {
+    const Lanes a{{quiet_nan, 1, 2, 3, -infinity, infinity, -0.0f, 5}};
+    CHECK(lanes_up_to(a, 2.0f) == (2u | 4u | 16u | 64u));
+    CHECK(lanes_up_to(a, infinity) == 254u);
+    CHECK(lanes_up_to(a, quiet_nan) == 0u);
+}
+
+TEST_CASE("lanes: the smallest of those that count, but for its last three bits") {
     RandomStream stream = random_stream(1, Pass::user, 0, 0);
-    for (int round = 0; round < 1000; ++round) {
-        const Lanes a = numbers(stream);
-        const Lanes b = numbers(stream);
-        const Lanes sum = a + b;
-        const Lanes difference = a - b;
-        const Lanes product = a * b;
-        const Lanes quotient = a / b;
-        const Lanes root = sqrt(a);
-        for (int i = 0; i < lane_count; ++i) {
-            REQUIRE(same(sum.lane[i], a.lane[i] + b.lane[i]));
-            REQUIRE(same(difference.lane[i], a.lane[i] - b.lane[i]));
-            REQUIRE(same(product.lane[i], a.lane[i] * b.lane[i]));
-            REQUIRE(same(quotient.lane[i], a.lane[i] / b.lane[i]));
-            REQUIRE(same(root.lane[i], std::sqrt(a.lane[i])));
-        }
+    for (int round = 0; round < 10000; ++round) {
+        Lanes a = numbers(stream);
+        for (float& x : a.lane) x = std::abs(x);
+        const auto among = static_cast<std::uint32_t>(256 * next_1d(stream));
+        const float bound = std::abs(numbers(stream).lane[0]);
+        float smallest = infinity;
+        bool any = false;
+        for (std::uint32_t i = 0; i < 8; ++i)
+            if ((among >> i & 1u) != 0 && a.lane[i] <= bound) {
+                smallest = std::min(smallest, a.lane[i]);
+                any = true;
+            }
+        const std::uint32_t found = smallest_lane(a, among, bound);
+        REQUIRE((found < 8) == any);
+        if (!any) continue;
+        REQUIRE((among >> found & 1u) != 0);
+        const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x) >> 3; };
+        REQUIRE(bits(a.lane[found]) == bits(smallest));
     }
 }
 
-TEST_CASE("lanes: NaN is no to every comparison, and gives way in min and max") {
-    const Lanes a{{quiet_nan, 1, 1, 2, quiet_nan, -infinity, -0.0f, 5}};
-    const Lanes b{{1, quiet_nan, 2, 1, quiet_nan, infinity, 0.0f, 5}};
-    const LaneMask mask = a <= b;
-    const std::array<std::int32_t, 8> expected{0, 0, -1, 0, 0, -1, -1, -1};
-    for (std::size_t i = 0; i < 8; ++i) CHECK(mask.lane[i] == expected[i]);
-    CHECK(min(a, b).lane[0] == 1.0f);
-    CHECK(max(a, b).lane[0] == 1.0f);
-    CHECK(min(a, b).lane[2] == 1.0f);
-    CHECK(max(a, b).lane[2] == 2.0f);
+TEST_CASE("lanes: those that say yes are taken one by one, the first one first") {
+    for (std::uint32_t wanted = 0; wanted < 256; ++wanted) {
+        LaneMask mask{};
+        for (std::size_t i = 0; i < 8; ++i)
+            mask.lane[i] = (wanted & lane_bit[i]) != 0 ? -1 : 0;
+        std::uint64_t yes = yes_lanes(mask);
+        std::uint32_t taken = 0;
+        while (yes != 0) taken |= lane_bit[take_lane(yes)];
+        REQUIRE(taken == wanted);
+    }
 }
 
-TEST_CASE("lanes: select takes each lane from where the mask says") {
-    const Lanes index{{0, 1, 2, 3, 4, 5, 6, 7}};
-    const LaneMask low = index <= all_lanes(3.0f);
-    const Lanes mixed = select(low, index, all_lanes(-1.0f));
-    for (int i = 0; i < lane_count; ++i)
-        CHECK(mixed.lane[i] == (i <= 3 ? float(i) : -1.0f));
-    CHECK(any(low));
-    CHECK_FALSE(any(low & (all_lanes(4.0f) <= index)));
-}
-
-TEST_CASE("lanes: dot and cross are those of vectors") {
-    RandomStream stream = random_stream(2, Pass::user, 0, 0);
-    Lanes3 a{};
-    Lanes3 b{};
-    std::array<glm::dvec3, lane_count> va{};
-    std::array<glm::dvec3, lane_count> vb{};
-    for (int i = 0; i < lane_count; ++i) {
-        const Vec3 p = next_3d(stream) - Vec3{0.5f};
-        const Vec3 q = next_3d(stream) - Vec3{0.5f};
-        a.x.lane[i] = p.x, a.y.lane[i] = p.y, a.z.lane[i] = p.z;
-        b.x.lane[i] = q.x, b.y.lane[i] = q.y, b.z.lane[i] = q.z;
-        va[static_cast<std::size_t>(i)] = p;
-        vb[static_cast<std::size_t>(i)] = q;
-    }
-    const Lanes scalar = dot(a, b);
-    const Lanes3 vector = cross(a, b);
-    for (int i = 0; i < lane_count; ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        const glm::dvec3 c = glm::cross(va[k], vb[k]);
-        CHECK(scalar.lane[i] == doctest::Approx(glm::dot(va[k], vb[k])).epsilon(1e-5));
-        CHECK(std::abs(vector.x.lane[i] - c.x) < 1e-7);
-        CHECK(std::abs(vector.y.lane[i] - c.y) < 1e-7);
-        CHECK(std::abs(vector.z.lane[i] - c.z) < 1e-7);
-    }
+TEST_CASE("lanes: a point goes in and comes out") {
+    Lanes3 block{};
+    for (std::size_t i = 0; i < 8; ++i) block.set(i, Vec3{float(i), 10.0f, -float(i)});
+    for (std::size_t i = 0; i < 8; ++i)
+        CHECK(block[i] == Vec3{float(i), 10.0f, -float(i)});
 }

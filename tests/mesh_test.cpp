@@ -561,3 +561,43 @@ TEST_CASE("mesh: texture coordinates are those of its vertices, interpolated") {
     bare.uv = {};
     CHECK(bytes(mesh) == bytes(Mesh(bare, 1)) + 900 * sizeof(Vec2));
 }
+
+TEST_CASE("mesh: triangles that collapse to a line are never what a ray meets") {
+    // A globe whose quads at the poles have two equal corners.
+    const int rows = 6, columns = 8;
+    MeshData data;
+    for (int i = 0; i <= rows; ++i)
+        for (int j = 0; j < columns; ++j) {
+            const double theta = 3.14159265358979 * i / rows;
+            const double phi = 6.28318530717959 * j / columns;
+            const double ring = i == 0 || i == rows ? 0 : std::sin(theta);
+            data.positions.emplace_back(float(ring * std::cos(phi)),
+                                        float(std::cos(theta)),
+                                        float(ring * std::sin(phi)));
+        }
+    const auto at = [&](int i, int j) {
+        return static_cast<std::uint32_t>(i * columns + j % columns);
+    };
+    for (int i = 0; i < rows; ++i)
+        for (int j = 0; j < columns; ++j) {
+            data.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i + 1, j)});
+            data.triangles.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
+        }
+    const Mesh globe(data);
+    Numbers n(71);
+    for (int i = 0; i < 20000; ++i) {
+        // At the sides of the collapsed triangles, from outside and from within.
+        const Triangle t = globe.triangle(static_cast<std::uint32_t>(2 * (i % 8) + 1));
+        const Vec3 target = t.v1 + float(n.next()) * (t.v3 - t.v1);
+        const Vec3 origin(n.point(i % 2 == 0 ? 4 : 0.5));
+        const Ray ray{.origin = origin, .direction = target - origin};
+        const auto check = [&](const auto& hit) {
+            if (!hit) return;
+            const Vec3 normal = surface_point(globe, ray, *hit).normal;
+            REQUIRE(glm::dot(normal, normal) == doctest::Approx(1));
+        };
+        check(intersect(ray, globe));
+        check(intersect<float>(ray, globe));
+        check(intersect<Watertight>(ray, globe));
+    }
+}

@@ -138,9 +138,14 @@ TEST_CASE("photon_map: eight at a time give what one by one give") {
                                                   in_lanes);
             const Rgb b = ljus::estimate_radiance(map, surface, Unknown{}, wo, gather,
                                                   kinds, one_by_one);
+            std::uint64_t plainly = 0;
+            const Rgb plain = ljus::estimate_radiance_plain(map, surface, matt, wo,
+                                                            gather, kinds, plainly);
             REQUIRE(in_lanes == one_by_one);
+            REQUIRE(in_lanes == plainly);
             for (int c = 0; c < 3; ++c)
                 REQUIRE(a[c] == doctest::Approx(b[c]).epsilon(1e-5));
+            REQUIRE(plain == b);
         }
     }
 }

@@ -30,7 +30,7 @@ Ray down_at(float x, float y) {
 TEST_CASE("quad: known hits, on both sides of the diagonal") {
     for (const float u : {0.0f, 0.25f, 0.75f, 1.0f})
         for (const float v : {0.0f, 0.125f, 0.5f, 1.0f}) {
-            const auto hit = intersect(down_at(u, v), square);
+            const auto hit = intersect<float>(down_at(u, v), square);
             REQUIRE(hit);
             CHECK(hit->t == 4.0f);
             CHECK(hit->u == u);
@@ -43,8 +43,8 @@ TEST_CASE("quad: each of the four edges is a border") {
     const float below = std::nextafter(0.0f, -1.0f), above = std::nextafter(1.0f, 2.0f);
     for (const float along : {0.0f, 0.5f, 1.0f})
         for (const float beyond : {below, above, -1.0f, 2.0f}) {
-            CHECK_FALSE(intersect(down_at(along, beyond), square));
-            CHECK_FALSE(intersect(down_at(beyond, along), square));
+            CHECK_FALSE(intersect<float>(down_at(along, beyond), square));
+            CHECK_FALSE(intersect<float>(down_at(beyond, along), square));
         }
 }
 

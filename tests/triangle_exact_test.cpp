@@ -402,7 +402,7 @@ TEST_CASE_TEMPLATE("triangle: right where inputs within 8 units of roundoff deci
     using T = decltype(area(S{}));
     const auto tallies =
         run<S>("in the precision of the data", [](const RayT<T>& ray, const S& shape) {
-            return intersect(ray, shape);
+            return intersect<T>(ray, shape);
         });
     Tally total;
     for (std::size_t family = 0; family <= last_ordinary; ++family) {
@@ -457,7 +457,7 @@ TEST_CASE("triangle: in double no ray slips through where two triangles meet") {
             for (std::size_t k = 0; k < 8; ++k) {
                 const Triangle t{hub, rim[k], rim[(k + 1) % 8]};
                 hit = hit || intersect<double>(ray, t);
-                float_hit = float_hit || intersect(ray, t);
+                float_hit = float_hit || intersect<float>(ray, t);
             }
             leaks += !hit;
             float_leaks += !float_hit;

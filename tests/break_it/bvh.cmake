@@ -1,7 +1,7 @@
 # The planes chosen by the sign of the direction: -0 is not below 0.
 ljus_break_it(NAME box-sign HEADER geometry/box.hpp TEST box
-    FROM ".backwards = {std::signbit(inverse.x), std::signbit(inverse.y),"
-    TO   ".backwards = {ray.direction.x < 0, ray.direction.y < 0,"
+    FROM ".is_negative = {std::signbit(inverse.x), std::signbit(inverse.y),"
+    TO   ".is_negative = {ray.direction.x < 0, ray.direction.y < 0,"
     CASES "box: what the slabs say*,box: along an axis*")
 
 # Boxes as large as they say, and no larger.
@@ -36,12 +36,12 @@ ljus_break_it(NAME bvh-later HEADER accel/bvh.hpp TEST bvh
 
 # The costs of the lower halves are left out.
 ljus_break_it(NAME bvh-cost HEADER accel/detail/bvh_bins.hpp TEST bvh
-    FROM "lower.sides.half_area() * tests_of(lower.count, at_a_time) + above[i]"
+    FROM "lower.bounds.half_area() * tests_of(lower.count, at_a_time) + above[i]"
     TO   "above[i]"
     CASES "bvh: the nearer child first*")
 
 # Wide boxes without slack.
-ljus_break_it(NAME wide-bvh-slack HEADER accel/detail/bvh8_ray.hpp TEST bvh8
+ljus_break_it(NAME wide-bvh-slack HEADER accel/detail/bvh8_nodes.hpp TEST bvh8
     FROM "8 * std::numeric_limits<float>::epsilon() * reach"
     TO   "0 * reach"
     CASES "wide bvh: no ray slips*,wide bvh: huge and tiny*")

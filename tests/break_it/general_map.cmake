@@ -67,6 +67,6 @@ ljus_break_it(NAME general-map-area HEADER photons/photon_map.hpp TEST general_m
 
 # Photons of the other side count too.
 ljus_break_it(NAME general-map-other-side HEADER photons/detail/flux_in_disc.hpp TEST general_map
-    FROM "(inside[i] != 0) & (towards < T(0))"
-    TO   "(inside[i] != 0)"
+    FROM "towards < T(0) ? T(1) : T(0)"
+    TO   "towards < T(0) ? T(1) : T(1)"
     CASES "general map: a flat estimate*")

@@ -1,23 +1,23 @@
 # Floats alone decide: near the border of the ball they decide wrongly.
-ljus_break_it(NAME wide-kd-tree-float HEADER accel/detail/point_block.hpp TEST kd_tree8
+ljus_break_it(NAME wide-kd-tree-float HEADER accel/detail/kd_tree8_nodes.hpp TEST kd_tree8
     FROM "if (!holds(distance2(points[std::size_t(i)], center)))"
     TO   "if (false)"
     CASES "kd_tree8: every search*")
 
 # No margin for the five roundings of a float distance.
-ljus_break_it(NAME wide-kd-tree-margin HEADER accel/detail/point_block.hpp TEST kd_tree8
+ljus_break_it(NAME wide-kd-tree-margin HEADER accel/detail/kd_tree8_nodes.hpp TEST kd_tree8
     FROM "constexpr double margin = 8 * double(Numbers::epsilon());"
     TO   "constexpr double margin = 0;"
     CASES "kd_tree8: the ball is closed*")
 
 # The smallest floats taken at their word.
-ljus_break_it(NAME wide-kd-tree-tiny HEADER accel/detail/point_block.hpp TEST kd_tree8
+ljus_break_it(NAME wide-kd-tree-tiny HEADER accel/detail/kd_tree8_nodes.hpp TEST kd_tree8
     FROM "constexpr double tiny = 4 * double(Numbers::min());"
     TO   "constexpr double tiny = 0;"
     CASES "kd_tree8: the smallest*")
 
 # An open ball.
-ljus_break_it(NAME wide-kd-tree-border HEADER accel/detail/point_block.hpp TEST kd_tree8
+ljus_break_it(NAME wide-kd-tree-border HEADER accel/detail/kd_tree8_nodes.hpp TEST kd_tree8
     FROM "return open ? d2 < limit2 : d2 <= limit2;"
     TO   "return d2 < limit2;"
     CASES "kd_tree8: the ball is closed*")

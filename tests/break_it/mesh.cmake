@@ -42,8 +42,8 @@ ljus_break_it(NAME mesh-angle HEADER accel/mesh_data.hpp TEST mesh
 
 # A shadow ray asks the first triangle of the tree, whichever it may hit.
 ljus_break_it(NAME mesh-meets HEADER accel/mesh.hpp TEST mesh
-    FROM "mesh.triangle_at(place), prepared).has_value()"
-    TO   "mesh.triangle_at(0 * place), prepared).has_value()"
+    FROM "mesh.triangle_at(slot), prepared).has_value()"
+    TO   "mesh.triangle_at(0 * slot), prepared).has_value()"
     CASES "mesh: hits are those*")
 
 # The texture coordinates of the second and the third corner change places.

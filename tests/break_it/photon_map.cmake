@@ -1,7 +1,7 @@
 # k photons over the disc of the k-th: k/(k-1) too bright.
 ljus_break_it(NAME photon-map-k HEADER photons/photon_map.hpp TEST photon_map
-    FROM "full ? 1 : 0"
-    TO   "0"
+    FROM "k = full ? 1 : 0"
+    TO   "k = 0"
     CASES "photon_map: with the k nearest*")
 
 # (k-1)/k as well as the k-th photon left out: too dark by as much.
@@ -23,20 +23,22 @@ ljus_break_it(NAME photon-map-cosine HEADER photons/photon_map.hpp TEST photon_m
     CASES "photon_map: one by one*")
 
 ljus_break_it(NAME photon-map-direction HEADER photons/photon_map.hpp TEST photon_map
-    FROM "-photon.direction"
-    TO   "photon.direction"
+    FROM "wi = to_local(surface.frame, -photon.direction);"
+    TO   "wi = to_local(surface.frame, photon.direction);"
     CASES "photon_map: one by one*")
 
 # A ball without a disc: the light of another wall.
 ljus_break_it(NAME photon-map-thickness HEADER photons/photon_map.hpp TEST photon_map
-    FROM "if (height * height > limit * limit * radius2) return;"
+    FROM "height * height > height2 ||"
     TO   ""
     CASES "photon_map: eight*")
 
 # The next wall of a corner, and the other side of a thin wall.
 ljus_break_it(NAME photon-map-turned HEADER photons/photon_map.hpp TEST photon_map
-    FROM "!turned_away(photon.normal, surface.point.normal)"
-    TO   "true"
+    FROM "turned_away(photon.normal, surface.point.normal))
+            return;"
+    TO   "false)
+            return;"
     CASES "photon_map: eight*")
 
 # A disc so flat that a ball of twice its radius loses the rim.
@@ -60,20 +62,20 @@ ljus_break_it(NAME photon-map-one-point HEADER photons/photon_map.hpp TEST photo
 
 # Eight at a time, what decides on a photon must be as it is one by one.
 ljus_break_it(NAME lane-estimate-side HEADER photons/detail/flux_in_disc.hpp TEST photon_map
-    FROM "(inside[i] != 0) & (towards < T(0))"
-    TO   "(inside[i] != 0)"
+    FROM "towards < T(0) ? T(1) : T(0)"
+    TO   "towards < T(0) ? T(1) : T(1)"
     CASES "photon_map: eight*")
 ljus_break_it(NAME lane-estimate-height HEADER photons/detail/flux_in_disc.hpp TEST photon_map
-    FROM "(-h <= height)"
+    FROM "(-h <= limit)"
     TO   "true"
     CASES "photon_map: eight*")
 ljus_break_it(NAME lane-estimate-turned HEADER photons/detail/flux_in_disc.hpp TEST photon_map
-    FROM "T(2) * T(127) * along"
-    TO   "T(127) * along"
+    FROM "T(2) * T(127) * (x * nx"
+    TO   "T(127) * (x * nx"
     CASES "photon_map: eight*")
 ljus_break_it(NAME lane-estimate-kinds HEADER photons/detail/flux_in_disc.hpp TEST photon_map
-    FROM "kinds >> kind[i] & 1"
-    TO   "kinds | 1"
+    FROM "(record.code[i] & kinds) != 0"
+    TO   "(record.code[i] | kinds) != 0"
     CASES "photon_map: eight*")
 
 # A sum in float alone.

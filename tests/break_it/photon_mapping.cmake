@@ -13,13 +13,13 @@ ljus_break_it(NAME photon-mapping-flux HEADER photons/photon_path.hpp TEST photo
 # A cosine in the estimate, which the arriving flux holds already: photons one by one, and
 # eight at a time.
 ljus_break_it(NAME photon-mapping-cosine HEADER photons/photon_map.hpp TEST photon_mapping
-    FROM "weight * evaluate(material, wo, wi)"
-    TO   "weight * std::abs(wi.z) * evaluate(material, wo, wi)"
+    FROM "weight * evaluate(material, wo, from_light)"
+    TO   "weight * std::abs(from_light.z) * evaluate(material, wo, from_light)"
     CASES "photon mapping: a matt ball embedded*")
 ljus_break_it(NAME photon-mapping-lane-cosine HEADER photons/detail/flux_in_disc.hpp
     TEST photon_mapping
-    FROM "lit ? weight.lane[i] : T(0)"
-    TO   "lit ? -towards * weight.lane[i] : T(0)"
+    FROM "towards < T(0) ? T(1) : T(0)"
+    TO   "towards < T(0) ? -towards : T(0)"
     CASES "photon mapping: a matt ball embedded*")
 
 # The report's weight of a photon, a hill whose volume is not 1.

@@ -6,3 +6,8 @@ ljus_break_it(NAME quad-u HEADER geometry/quad.hpp TEST quad
 ljus_break_it(NAME quad-v HEADER geometry/quad.hpp TEST quad
     FROM "v >= -border &&"
     TO   "")
+
+ljus_break_it(NAME quad-default HEADER geometry/quad.hpp TEST tree_leaks
+    FROM "using C = ComputeT<Compute, WideT<T>>;"
+    TO   "using C = ComputeT<Compute, T>;"
+    CASES "tree leaks: a room of loose quads*")

@@ -51,3 +51,13 @@ ljus_break_it(NAME triangle-open HEADER geometry/triangle.hpp TEST watertight
     FROM "closed ? border_of_rounding(d, to, e1, e2, inverse) : C(0)"
     TO   "C(0)"
     CASES "watertight: rays that meet*")
+
+ljus_break_it(NAME triangle-no-area HEADER geometry/triangle.hpp TEST triangle
+    FROM "if (hit && !has_area(triangle)) return std::nullopt;"
+    TO   ""
+    CASES "triangle: rays aimed at where*")
+
+ljus_break_it(NAME triangle-default HEADER geometry/triangle.hpp TEST tree_leaks
+    FROM "using C = ComputeT<Compute, WideT<T>>;"
+    TO   "using C = ComputeT<Compute, T>;"
+    CASES "tree leaks: half a million*")

@@ -33,3 +33,8 @@ ljus_break_it(NAME watertight-bounds HEADER geometry/watertight.hpp TEST waterti
     FROM "high.y < 0"
     TO   "high.y <= 0"
     CASES "watertight: a tie*")
+
+ljus_break_it(NAME watertight-no-area HEADER geometry/watertight.hpp TEST triangle
+    FROM "if (!has_area(triangle)) return std::nullopt;"
+    TO   ""
+    CASES "triangle: rays aimed at where*")

@@ -20,7 +20,7 @@ struct NoTrace {
     constexpr void operator()() const noexcept {}
 };
 
-/// The nearest hit so far; of several that are as near, that of the thing with the
+/// The nearest hit so far; of several that are as near, that of the primitive with the
 /// least number: what asking all of them in turn would find.
 // [nearest]
 template <std::floating_point T>
@@ -30,7 +30,7 @@ struct NearestHitT {
     bool found = false; ///< Whether there is one.
 
     /// Takes a hit, if it is nearer, and shortens the ray to it: but for one unit in
-    /// the last place, because a thing at the same t, computed in double, may seem
+    /// the last slot, because a primitive at the same t, computed in double, may seem
     /// farther.
     /// \return Whether it was nearer.
     bool offer(const FlatHitT<T>& hit, std::uint32_t of, RayT<T>& ray) noexcept {
@@ -47,16 +47,16 @@ struct NearestHitT {
 // [nearest]
 using NearestHit = NearestHitT<float>; ///< NearestHitT in float.
 
-/// A binary tree of boxes over any things that have one \cite rubin1980. What the
-/// things are, and where, is the caller's: a search calls back with a thing's *place*
-/// in the tree's order, and order() says which one that is.
+/// A binary tree of boxes over any primitives that have one \cite rubin1980. What the
+/// primitives are, and where, is the caller's: a search calls back with a primitive's *slot*
+/// in the tree's order, and primitive_ids() says which one that is.
 ///
 ///     std::vector<Box> boxes;
 ///     for (const Triangle& triangle : triangles) boxes.push_back(bounds(triangle));
 ///     const Bvh tree(boxes);
 ///     NearestHit nearest;
-///     tree.closest(ray, [&](std::uint32_t place, Ray& rest) {
-///         const std::uint32_t i = tree.order()[place];
+///     tree.closest(ray, [&](std::uint32_t slot, Ray& rest) {
+///         const std::uint32_t i = tree.primitive_ids()[slot];
 ///         if (const auto hit = intersect(rest, triangles[i]))
 ///             nearest.offer(*hit, i, rest);
 ///     });
@@ -73,9 +73,9 @@ public:
     explicit BvhT(std::span<const BoxT<T>> boxes, const BvhSettings& settings = {})
         : tree_(build_bvh(boxes, settings)) {}
 
-    /// order()[place] is a thing's number in the span that the tree was built from.
-    [[nodiscard]] const std::vector<std::uint32_t>& order() const noexcept {
-        return tree_.order;
+    /// primitive_ids()[slot] is a primitive's number in the span that the tree was built from.
+    [[nodiscard]] const std::vector<std::uint32_t>& primitive_ids() const noexcept {
+        return tree_.primitive_ids;
     }
     /// The nodes, the root first.
     [[nodiscard]] const std::vector<BvhNodeT<T>>& nodes() const noexcept {
@@ -88,12 +88,12 @@ public:
     /// The memory that the tree takes.
     [[nodiscard]] std::size_t bytes() const noexcept {
         return tree_.nodes.capacity() * sizeof(BvhNodeT<T>) +
-               tree_.order.capacity() * 4;
+               tree_.primitive_ids.capacity() * 4;
     }
 
-    /// Asks the things that a ray may meet, the nearer ones first.
+    /// Asks the primitives that a ray may meet, the nearer ones first.
     /// \param ray    The ray.
-    /// \param test   Called as test(place, ray) for things whose box the ray meets; it
+    /// \param test   Called as test(slot, ray) for primitives whose box the ray meets; it
     ///               may shorten the ray, as NearestHitT does, so that what lies
     ///               farther is left out; what is as far is still asked.
     /// \param watch  Called for each node on the way.
@@ -102,16 +102,16 @@ public:
     void closest(RayT<T> ray, Test&& test, Watch&& watch = {}) const {
         walk(
             ray,
-            [&](std::uint32_t place) {
-                test(place, ray);
+            [&](std::uint32_t slot) {
+                test(slot, ray);
                 return false;
             },
             watch);
     }
 
-    /// Whether any of the things that a ray may meet says yes.
+    /// Whether any of the primitives that a ray may meet says yes.
     /// \param ray    The ray.
-    /// \param test   Called as test(place); true ends the search.
+    /// \param test   Called as test(slot); true ends the search.
     /// \param watch  Called for each node on the way.
     /// \return Whether one said true.
     template <typename Test, typename Watch = NoTrace>
@@ -169,8 +169,8 @@ private:
 
     template <typename Test>
     bool ask_all(Test& test) const {
-        for (std::uint32_t place = 0; place < tree_.order.size(); ++place)
-            if (test(place)) return true;
+        for (std::uint32_t slot = 0; slot < tree_.primitive_ids.size(); ++slot)
+            if (test(slot)) return true;
         return false;
     }
 

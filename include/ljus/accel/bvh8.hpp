@@ -23,7 +23,7 @@ public:
     /// Builds the tree.
     /// \param boxes     As for build_bvh(), but below 2^27.
     /// \param settings  As for build_bvh(); leaves of at most 16.
-    /// \param multiple  Leaves start at multiples of so many places, with holes
+    /// \param multiple  Leaves start at multiples of so many slots, with padding
     ///                  between them.
     /// \throws As build_bvh().
     template <typename Boxes>
@@ -32,57 +32,60 @@ public:
                   std::uint32_t multiple = 1) {
         require(settings.leaf_size <= 16, "leaf_size",
                 static_cast<long long>(settings.leaf_size), "at most 16");
-        wide_ = make_bvh8(build_bvh(std::span<const Box>(boxes), settings), multiple);
+        wide_ = detail::make_bvh8(build_bvh(std::span<const Box>(boxes), settings),
+                                  multiple);
     }
 
-    /// A place between leaves that nothing has.
-    static constexpr std::uint32_t hole = Bvh8Nodes::hole;
+    /// A slot between leaves that nothing has.
+    static constexpr std::uint32_t padding = detail::Bvh8Nodes::padding;
 
-    /// order()[place] is a thing's number, or a hole.
-    [[nodiscard]] const std::vector<std::uint32_t>& order() const noexcept {
-        return wide_.order;
+    /// primitive_ids()[slot] is a primitive's number, or padding.
+    [[nodiscard]] const std::vector<std::uint32_t>& primitive_ids() const noexcept {
+        return wide_.primitive_ids;
     }
     /// The nodes, the root first.
-    [[nodiscard]] const std::vector<Bvh8Node>& nodes() const noexcept {
+    [[nodiscard]] const std::vector<detail::Bvh8Node>& nodes() const noexcept {
         return wide_.nodes;
     }
-    /// The tree itself, for walk_nearest() and walk_any().
-    [[nodiscard]] const Bvh8Nodes& wide() const noexcept { return wide_; }
+    /// The tree itself, for detail::walk_nearest() and detail::walk_any().
+    [[nodiscard]] const detail::Bvh8Nodes& wide() const noexcept { return wide_; }
     /// A box around everything.
     [[nodiscard]] const Box& box() const noexcept { return wide_.box; }
     /// The memory that the tree takes.
     [[nodiscard]] std::size_t bytes() const noexcept {
-        return wide_.nodes.capacity() * sizeof(Bvh8Node) + wide_.order.capacity() * 4;
+        return wide_.nodes.capacity() * sizeof(detail::Bvh8Node) +
+               wide_.primitive_ids.capacity() * 4;
     }
 
-    /// Asks the things that a ray may meet, the nearer ones first: as BvhT::closest().
+    /// Asks the primitives that a ray may meet, the nearer ones first: as BvhT::closest().
     template <typename Test, typename Watch = NoTrace>
     void closest(Ray ray, Test&& test, Watch&& watch = {}) const {
-        const auto ask = [&](std::uint32_t place) {
-            test(place, ray);
+        const auto ask = [&](std::uint32_t slot) {
+            test(slot, ray);
             return false;
         };
-        walk_nearest(wide_, ray, each_place(ask), watch);
+        detail::walk_nearest(wide_, ray, each_place(ask), watch);
     }
 
-    /// Whether any of the things that a ray may meet says yes: as BvhT::any().
+    /// Whether any of the primitives that a ray may meet says yes: as BvhT::any().
     template <typename Test, typename Watch = NoTrace>
     [[nodiscard]] bool any(const Ray& ray, Test&& test, Watch&& watch = {}) const {
-        return walk_any(wide_, ray, each_place(test), watch);
+        return detail::walk_any(wide_, ray, each_place(test), watch);
     }
 
-    /// A leaf for walk_nearest() and walk_any() that asks place by place.
+    /// A leaf for detail::walk_nearest() and detail::walk_any() that asks slot by slot.
     template <typename Ask>
     [[nodiscard]] auto each_place(Ask& ask) const {
-        return [this, &ask](std::uint32_t first, std::uint32_t count, const Bvh8Ray*) {
-            for (std::uint32_t place = first; place < first + count; ++place)
-                if (wide_.order[place] != hole && ask(place)) return true;
+        return [this, &ask](std::uint32_t first, std::uint32_t count,
+                            const detail::Bvh8Ray*) {
+            for (std::uint32_t slot = first; slot < first + count; ++slot)
+                if (wide_.primitive_ids[slot] != padding && ask(slot)) return true;
             return false;
         };
     }
 
 private:
-    Bvh8Nodes wide_;
+    detail::Bvh8Nodes wide_;
 };
 
 /// \}

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "ljus/accel/detail/kd_tree8_build.hpp"
+#include "ljus/accel/detail/kd_tree8_search.hpp"
 
 namespace ljus {
 
@@ -18,8 +19,9 @@ template <std::floating_point T>
 struct FoundBlockT {
     std::size_t first = 0;   ///< The place of the first of them in the tree's order.
     std::uint32_t found = 0; ///< Which are found: a bit each, the first point's lowest.
-    const BlockT<T>& points; ///< Where they lie; NaN behind the last point of all.
-    LanesT<T> distance2;     ///< Squared, in T; infinite for those not found.
+    const detail::Lanes3T<T>&
+        points;                  ///< Where they lie; NaN behind the last point of all.
+    detail::LanesT<T> distance2; ///< Squared, in T; for those found, at most infinite.
 };
 
 /// The twin of KdTreeT, with the same answers: a k-d tree \cite bentley1975 of tight
@@ -27,7 +29,7 @@ struct FoundBlockT {
 /// pointer.
 ///
 /// Distances are formed in T, eight at a time; those so near to the limit of a search
-/// that T cannot tell are formed once more in double, as everywhere: see ReachT.
+/// that T cannot tell are formed once more in double, as everywhere: see detail::ReachT.
 ///
 /// The tree keeps the positions; what belongs to them is the caller's, put into the
 /// tree's order with order(), eight to a block. Searches are const, take no memory, and
@@ -49,13 +51,13 @@ public:
                 "the number of points in a k-d tree",
                 static_cast<long long>(points.size()), "below 2^32");
         if (points.empty()) return;
-        shape_ = KdTree8Shape::of(points.size());
+        parts_.shape = detail::KdTree8Shape::of(points.size());
         constexpr T nan = std::numeric_limits<T>::quiet_NaN();
-        nodes_.resize(shape_.first[std::size_t(shape_.levels)]);
-        blocks_.resize(shape_.blocks);
-        for (std::size_t i = 0; i < 8; ++i) blocks_.back().set(i, Vec3T<T>{nan});
+        parts_.nodes.resize(parts_.shape.first[std::size_t(parts_.shape.levels)]);
+        parts_.blocks.resize(parts_.shape.blocks);
+        for (std::size_t i = 0; i < 8; ++i) parts_.blocks.back().set(i, Vec3T<T>{nan});
         order_.resize(points.size());
-        detail::KdTree8Builder<T>(shape_, nodes_, blocks_, order_)
+        detail::KdTree8Builder<T>(parts_.shape, parts_.nodes, parts_.blocks, order_)
             .build(points, threads);
     }
 
@@ -66,14 +68,14 @@ public:
     }
 
     /// The points, in the tree's order, eight by eight.
-    [[nodiscard]] const std::vector<BlockT<T>>& blocks() const noexcept {
-        return blocks_;
+    [[nodiscard]] const std::vector<detail::Lanes3T<T>>& blocks() const noexcept {
+        return parts_.blocks;
     }
 
     /// One point.
     /// \param index  In the tree's order, below size().
     [[nodiscard]] Vec3T<T> point(std::size_t index) const noexcept {
-        return blocks_[index / 8][index % 8];
+        return parts_.blocks[index / 8][index % 8];
     }
 
     /// How many points there are.
@@ -81,8 +83,9 @@ public:
 
     /// How many bytes the tree takes, without its own few.
     [[nodiscard]] std::size_t bytes() const noexcept {
-        return blocks_.size() * sizeof(blocks_[0]) + order_.size() * sizeof(order_[0]) +
-               nodes_.size() * sizeof(nodes_[0]);
+        return parts_.blocks.size() * sizeof(parts_.blocks[0]) +
+               order_.size() * sizeof(order_[0]) +
+               parts_.nodes.size() * sizeof(parts_.nodes[0]);
     }
 
     /// Calls `visit(found)` with a FoundBlockT for each block of eight that has points
@@ -94,23 +97,19 @@ public:
     // [blocks]
     template <typename Visit>
     void visit_blocks(const Vec3T<T>& center, T radius, Visit&& visit) const {
-        constexpr T infinity = std::numeric_limits<T>::infinity();
-        constexpr T most = std::numeric_limits<T>::max();
-        constexpr std::uint32_t bit[lane_count] = {1, 2, 4, 8, 16, 32, 64, 128};
-        const auto reach = ReachT<T>::up_to(double(radius) * double(radius), false);
-        in_ball(center, radius, reach, [&](std::size_t first, std::size_t last) {
-            for (std::size_t b = first; b < last; ++b) {
-                LanesT<T> d2 = distances2(blocks_[b], center);
-                const std::uint32_t found = reach.within(blocks_[b], center, d2);
-                if (found == 0) continue;
-                for_lanes([&](int i) {
-                    const T x = d2.lane[i] < most ? d2.lane[i] : most;
-                    d2.lane[i] = (found & bit[i]) != 0 ? x : infinity;
-                });
-                visit(FoundBlockT<T>{8 * b, found, blocks_[b], d2});
-            }
-            return false;
-        });
+        const auto reach =
+            detail::ReachT<T>::up_to(double(radius) * double(radius), false);
+        detail::in_ball(parts_, center, radius, reach,
+                        [&](std::size_t first, std::size_t last) {
+                            std::uint32_t found =
+                                detail::in_leaf(parts_, first, last, center, reach);
+                            for (std::size_t b = first; found != 0; ++b, found >>= 8)
+                                if ((found & 255) != 0)
+                                    visit(FoundBlockT<T>{
+                                        8 * b, found & 255, parts_.blocks[b],
+                                        detail::distances2(parts_.blocks[b], center)});
+                            return false;
+                        });
     }
     // [blocks]
 
@@ -120,26 +119,31 @@ public:
     /// \param visit   Takes the place in the tree's order and the squared distance.
     template <typename Visit>
     void visit_within(const Vec3T<T>& center, T radius, Visit&& visit) const {
-        const auto reach = ReachT<T>::up_to(double(radius) * double(radius), false);
-        in_ball(center, radius, reach, [&](std::size_t first, std::size_t last) {
-            for (std::uint32_t found = in_leaf(first, last, center, reach); found != 0;
-                 found &= found - 1) {
-                const std::size_t i =
-                    8 * first + static_cast<std::size_t>(std::countr_zero(found));
-                visit(static_cast<std::uint32_t>(i), distance2(point(i), center));
-            }
-            return false;
-        });
+        const auto reach =
+            detail::ReachT<T>::up_to(double(radius) * double(radius), false);
+        detail::in_ball(
+            parts_, center, radius, reach, [&](std::size_t first, std::size_t last) {
+                for (std::uint32_t found =
+                         detail::in_leaf(parts_, first, last, center, reach);
+                     found != 0; found &= found - 1) {
+                    const std::size_t i =
+                        8 * first + static_cast<std::size_t>(std::countr_zero(found));
+                    visit(static_cast<std::uint32_t>(i), distance2(point(i), center));
+                }
+                return false;
+            });
     }
 
     /// Whether any point lies within a closed ball.
     /// \param center  Of the ball.
     /// \param radius  As for visit_blocks().
     [[nodiscard]] bool any_within(const Vec3T<T>& center, T radius) const {
-        const auto reach = ReachT<T>::up_to(double(radius) * double(radius), false);
-        return in_ball(center, radius, reach, [&](std::size_t first, std::size_t last) {
-            return in_leaf(first, last, center, reach) != 0;
-        });
+        const auto reach =
+            detail::ReachT<T>::up_to(double(radius) * double(radius), false);
+        return detail::in_ball(
+            parts_, center, radius, reach, [&](std::size_t first, std::size_t last) {
+                return detail::in_leaf(parts_, first, last, center, reach) != 0;
+            });
     }
 
     /// The nearest point within a closed ball.
@@ -149,7 +153,9 @@ public:
     ///         if the ball is empty.
     [[nodiscard]] std::optional<Neighbor>
     nearest(const Vec3T<T>& center,
-            T radius = std::numeric_limits<T>::infinity()) const;
+            T radius = std::numeric_limits<T>::infinity()) const {
+        return detail::nearest_point(parts_, center, radius);
+    }
 
     /// The k nearest points within a closed ball.
     /// \param center  Of the ball.
@@ -164,59 +170,12 @@ public:
     template <typename Wanted = AnyPoint>
     [[nodiscard]] std::size_t nearest(const Vec3T<T>& center, T radius,
                                       std::span<Neighbor> found,
-                                      Wanted wanted = {}) const;
+                                      Wanted wanted = {}) const {
+        return detail::nearest_points(parts_, center, radius, found, wanted);
+    }
 
 private:
-    // The most that are selected by counting; more go through a heap.
-    static constexpr std::size_t max_counted = 512;
-
-    // Which points of a leaf lie within reach, exactly: a bit each.
-    // [leaf]
-    std::uint32_t in_leaf(std::size_t first, std::size_t last, const Vec3T<T>& center,
-                          const ReachT<T>& reach) const noexcept {
-        constexpr std::uint32_t bit[lane_count] = {1, 2, 4, 8, 16, 32, 64, 128};
-        const T possible = reach.last, beyond_doubt = reach.sure;
-        std::uint32_t near[lane_count] = {}, sure[lane_count] = {};
-        for (std::size_t b = first; b < last; ++b) {
-            const LanesT<T> d2 = distances2(blocks_[b], center);
-            for_lanes([&](int i) {
-                const std::uint32_t here = d2.lane[i] <= possible ? bit[i] << 24 : 0u;
-                near[i] = near[i] >> 8 | here;
-            });
-            for_lanes([&](int i) {
-                const std::uint32_t here =
-                    d2.lane[i] <= beyond_doubt ? bit[i] << 24 : 0u;
-                sure[i] = sure[i] >> 8 | here;
-            });
-        }
-        const auto unused = static_cast<int>(32 - 8 * (last - first));
-        std::uint32_t found = 0, certain = 0;
-        for_lanes([&](int i) { found |= near[i]; });
-        if (found == 0) return 0;
-        for_lanes([&](int i) { certain |= sure[i]; });
-        found >>= unused;
-        certain >>= unused;
-        for (std::uint32_t rest = found & ~certain; rest != 0; rest &= rest - 1) {
-            const int i = std::countr_zero(rest);
-            if (!reach.holds(distance2(point(8 * first + std::size_t(i)), center)))
-                found &= ~(1u << i);
-        }
-        return found;
-    }
-    // [leaf]
-
-    template <typename Visit>
-    bool in_ball(const Vec3T<T>& center, T radius, const ReachT<T>& reach,
-                 Visit visit) const;
-    template <typename Visit>
-    void towards(const Vec3T<T>& center, const ReachT<T>& reach, Visit visit) const;
-    template <typename Wanted>
-    std::size_t count_nearest(const Vec3T<T>& center, ReachT<T> reach,
-                              std::span<Neighbor> found, Wanted& wanted) const;
-
-    KdTree8Shape shape_;
-    std::vector<KdTree8NodeT<T>> nodes_;
-    std::vector<BlockT<T>> blocks_;
+    detail::KdTree8PartsT<T> parts_;
     std::vector<std::uint32_t> order_;
 };
 using KdTree8 = KdTree8T<float>; ///< KdTree8T in float.
@@ -224,6 +183,3 @@ using KdTree8 = KdTree8T<float>; ///< KdTree8T in float.
 /// \}
 
 } // namespace ljus
-
-#include "ljus/accel/detail/kd_tree8_search.hpp"
-#include "ljus/accel/detail/kd_tree8_traverse.hpp"

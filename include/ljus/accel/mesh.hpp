@@ -72,13 +72,13 @@ public:
     [[nodiscard]] TriangleT<T> triangle(std::uint32_t part) const noexcept {
         return triangle_of(data_, part);
     }
-    /// The triangle at a place of the tree: triangle(tree().order()[place]). The fast
+    /// The triangle at a slot of the tree: triangle(tree().primitive_ids()[slot]). The fast
     /// tree has it at hand, and a search need not wait for two more parts of memory.
-    [[nodiscard]] TriangleT<T> triangle_at(std::uint32_t place) const noexcept {
+    [[nodiscard]] TriangleT<T> triangle_at(std::uint32_t slot) const noexcept {
         if constexpr (std::is_same_v<T, float>)
-            return tree_.triangle(place);
+            return tree_.triangle(slot);
         else
-            return triangle(tree_.order()[place]);
+            return triangle(tree_.primitive_ids()[slot]);
     }
     /// What the mesh is made of.
     [[nodiscard]] const MeshDataT<T>& data() const noexcept { return data_; }
@@ -111,12 +111,12 @@ template <typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<FlatHitT<T>> intersect(const RayT<T>& ray,
                                                    const MeshT<T>& mesh) {
     NearestHitT<T> nearest;
-    const auto& order = mesh.tree().order();
+    const auto& primitive_ids = mesh.tree().primitive_ids();
     const auto prepared = prepare<Compute>(ray);
-    mesh.tree().closest(ray, [&](std::uint32_t place, RayT<T>& rest) {
-        const auto triangle = mesh.triangle_at(place);
+    mesh.tree().closest(ray, [&](std::uint32_t slot, RayT<T>& rest) {
+        const auto triangle = mesh.triangle_at(slot);
         if (const auto hit = intersect<Compute>(rest, triangle, prepared))
-            nearest.offer(*hit, order[place], rest);
+            nearest.offer(*hit, primitive_ids[slot], rest);
     });
     if (!nearest.found) return std::nullopt;
     nearest.at.part = nearest.number;
@@ -135,8 +135,8 @@ template <typename Compute = void, std::floating_point T>
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] bool meets(const RayT<T>& ray, const MeshT<T>& mesh) {
     const auto prepared = prepare<Compute>(ray);
-    return mesh.tree().any(ray, [&](std::uint32_t place) {
-        return intersect<Compute>(ray, mesh.triangle_at(place), prepared).has_value();
+    return mesh.tree().any(ray, [&](std::uint32_t slot) {
+        return intersect<Compute>(ray, mesh.triangle_at(slot), prepared).has_value();
     });
 }
 // [meets]

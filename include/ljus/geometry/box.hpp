@@ -75,9 +75,10 @@ template <std::floating_point T>
 /// A ray, made ready for many boxes.
 template <std::floating_point T>
 struct BoxRayT {
-    Vec3T<T> origin{T(0)};           ///< O.
-    Vec3T<T> inverse{T(1)};          ///< 1 / D; infinite along an axis it runs across.
-    std::array<bool, 3> backwards{}; ///< The sign of `inverse`, which tells -0 from 0.
+    Vec3T<T> origin{T(0)};  ///< O.
+    Vec3T<T> inverse{T(1)}; ///< 1 / D; infinite along an axis it runs across.
+    std::array<bool, 3>
+        is_negative{}; ///< The sign of `inverse`, which tells -0 from 0.
     T slack = T(0); ///< By how much every box is larger than it says, in scene units.
 };
 using BoxRay = BoxRayT<float>; ///< BoxRayT in float.
@@ -107,8 +108,8 @@ template <std::floating_point T>
     const Vec3T<T> inverse = T(1) / ray.direction;
     return BoxRayT<T>{.origin = ray.origin,
                       .inverse = inverse,
-                      .backwards = {std::signbit(inverse.x), std::signbit(inverse.y),
-                                    std::signbit(inverse.z)},
+                      .is_negative = {std::signbit(inverse.x), std::signbit(inverse.y),
+                                      std::signbit(inverse.z)},
                       .slack = T(8) * Limits::epsilon() * reach};
 }
 // [box_ray]
@@ -129,7 +130,7 @@ template <std::floating_point T>
 [[nodiscard]] std::optional<T> enter(const BoxRayT<T>& ray, const BoxT<T>& box, T t_min,
                                      T t_max) noexcept {
     for (int axis = 0; axis < 3; ++axis) {
-        const bool back = ray.backwards[static_cast<std::size_t>(axis)];
+        const bool back = ray.is_negative[static_cast<std::size_t>(axis)];
         const T low = box.low[axis] - ray.origin[axis] - ray.slack;
         const T high = box.high[axis] - ray.origin[axis] + ray.slack;
         const T first = (back ? high : low) * ray.inverse[axis];

@@ -21,8 +21,25 @@ struct QuadT {
 };
 using Quad = QuadT<float>; ///< QuadT in float.
 
+/// \f$ E_1 \times E_2 \f$, in double, as for a triangle.
+/// \param quad  Any quad.
+/// \return A normal as long as the area.
+template <std::floating_point T>
+[[nodiscard]] inline Vec3T<WideT<T>> cross_of_edges(const QuadT<T>& quad) noexcept {
+    return glm::cross(Vec3T<WideT<T>>{quad.edge_u}, Vec3T<WideT<T>>{quad.edge_v});
+}
+
+/// Whether a quad has an area, and so a normal.
+/// \param quad  Any quad.
+template <std::floating_point T>
+[[nodiscard]] bool has_area(const QuadT<T>& quad) noexcept {
+    const auto across = cross_of_edges(quad);
+    return glm::dot(across, across) > 0;
+}
+
 /// Where a ray meets a quad.
-/// \tparam Compute  The precision of the arithmetic.
+/// \tparam Compute  The precision of the arithmetic; without a wish double, as for a
+///                  triangle.
 /// \param ray   Any length of direction but zero; hits count in [t_min, t_max].
 /// \param quad  Any two edges; parallel ones are never hit.
 /// \return t, and the coordinates u, v along the edges; nothing for a miss.
@@ -30,20 +47,14 @@ using Quad = QuadT<float>; ///< QuadT in float.
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<FlatHitT<T>> intersect(const RayT<T>& ray,
                                                    const QuadT<T>& quad) noexcept {
-    using C = ComputeT<Compute, T>;
-    return moller_trumbore<C>(ray, Vec3T<C>{quad.corner}, Vec3T<C>{quad.edge_u},
-                              Vec3T<C>{quad.edge_v}, [](C u, C v, C border) {
-                                  return u <= C(1) + border && v >= -border &&
-                                         v <= C(1) + border;
-                              });
-}
-
-/// \f$ E_1 \times E_2 \f$, in double, as for a triangle.
-/// \param quad  Any quad.
-/// \return A normal as long as the area.
-template <std::floating_point T>
-[[nodiscard]] inline Vec3T<WideT<T>> cross_of_edges(const QuadT<T>& quad) noexcept {
-    return glm::cross(Vec3T<WideT<T>>{quad.edge_u}, Vec3T<WideT<T>>{quad.edge_v});
+    using C = ComputeT<Compute, WideT<T>>;
+    const auto hit = moller_trumbore<C>(
+        ray, Vec3T<C>{quad.corner}, Vec3T<C>{quad.edge_u}, Vec3T<C>{quad.edge_v},
+        [](C u, C v, C border) {
+            return u <= C(1) + border && v >= -border && v <= C(1) + border;
+        });
+    if (hit && !has_area(quad)) return std::nullopt;
+    return hit;
 }
 
 /// The unit normal, along \f$ E_1 \times E_2 \f$.

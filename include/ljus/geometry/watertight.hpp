@@ -108,6 +108,8 @@ template <std::same_as<Watertight> Test, std::floating_point T>
     constexpr W max{std::numeric_limits<T>::max()};
     if (!(W(ray.t_min) <= t && t <= W(ray.t_max) && t <= max && shear.sz != 0))
         return std::nullopt;
+    // Sheared and rounded, corners on a line may span a triangle.
+    if (!has_area(triangle)) return std::nullopt;
     return FlatHitT<T>{static_cast<T>(t), static_cast<T>(u * inverse),
                        static_cast<T>(v * inverse), 0};
 }

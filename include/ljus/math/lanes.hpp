@@ -1,125 +1,85 @@
 #pragma once
 
 /// \file ljus/math/lanes.hpp
-/// \brief Eight floats at a time, without a line of assembly.
+/// \brief Eight numbers at a time, without a line of assembly.
 
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <type_traits>
 
 #include "ljus/math/vector.hpp"
 #include "ljus/version.hpp"
 
 namespace ljus {
 
+namespace detail {
+
 /// \defgroup lanes Lanes
 /// \brief Eight numbers side by side: loops of a constant length, which compilers turn
-/// into the widest instructions that they may use.
+/// into the widest instructions that they may use. What keeps them from it: a long body,
+/// a choice between products, shifts that differ by lane.
 /// \{
 
 /// How many numbers stand side by side.
 inline constexpr int lane_count = 8;
 
-/// Eight floats.
-struct alignas(32) Lanes {
-    float lane[lane_count]; ///< The numbers.
+/// Calls `body(i)` for each of eight lanes, in a loop that stays one.
+///
+/// A compiler that unrolls the loop before it looks for vectors, as g++ does inside of
+/// other loops, finds eight separate numbers and no vector any more.
+/// \param body  Called with an int in [0, 8).
+// [for lanes]
+template <typename Body>
+constexpr void for_lanes(Body&& body) noexcept {
+#if defined(__clang__)
+#pragma clang loop unroll(disable)
+#else
+#pragma GCC unroll 1
+#endif
+    for (int i = 0; i < lane_count; ++i) body(i);
+}
+// [for lanes]
+
+/// The bit of each lane in a number that has one for each.
+inline constexpr std::uint32_t lane_bit[lane_count] = {1, 2, 4, 8, 16, 32, 64, 128};
+
+/// Eight numbers of any precision.
+template <std::floating_point T>
+struct alignas(32) LanesT {
+    T lane[lane_count]; ///< The numbers.
 };
+using Lanes = LanesT<float>; ///< LanesT in float.
+
+/// Eight points, directions or colours, by coordinate.
+template <std::floating_point T>
+struct alignas(32) Lanes3T {
+    T x[lane_count]; ///< First coordinates.
+    T y[lane_count]; ///< Second coordinates.
+    T z[lane_count]; ///< Third coordinates.
+
+    /// One of them.
+    /// \param lane  In [0, 8).
+    [[nodiscard]] constexpr Vec3T<T> operator[](std::size_t lane) const noexcept {
+        return {x[lane], y[lane], z[lane]};
+    }
+    /// Replaces one of them.
+    /// \param lane  In [0, 8).
+    /// \param v     The new one.
+    constexpr void set(std::size_t lane, const Vec3T<T>& v) noexcept {
+        x[lane] = v.x;
+        y[lane] = v.y;
+        z[lane] = v.z;
+    }
+};
+using Lanes3 = Lanes3T<float>; ///< Lanes3T in float.
 
 /// Eight answers: all bits of a lane set for yes, none for no.
 struct alignas(32) LaneMask {
     std::int32_t lane[lane_count]; ///< -1 or 0.
 };
-
-/// Eight points, or directions, by coordinate.
-struct Lanes3 {
-    Lanes x; ///< First coordinates.
-    Lanes y; ///< Second coordinates.
-    Lanes z; ///< Third coordinates.
-};
-
-/// The same number in every lane.
-[[nodiscard]] constexpr Lanes all_lanes(float value) noexcept {
-    Lanes result{};
-    for (int i = 0; i < lane_count; ++i) result.lane[i] = value;
-    return result;
-}
-
-/// The same point in every lane.
-[[nodiscard]] constexpr Lanes3 all_lanes(const Vec3& v) noexcept {
-    return {all_lanes(v.x), all_lanes(v.y), all_lanes(v.z)};
-}
-
-/// Applies a function lane by lane.
-/// \param f  Called as f(a.lane[i], ...); returns a float.
-/// \param a  The first argument's lanes.
-/// \param b  The other arguments' lanes.
-/// \return The results.
-// [lanes]
-template <typename F, typename... B>
-[[nodiscard]] constexpr Lanes each_lane(F f, const Lanes& a, const B&... b) noexcept {
-    Lanes result{};
-    for (int i = 0; i < lane_count; ++i) result.lane[i] = f(a.lane[i], b.lane[i]...);
-    return result;
-}
-
-/// \name Arithmetic, lane by lane
-/// \{
-
-/// The operation on each pair of lanes.
-[[nodiscard]] constexpr Lanes operator+(const Lanes& a, const Lanes& b) noexcept {
-    return each_lane([](float x, float y) { return x + y; }, a, b);
-}
-[[nodiscard]] constexpr Lanes operator-(const Lanes& a, const Lanes& b) noexcept {
-    return each_lane([](float x, float y) { return x - y; }, a, b);
-}
-[[nodiscard]] constexpr Lanes operator*(const Lanes& a, const Lanes& b) noexcept {
-    return each_lane([](float x, float y) { return x * y; }, a, b);
-}
-[[nodiscard]] constexpr Lanes operator/(const Lanes& a, const Lanes& b) noexcept {
-    return each_lane([](float x, float y) { return x / y; }, a, b);
-}
-/// \}
-// [lanes]
-
-/// The smaller of each pair; b where a is NaN.
-[[nodiscard]] constexpr Lanes min(const Lanes& a, const Lanes& b) noexcept {
-    return each_lane([](float x, float y) { return x < y ? x : y; }, a, b);
-}
-
-/// The larger of each pair; b where a is NaN.
-[[nodiscard]] constexpr Lanes max(const Lanes& a, const Lanes& b) noexcept {
-    return each_lane([](float x, float y) { return x > y ? x : y; }, a, b);
-}
-
-/// The square roots; NaN of what is below 0.
-[[nodiscard]] inline Lanes sqrt(const Lanes& a) noexcept {
-    return each_lane([](float x) { return std::sqrt(x); }, a);
-}
-
-/// Whether a <= b; no where either is NaN.
-[[nodiscard]] constexpr LaneMask operator<=(const Lanes& a, const Lanes& b) noexcept {
-    LaneMask result{};
-    for (int i = 0; i < lane_count; ++i)
-        result.lane[i] = a.lane[i] <= b.lane[i] ? -1 : 0;
-    return result;
-}
-
-/// Whether both.
-[[nodiscard]] constexpr LaneMask operator&(const LaneMask& a,
-                                           const LaneMask& b) noexcept {
-    LaneMask result{};
-    for (int i = 0; i < lane_count; ++i) result.lane[i] = a.lane[i] & b.lane[i];
-    return result;
-}
-
-/// Whether any lane says yes.
-[[nodiscard]] constexpr bool any(const LaneMask& mask) noexcept {
-    std::int32_t bits = 0;
-    for (int i = 0; i < lane_count; ++i) bits |= mask.lane[i];
-    return bits != 0;
-}
 
 /// The lanes that say yes, as a number to take them from one by one: eight bits a lane.
 /// Written in the two steps that compilers know: to bytes, and those into one register.
@@ -143,31 +103,48 @@ template <typename F, typename... B>
     return std::endian::native == std::endian::little ? place : lane_count - 1 - place;
 }
 
-/// a where the mask says yes, b elsewhere.
-[[nodiscard]] constexpr Lanes select(const LaneMask& mask, const Lanes& a,
-                                     const Lanes& b) noexcept {
-    Lanes result{};
-    for (int i = 0; i < lane_count; ++i)
-        result.lane[i] = mask.lane[i] != 0 ? a.lane[i] : b.lane[i];
-    return result;
+/// Which of eight numbers are at most so large.
+/// \param numbers  The numbers.
+/// \param bound    How large.
+/// \return A bit each, the first number's the lowest; none for NaN.
+template <std::floating_point T>
+[[nodiscard]] constexpr std::uint32_t lanes_up_to(const LanesT<T>& numbers,
+                                                  T bound) noexcept {
+    std::uint32_t bits = 0;
+    for_lanes([&](int i) { bits |= numbers.lane[i] <= bound ? lane_bit[i] : 0u; });
+    return bits;
 }
 
-/// \name Vectors, lane by lane
-/// \{
+/// The place of the smallest of eight numbers, or of one that differs from it in the
+/// last three bits only.
+///
+/// The bits of a number that is not below 0 are ordered as it is; in place of the last
+/// three stands the place, and the smallest integer tells both.
+/// \param numbers  The numbers; none of those that count below 0.
+/// \param among    Which of them count: a bit each, the first number's the lowest.
+/// \param bound    Larger ones do not count, nor does NaN.
+/// \return The place, or 8 if there is none.
+// [smallest lane]
+template <std::floating_point T>
+[[nodiscard]] constexpr std::uint32_t
+smallest_lane(const LanesT<T>& numbers, std::uint32_t among, T bound) noexcept {
+    using Bits = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
+    constexpr Bits none = std::numeric_limits<Bits>::max() & ~Bits(7);
+    const auto bits = std::bit_cast<std::array<Bits, lane_count>>(numbers);
+    Bits smallest = none;
+    for_lanes([&](int i) {
+        const bool counts = (numbers.lane[i] <= bound) & ((among & lane_bit[i]) != 0);
+        const Bits key =
+            counts ? (bits[std::size_t(i)] & ~Bits(7)) | Bits(i) : Bits(none);
+        smallest = key < smallest ? key : smallest;
+    });
+    return smallest == none ? 8 : static_cast<std::uint32_t>(smallest & 7);
+}
+// [smallest lane]
 
-/// The operation on each pair of vectors.
-[[nodiscard]] constexpr Lanes3 operator-(const Lanes3& a, const Lanes3& b) noexcept {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-[[nodiscard]] constexpr Lanes dot(const Lanes3& a, const Lanes3& b) noexcept {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-[[nodiscard]] constexpr Lanes3 cross(const Lanes3& a, const Lanes3& b) noexcept {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 /// \}
 
-/// \}
+} // namespace detail
 
 /// \defgroup prefetch Prefetching
 /// \brief A processor waits for its memory some hundred steps; it can be told in time.

@@ -67,7 +67,8 @@ struct IndexedScene {
         };
         std::apply([&](const auto&... lists) { (add(lists), ...); }, shapes);
         tree = Tree(boxes, {.leaf_size = 1});
-        for (const std::uint32_t number : tree.order()) ids.push_back(all[number]);
+        for (const std::uint32_t number : tree.primitive_ids())
+            ids.push_back(all[number]);
     }
 
     /// Not of a temporary: the scene would be gone before it is asked.
@@ -149,7 +150,8 @@ closest_hit(const IndexedScene<S, Compute>& scene, const RayT<T>& ray) {
         const ObjectId id = scene.ids[place];
         const auto hit = scene.scene.visit_shape(
             id, [&](const auto& shape) { return hit_of<Compute>(rest, shape); });
-        if (hit && nearest.offer(*hit, scene.tree.order()[place], rest)) object = id;
+        if (hit && nearest.offer(*hit, scene.tree.primitive_ids()[place], rest))
+            object = id;
     });
     if (!nearest.found) return std::nullopt;
     return SceneHitT<T>{nearest.at, object};

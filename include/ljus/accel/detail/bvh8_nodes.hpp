@@ -1,15 +1,19 @@
 #pragma once
 
 /// \file ljus/accel/detail/bvh8_nodes.hpp
-/// \brief The nodes of the fast tree, and how they are made of those of the plain one.
+/// \brief The nodes of the fast tree, and how they are made of those of the plain one;
+/// and a ray as they are asked by it.
 
 #include <array>
+#include <cstddef>
+#include <limits>
 
 #include "ljus/accel/detail/bvh_collapse.hpp"
+#include "ljus/geometry/ray.hpp"
 #include "ljus/math/lanes.hpp"
 #include "ljus/math/require.hpp"
 
-namespace ljus {
+namespace ljus::detail {
 
 /// \defgroup wide_nodes Wide nodes
 /// \brief Eight children a node. Chapter: \ref ch_bvh.
@@ -24,12 +28,12 @@ struct Bvh8Node {
 // [wide node]
 
 /// A child in 32 bits: how many nodes' lanes lie before its node; or, for a leaf, its
-/// first place and how many there are.
+/// first slot and how many there are.
 struct Bvh8Child {
     static constexpr std::uint32_t leaf = 1u << 31; ///< Set for a leaf.
     static constexpr int count_shift = 27;          ///< Then the count, less one,
-    static constexpr std::uint32_t first = (1u << count_shift) - 1; ///< and the place.
-    /// How many things a leaf has.
+    static constexpr std::uint32_t first = (1u << count_shift) - 1; ///< and the slot.
+    /// How many primitives a leaf has.
     static constexpr std::uint32_t count(std::uint32_t child) noexcept {
         return ((child >> count_shift) & 15u) + 1;
     }
@@ -37,22 +41,20 @@ struct Bvh8Child {
     static constexpr std::uint32_t stride = sizeof(Bvh8Node) / sizeof(Lanes);
 };
 
-/// A wide tree: nodes, the root first, and the order in which leaves have things.
+/// A wide tree: nodes, the root first, and the order in which leaves have primitives.
 /// Coordinates are as seen from the middle of everything, so that a scene far from the
 /// origin is met as well as one around it.
 struct Bvh8Nodes {
     std::vector<Bvh8Node> nodes{}; ///< Empty if there is nothing.
     std::vector<std::uint32_t>
-        order{};    ///< order[place] is a thing's number, or a hole.
-    Box box{};      ///< Around everything.
-    Vec3 middle{0}; ///< Of the box.
-    Vec3 half{0};   ///< From there to its sides.
+        primitive_ids{}; ///< primitive_ids[slot] is a primitive's number, or padding.
+    Box box{};           ///< Around everything.
+    Vec3 middle{0};      ///< Of the box.
+    Vec3 half{0};        ///< From there to its sides.
 
-    /// A place between leaves that nothing has.
-    static constexpr std::uint32_t hole = std::numeric_limits<std::uint32_t>::max();
+    /// A slot between leaves that nothing has.
+    static constexpr std::uint32_t padding = std::numeric_limits<std::uint32_t>::max();
 };
-
-namespace detail {
 
 // Makes a wide node of a plain one and of what is below it.
 // [widen]
@@ -79,10 +81,11 @@ void widen(Bvh8Nodes& wide, const BvhNodesT<T>& tree, const BvhCollapse<T>& coll
         }
         node.child[i] = Bvh8Child::leaf |
                         ((below.count - 1) << Bvh8Child::count_shift) |
-                        static_cast<std::uint32_t>(wide.order.size());
+                        static_cast<std::uint32_t>(wide.primitive_ids.size());
         for (std::uint32_t k = 0; k < below.count; ++k)
-            wide.order.push_back(tree.order[below.first + k]);
-        while (wide.order.size() % multiple != 0) wide.order.push_back(Bvh8Nodes::hole);
+            wide.primitive_ids.push_back(tree.primitive_ids[below.first + k]);
+        while (wide.primitive_ids.size() % multiple != 0)
+            wide.primitive_ids.push_back(Bvh8Nodes::padding);
     }
     wide.nodes[to] = node;
     for (std::size_t i = 0; i < count; ++i)
@@ -92,13 +95,11 @@ void widen(Bvh8Nodes& wide, const BvhNodesT<T>& tree, const BvhCollapse<T>& coll
 }
 // [widen]
 
-} // namespace detail
-
 /// Makes a tree wide.
-/// \param tree      The plain tree; its leaves have at most 16 things.
-/// \param multiple  Leaves start at multiples of so many places, holes between them.
+/// \param tree      The plain tree; its leaves have at most 16 primitives.
+/// \param multiple  Leaves start at multiples of so many slots, padding between them.
 /// \return The wide tree.
-/// \throws std::invalid_argument  if there are 2^27 places or more.
+/// \throws std::invalid_argument  if there are 2^27 slots or more.
 template <std::floating_point T>
 [[nodiscard]] Bvh8Nodes make_bvh8(const BvhNodesT<T>& tree,
                                   std::uint32_t multiple = 1) {
@@ -108,14 +109,75 @@ template <std::floating_point T>
     wide.middle = 0.5f * wide.box.low + 0.5f * wide.box.high;
     wide.half = 0.5f * wide.box.high - 0.5f * wide.box.low;
     wide.nodes.emplace_back();
-    detail::widen(wide, tree, BvhCollapse<T>(tree), 0, 0, multiple);
-    require(wide.order.size() < Bvh8Child::first, "the number of places in a tree",
-            static_cast<long long>(wide.order.size()), "below 2^27");
+    widen(wide, tree, BvhCollapse<T>(tree), 0, 0, multiple);
+    require(wide.primitive_ids.size() < Bvh8Child::first,
+            "the number of slots in a tree",
+            static_cast<long long>(wide.primitive_ids.size()), "below 2^27");
     wide.nodes.shrink_to_fit();
-    wide.order.shrink_to_fit();
+    wide.primitive_ids.shrink_to_fit();
     return wide;
 }
 
 /// \}
 
-} // namespace ljus
+/// \defgroup wide_ray Rays for wide nodes
+/// \brief What is computed once for a ray: the signs and the slack of box_ray()
+/// \cite williams2005 \cite ize2013. Chapter: \ref ch_bvh.
+/// \{
+
+/// A ray, made ready for wide nodes.
+struct Bvh8Ray {
+    Vec3 inverse{1};                   ///< 1 / D, finite.
+    Vec3 near_shift{0};                ///< t = plane * inverse - shift, a little early,
+    Vec3 far_shift{0};                 ///< and a little late.
+    std::array<std::size_t, 3> near{}; ///< The planes that it meets first, by axis,
+    std::array<std::size_t, 3> far{};  ///< and last.
+    float length = 0;                  ///< The largest component of D.
+    float last = 0;                    ///< Beyond this t there is nothing.
+    bool moderate = false; ///< Products of three such lengths are far from infinite.
+};
+
+/// Makes a ray ready. Boxes grow by as much as box_ray() says. A component of the
+/// direction that is almost 0 is given a size: within the box that leads no ray astray
+/// by more than this.
+/// \param r       Becomes the ready ray.
+/// \param ray     The ray.
+/// \param middle  The middle of everything.
+/// \param half    From there to the sides.
+/// \return Whether that is possible: not if the direction is too long or too short, or
+///         the origin too far away, for squares of floats.
+// [make_ready]
+[[nodiscard]] inline bool make_ready(Bvh8Ray& r, const Ray& ray, const Vec3& middle,
+                                     const Vec3& half) noexcept {
+    const Vec3 origin = ray.origin - middle;
+    const Vec3 size = sizes(ray.direction);
+    const float reach = max_component(sizes(origin) + half);
+    r.length = max_component(size);
+    r.last = 4 * reach / r.length;
+    const Vec3 d = glm::max(size, Vec3{1e-12f * r.length});
+    const float slack = 8 * std::numeric_limits<float>::epsilon() * reach;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto i = static_cast<std::size_t>(axis);
+        const std::size_t back = std::signbit(ray.direction[axis]) ? 1 : 0;
+        // Not by `back ?`: which way rays go a processor cannot guess.
+        const float size_of_inverse = 1 / d[axis];
+        const float inverse = std::copysign(size_of_inverse, ray.direction[axis]);
+        const float shift = origin[axis] * inverse;
+        const float grown = slack * size_of_inverse;
+        r.inverse[axis] = inverse;
+        r.near_shift[axis] = shift + grown;
+        r.far_shift[axis] = shift - grown;
+        r.near[i] = i + 3 * back;
+        r.far[i] = i + 3 * (1 - back);
+    }
+    r.moderate = reach * reach * glm::max(reach, r.length) < 1e36f;
+    // Their squares are still numbers: those of the directions, and of the distances.
+    constexpr float most = 1e18f;
+    return r.length > 1 / most && r.length < most && reach < most &&
+           is_finite(r.near_shift) && is_finite(r.far_shift);
+}
+// [make_ready]
+
+/// \}
+
+} // namespace ljus::detail

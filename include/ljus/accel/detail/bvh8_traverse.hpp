@@ -7,17 +7,14 @@
 #include <bit>
 
 #include "ljus/accel/detail/bvh8_nodes.hpp"
-#include "ljus/accel/detail/bvh8_ray.hpp"
 #include "ljus/math/lanes.hpp"
 
-namespace ljus {
+namespace ljus::detail {
 
 /// \defgroup wide_walk Ways through a wide tree
 /// \brief Eight boxes at once, and what to do about those that a ray enters
 /// \cite wald2008. Chapter: \ref ch_bvh.
 /// \{
-
-namespace detail {
 
 // A ray made ready; or all that there is to say of it.
 struct Bvh8Start {
@@ -32,7 +29,7 @@ inline Bvh8Start begin_walk(const Bvh8Nodes& wide, const Ray& ray, Leaf& leaf) {
     if (wide.nodes.empty() || !(ray.t_min <= ray.t_max)) return start;
     start.done = !make_ready(start.ray, ray, wide.middle, wide.half);
     if (start.done && is_finite(ray.origin) && is_finite(ray.direction))
-        start.found = leaf(0u, static_cast<std::uint32_t>(wide.order.size()),
+        start.found = leaf(0u, static_cast<std::uint32_t>(wide.primitive_ids.size()),
                            static_cast<const Bvh8Ray*>(nullptr));
     return start;
 }
@@ -71,18 +68,16 @@ inline std::uint64_t enter(Lanes& t, const Bvh8Nodes& wide, std::uint32_t node,
 }
 // [enter]
 
-} // namespace detail
-
 /// The way of a search for the nearest.
 /// \param wide   The tree.
 /// \param ray    The ray; a search may shorten it.
-/// \param leaf   Called as leaf(first place, count, ready ray). For a ray that cannot
+/// \param leaf   Called as leaf(first slot, count, ready ray). For a ray that cannot
 ///               be made ready, once, with a null pointer.
 /// \param watch  Called for each node on the way.
 // [walk]
 template <typename Leaf, typename Watch>
 void walk_nearest(const Bvh8Nodes& wide, const Ray& ray, Leaf&& leaf, Watch&& watch) {
-    const detail::Bvh8Start start = detail::begin_walk(wide, ray, leaf);
+    const Bvh8Start start = begin_walk(wide, ray, leaf);
     if (start.done) return;
     // What waits: a child, and above it the t at which the ray enters it. For numbers
     // from 0 on, the bits are in the order of the values: so the nearer one is less.
@@ -102,7 +97,7 @@ void walk_nearest(const Bvh8Nodes& wide, const Ray& ray, Leaf&& leaf, Watch&& wa
             watch();
             Lanes t;
             std::uint64_t entered =
-                detail::enter<Leaf>(t, wide, at, start.ray, ray.t_min, ray.t_max);
+                enter<Leaf>(t, wide, at, start.ray, ray.t_min, ray.t_max);
             if (entered != 0) {
                 const auto& child = wide.nodes[at / Bvh8Child::stride].child;
                 const auto key = [&](std::size_t i) {
@@ -152,7 +147,7 @@ void walk_nearest(const Bvh8Nodes& wide, const Ray& ray, Leaf&& leaf, Watch&& wa
 template <typename Leaf, typename Watch>
 [[nodiscard]] bool walk_any(const Bvh8Nodes& wide, const Ray& ray, Leaf&& leaf,
                             Watch&& watch) {
-    const detail::Bvh8Start start = detail::begin_walk(wide, ray, leaf);
+    const Bvh8Start start = begin_walk(wide, ray, leaf);
     if (start.done) return start.found;
     struct Later {
         std::uint64_t lanes;
@@ -172,7 +167,7 @@ template <typename Leaf, typename Watch>
             at = child;
             watch();
             Lanes t;
-            entered = detail::enter<Leaf>(t, wide, at, start.ray, ray.t_min, ray.t_max);
+            entered = enter<Leaf>(t, wide, at, start.ray, ray.t_min, ray.t_max);
         }
         while (entered == 0) {
             if (waiting == 0) return false;
@@ -187,4 +182,4 @@ template <typename Leaf, typename Watch>
 
 /// \}
 
-} // namespace ljus
+} // namespace ljus::detail

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/accel/detail/bvh_bins.hpp
-/// \brief Where to cut a crowd of boxes in two: the surface area heuristic, in bins.
+/// \brief Where to split a range of boxes in two: the surface area heuristic, in bins.
 
 #include <cstdint>
 #include <utility>
@@ -11,18 +11,18 @@
 
 namespace ljus::detail {
 
-// A box as a builder likes it: the lower sides, and the upper ones with their signs
+// A box as a builder likes it: the lower bounds, and the upper ones with their signs
 // changed, so that to grow is eight times the same, which compilers do at once.
 template <std::floating_point T>
-struct SidesT {
+struct BoundsT {
     T side[8];
 
-    static constexpr SidesT none() noexcept {
-        SidesT result{};
+    static constexpr BoundsT none() noexcept {
+        BoundsT result{};
         for (T& x : result.side) x = std::numeric_limits<T>::infinity();
         return result;
     }
-    void grow(const SidesT& other) noexcept {
+    void grow(const BoundsT& other) noexcept {
         for (int i = 0; i < 8; ++i)
             side[i] = side[i] < other.side[i] ? side[i] : other.side[i];
     }
@@ -39,19 +39,19 @@ struct SidesT {
     }
 };
 
-// A thing on its way into the tree.
+// A reference to a primitive: its bounds, and which one it is.
 template <std::floating_point T>
-struct CandidateT {
-    SidesT<T> sides;
-    std::uint32_t number;
+struct PrimitiveRefT {
+    BoundsT<T> bounds;
+    std::uint32_t id;
     // Half of twice the centre: the sum of two large numbers would be infinite.
     [[nodiscard]] T center(int axis) const noexcept {
-        return T(0.5) * sides.side[axis] - T(0.5) * sides.side[axis + 4];
+        return T(0.5) * bounds.side[axis] - T(0.5) * bounds.side[axis + 4];
     }
-    [[nodiscard]] SidesT<T> centers() const noexcept {
-        SidesT<T> result{};
+    [[nodiscard]] BoundsT<T> centers() const noexcept {
+        BoundsT<T> result{};
         for (int i = 0; i < 4; ++i) {
-            const T middle = T(0.5) * sides.side[i] - T(0.5) * sides.side[i + 4];
+            const T middle = T(0.5) * bounds.side[i] - T(0.5) * bounds.side[i + 4];
             result.side[i] = middle;
             result.side[i + 4] = -middle;
         }
@@ -59,19 +59,19 @@ struct CandidateT {
     }
 };
 
-// A part of the things on their way into the tree, next to each other.
+// A range of the references: what one subtree is built of.
 template <std::floating_point T>
-struct CrowdT {
+struct PrimitiveRangeT {
     std::uint32_t first = 0;
     std::uint32_t last = 0;
     int depth = 0;
-    SidesT<T> sides = SidesT<T>::none();   // of the things
-    SidesT<T> centers = SidesT<T>::none(); // of their centres
+    BoundsT<T> bounds = BoundsT<T>::none();  // of the primitives
+    BoundsT<T> centers = BoundsT<T>::none(); // of their centres
 
     [[nodiscard]] std::uint32_t size() const noexcept { return last - first; }
-    void take(const CandidateT<T>& thing) noexcept {
-        sides.grow(thing.sides);
-        centers.grow(thing.centers());
+    void take(const PrimitiveRefT<T>& ref) noexcept {
+        bounds.grow(ref.bounds);
+        centers.grow(ref.centers());
     }
 };
 
@@ -81,8 +81,8 @@ struct CrowdT {
     return (count + at_a_time - 1) / at_a_time;
 }
 
-// Where to cut: between two bins along an axis; and what that costs.
-struct Cut {
+// Where to split: between two bins along an axis; and what that costs.
+struct Split {
     int axis = -1; // none
     int bin = 0;   // the first of the upper half
     double cost = std::numeric_limits<double>::infinity();
@@ -94,85 +94,89 @@ inline constexpr int bin_count = 16;
 template <std::floating_point T>
 struct ToBinT {
     T low, factor;
-    ToBinT(const CrowdT<T>& crowd, int axis) noexcept
-        : low(crowd.centers.side[axis]),
+    ToBinT(const PrimitiveRangeT<T>& range, int axis) noexcept
+        : low(range.centers.side[axis]),
           factor(T(bin_count) * (T(1) - std::numeric_limits<T>::epsilon() * 4) /
-                 crowd.centers.size(axis)) {}
+                 range.centers.size(axis)) {}
     // Written so that it is within the bins for any number.
     [[nodiscard]] int operator()(T center) const noexcept {
-        const T place = (center - low) * factor;
-        return place < T(bin_count) ? static_cast<int>(place) : bin_count - 1;
+        const T slot = (center - low) * factor;
+        return slot < T(bin_count) ? static_cast<int>(slot) : bin_count - 1;
     }
 };
 
-// The cut that makes the expected cost of a ray least \cite macdonald1990: a ray
-// that meets a box meets one within it with the ratio of their surfaces. Of all places
+// The split that makes the expected cost of a ray least \cite macdonald1990: a ray
+// that meets a box meets one within it with the ratio of their surfaces. Of all slots
 // 15 are tried along each axis, those between 16 bins \cite wald2007.
-// [best_cut]
+// [best_split]
 template <std::floating_point T>
-[[nodiscard]] Cut best_cut(const std::vector<CandidateT<T>>& things,
-                           const CrowdT<T>& crowd, std::uint32_t at_a_time) {
+[[nodiscard]] Split best_split(const std::vector<PrimitiveRefT<T>>& refs,
+                               const PrimitiveRangeT<T>& range,
+                               std::uint32_t at_a_time) {
     struct Bin {
-        SidesT<T> sides = SidesT<T>::none();
+        BoundsT<T> bounds = BoundsT<T>::none();
         std::uint32_t count = 0;
     };
-    Cut best;
+    Split best;
     for (int axis = 0; axis < 3; ++axis) {
-        const T size = crowd.centers.size(axis);
+        const T size = range.centers.size(axis);
         if (!(size > std::numeric_limits<T>::min() &&
               size < std::numeric_limits<T>::max()))
             continue; // all in one plane
         Bin all[bin_count];
-        const ToBinT<T> bin_of(crowd, axis);
-        for (std::uint32_t i = crowd.first; i < crowd.last; ++i) {
-            Bin& bin = all[bin_of(things[i].center(axis))];
-            bin.sides.grow(things[i].sides);
+        const ToBinT<T> bin_of(range, axis);
+        for (std::uint32_t i = range.first; i < range.last; ++i) {
+            Bin& bin = all[bin_of(refs[i].center(axis))];
+            bin.bounds.grow(refs[i].bounds);
             ++bin.count;
         }
         // Once from above, for the costs of the upper halves; once from below.
         double above[bin_count] = {};
         Bin upper, lower;
         for (int i = bin_count - 1; i > 0; --i) {
-            upper.sides.grow(all[i].sides);
+            upper.bounds.grow(all[i].bounds);
             upper.count += all[i].count;
-            above[i] = upper.count == 0
-                           ? 0
-                           : upper.sides.half_area() * tests_of(upper.count, at_a_time);
+            above[i] = upper.count == 0 ? 0
+                                        : upper.bounds.half_area() *
+                                              tests_of(upper.count, at_a_time);
         }
         for (int i = 1; i < bin_count; ++i) {
-            lower.sides.grow(all[i - 1].sides);
+            lower.bounds.grow(all[i - 1].bounds);
             lower.count += all[i - 1].count;
-            if (lower.count == 0 || lower.count == crowd.size()) continue;
+            if (lower.count == 0 || lower.count == range.size()) continue;
             const double cost =
-                lower.sides.half_area() * tests_of(lower.count, at_a_time) + above[i];
+                lower.bounds.half_area() * tests_of(lower.count, at_a_time) + above[i];
             if (cost < best.cost) best = {axis, i, cost};
         }
     }
     return best;
 }
-// [best_cut]
+// [best_split]
 
-// Sorts a crowd into its two halves; without a cut, by number.
+// Sorts a range into its two halves; without a split, by number.
 template <std::floating_point T>
-[[nodiscard]] std::pair<CrowdT<T>, CrowdT<T>>
-divide(std::vector<CandidateT<T>>& things, const CrowdT<T>& crowd, const Cut& cut) {
-    CrowdT<T> low{.first = crowd.first, .last = crowd.first, .depth = crowd.depth + 1};
-    CrowdT<T> high{.first = crowd.last, .last = crowd.last, .depth = crowd.depth + 1};
-    if (cut.axis < 0) {
-        low.last = high.first = crowd.first + crowd.size() / 2;
-        for (std::uint32_t i = crowd.first; i < crowd.last; ++i)
-            (i < low.last ? low : high).take(things[i]);
+[[nodiscard]] std::pair<PrimitiveRangeT<T>, PrimitiveRangeT<T>>
+divide(std::vector<PrimitiveRefT<T>>& refs, const PrimitiveRangeT<T>& range,
+       const Split& split) {
+    PrimitiveRangeT<T> low{
+        .first = range.first, .last = range.first, .depth = range.depth + 1};
+    PrimitiveRangeT<T> high{
+        .first = range.last, .last = range.last, .depth = range.depth + 1};
+    if (split.axis < 0) {
+        low.last = high.first = range.first + range.size() / 2;
+        for (std::uint32_t i = range.first; i < range.last; ++i)
+            (i < low.last ? low : high).take(refs[i]);
         return {low, high};
     }
-    const ToBinT<T> bin_of(crowd, cut.axis);
+    const ToBinT<T> bin_of(range, split.axis);
     while (low.last < high.first) {
-        CandidateT<T>& thing = things[low.last];
-        if (bin_of(thing.center(cut.axis)) < cut.bin) {
-            low.take(thing);
+        PrimitiveRefT<T>& ref = refs[low.last];
+        if (bin_of(ref.center(split.axis)) < split.bin) {
+            low.take(ref);
             ++low.last;
         } else {
-            high.take(thing);
-            std::swap(thing, things[--high.first]);
+            high.take(ref);
+            std::swap(ref, refs[--high.first]);
         }
     }
     return {low, high};

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/accel/detail/bvh_build.hpp
-/// \brief How a tree of boxes is built: from the top, each crowd cut where that is
+/// \brief How a tree of boxes is built: from the top, each range split where that is
 /// cheapest.
 
 #include <cstddef>
@@ -17,7 +17,7 @@
 namespace ljus {
 
 /// \defgroup bvh_build Building trees of boxes
-/// \brief Where to cut a crowd in two. Chapter: \ref ch_bvh.
+/// \brief Where to split a range in two. Chapter: \ref ch_bvh.
 /// \{
 
 namespace detail {
@@ -27,39 +27,39 @@ class BvhBuilder {
 public:
     BvhBuilder(std::span<const BoxT<T>> boxes, const BvhSettings& settings)
         : settings_(settings) {
-        things_.reserve(boxes.size());
+        refs_.reserve(boxes.size());
         for (const BoxT<T>& box : boxes) {
             require_finite("a box's low corner", box.low);
             require_finite("a box's high corner", box.high);
-            things_.push_back({{{box.low.x, box.low.y, box.low.z, T(0), -box.high.x,
-                                 -box.high.y, -box.high.z, T(0)}},
-                               static_cast<std::uint32_t>(things_.size())});
+            refs_.push_back({{{box.low.x, box.low.y, box.low.z, T(0), -box.high.x,
+                               -box.high.y, -box.high.z, T(0)}},
+                             static_cast<std::uint32_t>(refs_.size())});
         }
     }
 
     [[nodiscard]] BvhNodesT<T> build() {
         BvhNodesT<T> tree;
-        if (things_.empty()) return tree;
-        CrowdT<T> all{.last = static_cast<std::uint32_t>(things_.size())};
-        for (const CandidateT<T>& thing : things_) all.take(thing);
-        // The upper part by one thread; what lies below a node of `alone` things is
+        if (refs_.empty()) return tree;
+        PrimitiveRangeT<T> all{.last = static_cast<std::uint32_t>(refs_.size())};
+        for (const PrimitiveRefT<T>& ref : refs_) all.take(ref);
+        // The upper part by one thread; what lies below a node of `alone` primitives is
         // built on its own, and put behind it in order: the same for any threads.
         std::vector<Job> jobs;
-        tree.nodes.reserve(things_.size());
-        tree.nodes.push_back({all.sides.box(), 0, 0});
+        tree.nodes.reserve(refs_.size());
+        tree.nodes.push_back({all.bounds.box(), 0, 0});
         grow(tree.nodes, 0, all, &jobs);
         std::vector<std::vector<BvhNodeT<T>>> parts(jobs.size());
         parallel_blocks(static_cast<long long>(jobs.size()),
                         [&](long long number) {
                             const auto i = static_cast<std::size_t>(number);
-                            parts[i].push_back({jobs[i].crowd.sides.box(), 0, 0});
-                            grow(parts[i], 0, jobs[i].crowd, nullptr);
+                            parts[i].push_back({jobs[i].range.bounds.box(), 0, 0});
+                            grow(parts[i], 0, jobs[i].range, nullptr);
                         },
                         {.threads = settings_.threads});
         for (std::size_t i = 0; i < jobs.size(); ++i)
             append(tree.nodes, jobs[i].node, parts[i]);
-        tree.order.reserve(things_.size());
-        for (const CandidateT<T>& thing : things_) tree.order.push_back(thing.number);
+        tree.primitive_ids.reserve(refs_.size());
+        for (const PrimitiveRefT<T>& ref : refs_) tree.primitive_ids.push_back(ref.id);
         return tree;
     }
 
@@ -68,39 +68,40 @@ private:
 
     struct Job {
         std::size_t node;
-        CrowdT<T> crowd;
+        PrimitiveRangeT<T> range;
     };
 
     // [grow]
-    void grow(std::vector<BvhNodeT<T>>& nodes, std::size_t node, const CrowdT<T>& crowd,
-              std::vector<Job>* jobs) {
-        if (jobs && crowd.size() <= alone) {
-            jobs->push_back({node, crowd});
+    void grow(std::vector<BvhNodeT<T>>& nodes, std::size_t node,
+              const PrimitiveRangeT<T>& range, std::vector<Job>* jobs) {
+        if (jobs && range.size() <= alone) {
+            jobs->push_back({node, range});
             return;
         }
-        const std::uint32_t count = crowd.size();
-        const bool deep = crowd.depth >= bvh_depth / 2; // then halves, to an end
-        const Cut cut =
-            count == 1 || deep ? Cut{} : best_cut(things_, crowd, settings_.at_a_time);
-        const double area = crowd.sides.half_area();
-        const bool divided_is_better = cut.cost + double(settings_.node_cost) * area <
+        const std::uint32_t count = range.size();
+        const bool deep = range.depth >= bvh_depth / 2; // then halves, to an end
+        const Split split = count == 1 || deep
+                                ? Split{}
+                                : best_split(refs_, range, settings_.at_a_time);
+        const double area = range.bounds.half_area();
+        const bool divided_is_better = split.cost + double(settings_.node_cost) * area <
                                        tests_of(count, settings_.at_a_time) * area;
         if (count == 1 || (count <= settings_.leaf_size && !divided_is_better)) {
-            nodes[node].first = crowd.first;
+            nodes[node].first = range.first;
             nodes[node].count = count;
             return;
         }
-        const auto [low, high] = divide(things_, crowd, cut);
+        const auto [low, high] = divide(refs_, range, split);
         const std::size_t children = nodes.size();
         nodes[node].first = static_cast<std::uint32_t>(children);
-        nodes.push_back({low.sides.box(), 0, 0});
-        nodes.push_back({high.sides.box(), 0, 0});
+        nodes.push_back({low.bounds.box(), 0, 0});
+        nodes.push_back({high.bounds.box(), 0, 0});
         grow(nodes, children, low, jobs);
         grow(nodes, children + 1, high, jobs);
     }
     // [grow]
 
-    // Puts a tree that was built on its own in the place of its root.
+    // Puts a tree that was built on its own in the slot of its root.
     static void append(std::vector<BvhNodeT<T>>& nodes, std::size_t root,
                        const std::vector<BvhNodeT<T>>& part) {
         const auto shift = static_cast<std::uint32_t>(nodes.size()) - 1;
@@ -115,13 +116,13 @@ private:
     }
 
     BvhSettings settings_;
-    std::vector<CandidateT<T>> things_;
+    std::vector<PrimitiveRefT<T>> refs_;
 };
 
 } // namespace detail
 
-/// Builds a tree over boxes: top down, each crowd cut where that is cheapest for rays,
-/// of 16 places along each axis \cite wald2007.
+/// Builds a tree over boxes: top down, each range split where that is cheapest for rays,
+/// of 16 slots along each axis \cite wald2007.
 /// \param boxes     Any boxes, equal and flat ones too; below 2^31.
 /// \param settings  Leaves and threads.
 /// \return The tree, the same for any number of threads; no deeper than bvh_depth.

@@ -20,7 +20,7 @@ namespace ljus {
 /// least sum: a ray visits a node in proportion to its surface \cite ylitie2017.
 ///
 /// What lies below a plain node can be shown as one wide node, or opened to a row of
-/// at most i nodes side by side, for which its two children share the i places. From
+/// at most i nodes side by side, for which its two children share the i slots. From
 /// the leaves up, the least cost of each is known from those below.
 template <std::floating_point T>
 class BvhCollapse {
@@ -45,9 +45,9 @@ public:
             const Vec3T<double> size{node.box.high - node.box.low};
             cost_[i][0] = size.x * size.y + size.y * size.z + size.z * size.x +
                           share(node, width).cost;
-            for (int places = 2; places < width; ++places)
-                cost_[i][std::size_t(places) - 1] =
-                    glm::min(cost_[i][0], share(node, places).cost);
+            for (int slots = 2; slots < width; ++slots)
+                cost_[i][std::size_t(slots) - 1] =
+                    glm::min(cost_[i][0], share(node, slots).cost);
         }
     }
 
@@ -66,42 +66,42 @@ public:
 
 private:
     struct Share {
-        int low = 1; // places of the first child
+        int low = 1; // slots of the first child
         double cost = 0;
     };
 
-    double cost(std::uint32_t node, int places) const noexcept {
-        return cost_[node][std::size_t(places) - 1];
+    double cost(std::uint32_t node, int slots) const noexcept {
+        return cost_[node][std::size_t(slots) - 1];
     }
 
-    // The best way for two children to share places.
+    // The best way for two children to share slots.
     // [share]
-    Share share(const BvhNodeT<T>& parent, int places) const noexcept {
+    Share share(const BvhNodeT<T>& parent, int slots) const noexcept {
         Share best;
-        for (int low = 1; low < places; ++low) {
+        for (int low = 1; low < slots; ++low) {
             const double sum =
-                cost(parent.first, low) + cost(parent.first + 1, places - low);
+                cost(parent.first, low) + cost(parent.first + 1, slots - low);
             if (low == 1 || sum < best.cost) best = {low, sum};
         }
         return best;
     }
     // [share]
 
-    void open_both(const BvhNodeT<T>& parent, int places, Children& result) const {
-        const int low = share(parent, places).low;
+    void open_both(const BvhNodeT<T>& parent, int slots, Children& result) const {
+        const int low = share(parent, slots).low;
         open(parent.first, low, result);
-        open(parent.first + 1, places - low, result);
+        open(parent.first + 1, slots - low, result);
     }
-    void open(std::uint32_t i, int places, Children& result) const {
+    void open(std::uint32_t i, int slots, Children& result) const {
         const BvhNodeT<T>& node = tree_.nodes[i];
-        if (node.count == 0 && places > 1 && share(node, places).cost < cost_[i][0])
-            open_both(node, places, result);
+        if (node.count == 0 && slots > 1 && share(node, slots).cost < cost_[i][0])
+            open_both(node, slots, result);
         else
             result.node[result.count++] = i;
     }
 
     const BvhNodesT<T>& tree_;
-    std::vector<std::array<double, width - 1>> cost_; // with 1, 2, ... places
+    std::vector<std::array<double, width - 1>> cost_; // with 1, 2, ... slots
 };
 
 /// \}

@@ -14,29 +14,31 @@ namespace ljus {
 /// \brief Boxes within boxes \cite rubin1980. Chapter: \ref ch_bvh.
 /// \{
 
-/// A node: its box, and either two children or some of the things themselves. 32 bytes
+/// A node: its box, and either two children or some of the primitives themselves. 32 bytes
 /// in float, so that two children share a cache line.
 // [tree node]
 template <std::floating_point T>
 struct BvhNodeT {
-    BoxT<T> box{};           ///< Around all that is below.
-    std::uint32_t first = 0; ///< Its first child, the other follows; or first thing.
-    std::uint32_t count = 0; ///< How many things; 0 for a node with children.
+    BoxT<T> box{}; ///< Around all that is below.
+    std::uint32_t first =
+        0; ///< Its first child, the other follows; or first primitive.
+    std::uint32_t count = 0; ///< How many primitives; 0 for a node with children.
 };
 // [tree node]
 static_assert(sizeof(BvhNodeT<float>) == 32);
 
-/// A tree of boxes: nodes, the root first, and the order in which leaves have things.
+/// A tree of boxes: nodes, the root first, and the order in which leaves have primitives.
 template <std::floating_point T>
 struct BvhNodesT {
-    std::vector<BvhNodeT<T>> nodes{};   ///< Empty if there is nothing.
-    std::vector<std::uint32_t> order{}; ///< order[place] is a thing's number.
+    std::vector<BvhNodeT<T>> nodes{}; ///< Empty if there is nothing.
+    std::vector<std::uint32_t>
+        primitive_ids{}; ///< primitive_ids[slot] is a primitive's number.
 };
 
 /// How a tree is built.
 struct BvhSettings {
     std::uint32_t leaf_size = 4; ///< No leaf has more, at least 1.
-    std::uint32_t at_a_time = 1; ///< How many things one test asks, side by side.
+    std::uint32_t at_a_time = 1; ///< How many primitives one test asks, side by side.
     float node_cost = 1;         ///< Of a step down, in tests.
     int threads = 0;             ///< 0: all that there are.
 };

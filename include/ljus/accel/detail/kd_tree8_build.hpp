@@ -15,12 +15,10 @@
 #include "ljus/math/require.hpp"
 #include "ljus/parallel.hpp"
 
-namespace ljus {
+namespace ljus::detail {
 
 /// \addtogroup kd_tree8
 /// \{
-
-namespace detail {
 
 // Builds the nodes, the blocks and the order of a tree.
 template <std::floating_point T>
@@ -33,7 +31,7 @@ public:
     };
 
     KdTree8Builder(const KdTree8Shape& shape, std::span<KdTree8NodeT<T>> nodes,
-                   std::span<BlockT<T>> blocks, std::span<std::uint32_t> order)
+                   std::span<Lanes3T<T>> blocks, std::span<std::uint32_t> order)
         : shape_(shape), nodes_(nodes), blocks_(blocks), order_(order) {
         for (auto& items : items_)
             items = std::make_unique_for_overwrite<Item[]>(shape.points);
@@ -199,13 +197,11 @@ private:
 
     const KdTree8Shape& shape_;
     std::span<KdTree8NodeT<T>> nodes_;
-    std::span<BlockT<T>> blocks_;
+    std::span<Lanes3T<T>> blocks_;
     std::span<std::uint32_t> order_;
     std::unique_ptr<Item[]> items_[2];
 };
 
-} // namespace detail
-
 /// \}
 
-} // namespace ljus
+} // namespace ljus::detail

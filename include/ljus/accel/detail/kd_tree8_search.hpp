@@ -4,25 +4,29 @@
 /// \brief The nearest points of the wide k-d tree.
 
 #include <algorithm>
+#include <optional>
+#include <span>
 
-#include "ljus/accel/kd_tree8.hpp"
+#include "ljus/accel/detail/kd_tree8_traverse.hpp"
+#include "ljus/accel/detail/lane_select.hpp"
 
-namespace ljus {
+namespace ljus::detail {
 
 /// \addtogroup kd_tree8
 /// \{
 
 template <std::floating_point T>
-std::optional<Neighbor> KdTree8T<T>::nearest(const Vec3T<T>& center, T radius) const {
-    if (!(radius >= T(0)) || size() == 0) return std::nullopt;
+[[nodiscard]] std::optional<Neighbor> nearest_point(const KdTree8PartsT<T>& tree,
+                                                    const Vec3T<T>& center, T radius) {
+    if (!(radius >= T(0)) || tree.blocks.empty()) return std::nullopt;
     auto reach = ReachT<T>::up_to(double(radius) * double(radius), false);
     std::optional<Neighbor> best;
-    towards(center, reach, [&](std::size_t first, std::size_t last) {
+    towards(tree, center, reach, [&](std::size_t first, std::size_t last) {
         // The smallest distance in T, but for its last bits; only what is as small may
         // be the nearest.
-        LanesT<T> least = distances2(blocks_[first], center);
+        LanesT<T> least = distances2(tree.blocks[first], center);
         for (std::size_t b = first + 1; b < last; ++b) {
-            const LanesT<T> d2 = distances2(blocks_[b], center);
+            const LanesT<T> d2 = distances2(tree.blocks[b], center);
             for_lanes([&](int i) {
                 least.lane[i] = d2.lane[i] < least.lane[i] ? d2.lane[i] : least.lane[i];
             });
@@ -33,11 +37,11 @@ std::optional<Neighbor> KdTree8T<T>::nearest(const Vec3T<T>& center, T radius) c
             ReachT<T>::up_to(double(least.lane[smallest]), false).last, reach.last);
         constexpr double infinity = std::numeric_limits<double>::infinity();
         const ReachT<T> close{.limit2 = infinity, .sure = bound, .last = bound};
-        for (std::uint32_t some = in_leaf(first, last, center, close); some != 0;
+        for (std::uint32_t some = in_leaf(tree, first, last, center, close); some != 0;
              some &= some - 1) {
             const std::size_t i =
                 8 * first + static_cast<std::size_t>(std::countr_zero(some));
-            const double exact = distance2(point(i), center);
+            const double exact = distance2(tree.point(i), center);
             if (!reach.holds(exact)) continue;
             best = Neighbor{exact, static_cast<std::uint32_t>(i)};
             reach = ReachT<T>::up_to(exact, true);
@@ -46,40 +50,16 @@ std::optional<Neighbor> KdTree8T<T>::nearest(const Vec3T<T>& center, T radius) c
     return best;
 }
 
+// The most that are selected by counting; more go through a heap.
+inline constexpr std::size_t max_counted = 512;
+
 // [nearest]
-template <std::floating_point T>
-template <typename Wanted>
-std::size_t KdTree8T<T>::nearest(const Vec3T<T>& center, T radius,
-                                 std::span<Neighbor> found, Wanted wanted) const {
-    if (found.empty() || !(radius >= T(0)) || size() == 0) return 0;
-    auto reach = ReachT<T>::up_to(double(radius) * double(radius), false);
-    if (found.size() <= max_counted) return count_nearest(center, reach, found, wanted);
-
-    Nearest best{.found = found, .limit2 = reach.limit2};
-    towards(center, reach, [&](std::size_t first, std::size_t last) {
-        for (std::size_t b = first; b < last; ++b) {
-            std::uint32_t some =
-                reach.within(blocks_[b], center, distances2(blocks_[b], center));
-            for (; some != 0; some &= some - 1) {
-                const auto i = std::size_t(std::countr_zero(some));
-                const auto index = static_cast<std::uint32_t>(8 * b + i);
-                const double d2 = distance2(blocks_[b][i], center);
-                if (best.reaches(d2) && wanted(index)) best.take({d2, index});
-            }
-        }
-        if (best.count == found.size())
-            reach = ReachT<T>::up_to(found[0].distance2, true);
-    });
-    return best.count;
-}
-
 // Gathers candidates and now and then, when there are more than enough, finds by
 // counting how far the k-th of them lies: the reach from then on.
-template <std::floating_point T>
-template <typename Wanted>
-std::size_t KdTree8T<T>::count_nearest(const Vec3T<T>& center, ReachT<T> reach,
-                                       std::span<Neighbor> found,
-                                       Wanted& wanted) const {
+template <std::floating_point T, typename Wanted>
+[[nodiscard]] std::size_t count_nearest(const KdTree8PartsT<T>& tree,
+                                        const Vec3T<T>& center, ReachT<T> reach,
+                                        std::span<Neighbor> found, Wanted& wanted) {
     constexpr std::size_t room = 2 * max_counted;
     alignas(32) T d2[room + 8];
     std::uint32_t index[room + 8];
@@ -123,14 +103,14 @@ std::size_t KdTree8T<T>::count_nearest(const Vec3T<T>& center, ReachT<T> reach,
             ties += x > kth.sure && x <= kth.last;
         }
         const auto exact = [&](std::uint32_t i) {
-            return Neighbor{distance2(point(i), center), i};
+            return Neighbor{distance2(tree.point(i), center), i};
         };
         const std::uint32_t last = static_cast<std::uint32_t>(k - sure - 1);
         std::nth_element(band, band + last, band + ties,
                          [&](auto a, auto b) { return exact(a) < exact(b); });
         const double limit2 = exact(band[last]).distance2;
         for (std::size_t i = 0; sure < k; ++i, ++sure) {
-            d2[sure] = distances2(blocks_[band[i] / 8], center).lane[band[i] % 8];
+            d2[sure] = distances2(tree.blocks[band[i] / 8], center).lane[band[i] % 8];
             index[sure] = band[i];
         }
         count = k;
@@ -138,10 +118,10 @@ std::size_t KdTree8T<T>::count_nearest(const Vec3T<T>& center, ReachT<T> reach,
     };
 
     std::size_t enough = k;
-    towards(center, reach, [&](std::size_t first, std::size_t last) {
+    towards(tree, center, reach, [&](std::size_t first, std::size_t last) {
         for (std::size_t b = first; b < last; ++b) {
-            const LanesT<T> far = distances2(blocks_[b], center);
-            const std::uint32_t some = reach.within(blocks_[b], center, far);
+            const LanesT<T> far = distances2(tree.blocks[b], center);
+            const std::uint32_t some = reach.within(tree.blocks[b], center, far);
             if (some == 0) continue;
             for (std::uint32_t i = 0; i < lane_count; ++i) {
                 const auto at = static_cast<std::uint32_t>(8 * b + i);
@@ -163,14 +143,46 @@ std::size_t KdTree8T<T>::count_nearest(const Vec3T<T>& center, ReachT<T> reach,
 
     std::size_t farthest = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        found[i] = {distance2(point(index[i]), center), index[i]};
+        found[i] = {distance2(tree.point(index[i]), center), index[i]};
         if (found[i].distance2 > found[farthest].distance2) farthest = i;
     }
     if (count > 0) std::swap(found[0], found[farthest]);
     return count;
 }
+
+template <std::floating_point T, typename Wanted>
+[[nodiscard]] std::size_t nearest_points(const KdTree8PartsT<T>& tree,
+                                         const Vec3T<T>& center, T radius,
+                                         std::span<Neighbor> found, Wanted wanted) {
+    if (found.empty() || !(radius >= T(0)) || tree.blocks.empty()) return 0;
+    if (std::is_same_v<Wanted, AnyPoint> && found.size() == 1) {
+        const auto one = nearest_point(tree, center, radius);
+        if (one) found[0] = *one;
+        return one ? 1 : 0;
+    }
+    auto reach = ReachT<T>::up_to(double(radius) * double(radius), false);
+    if (found.size() <= max_counted)
+        return count_nearest(tree, center, reach, found, wanted);
+
+    Nearest best{.found = found, .limit2 = reach.limit2};
+    towards(tree, center, reach, [&](std::size_t first, std::size_t last) {
+        for (std::size_t b = first; b < last; ++b) {
+            std::uint32_t some = reach.within(tree.blocks[b], center,
+                                              distances2(tree.blocks[b], center));
+            for (; some != 0; some &= some - 1) {
+                const auto i = std::size_t(std::countr_zero(some));
+                const auto index = static_cast<std::uint32_t>(8 * b + i);
+                const double d2 = distance2(tree.blocks[b][i], center);
+                if (best.reaches(d2) && wanted(index)) best.take({d2, index});
+            }
+        }
+        if (best.count == found.size())
+            reach = ReachT<T>::up_to(found[0].distance2, true);
+    });
+    return best.count;
+}
 // [nearest]
 
 /// \}
 
-} // namespace ljus
+} // namespace ljus::detail

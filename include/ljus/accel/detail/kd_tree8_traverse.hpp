@@ -1,23 +1,60 @@
 #pragma once
 
 /// \file ljus/accel/detail/kd_tree8_traverse.hpp
-/// \brief Which leaves of the wide k-d tree a search visits, and in which order.
+/// \brief Which leaves of the wide k-d tree a search visits, in which order, and which
+/// of their points it finds.
 
-#include "ljus/accel/kd_tree8.hpp"
+#include "ljus/accel/detail/kd_tree8_nodes.hpp"
 
-namespace ljus {
+namespace ljus::detail {
 
 /// \addtogroup kd_tree8
 /// \{
 
+// Which points of a leaf lie within reach, exactly: a bit each.
+// [leaf]
+template <std::floating_point T>
+[[nodiscard]] std::uint32_t in_leaf(const KdTree8PartsT<T>& tree, std::size_t first,
+                                    std::size_t last, const Vec3T<T>& center,
+                                    const ReachT<T>& reach) noexcept {
+    const T possible = reach.last, beyond_doubt = reach.sure;
+    std::uint32_t near[lane_count] = {}, sure[lane_count] = {};
+    for (std::size_t b = first; b < last; ++b) {
+        const LanesT<T> d2 = distances2(tree.blocks[b], center);
+        for_lanes([&](int i) {
+            const std::uint32_t here = d2.lane[i] <= possible ? lane_bit[i] << 24 : 0u;
+            near[i] = near[i] >> 8 | here;
+        });
+        for_lanes([&](int i) {
+            const std::uint32_t here =
+                d2.lane[i] <= beyond_doubt ? lane_bit[i] << 24 : 0u;
+            sure[i] = sure[i] >> 8 | here;
+        });
+    }
+    const auto unused = static_cast<int>(32 - 8 * (last - first));
+    std::uint32_t found = 0, certain = 0;
+    for_lanes([&](int i) { found |= near[i]; });
+    if (found == 0) return 0;
+    for_lanes([&](int i) { certain |= sure[i]; });
+    found >>= unused;
+    certain >>= unused;
+    for (std::uint32_t rest = found & ~certain; rest != 0; rest &= rest - 1) {
+        const int i = std::countr_zero(rest);
+        if (!reach.holds(distance2(tree.point(8 * first + std::size_t(i)), center)))
+            found &= ~(1u << i);
+    }
+    return found;
+}
+// [leaf]
+
 // The leaves within reach; until one visit says true.
 // [in ball]
-template <std::floating_point T>
-template <typename Visit>
-bool KdTree8T<T>::in_ball(const Vec3T<T>& center, T radius, const ReachT<T>& reach,
-                          Visit visit) const {
+template <std::floating_point T, typename Visit>
+bool in_ball(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, T radius,
+             const ReachT<T>& reach, Visit visit) {
+    const auto& [shape, nodes, blocks] = tree;
     if (!(radius >= T(0))) return false;
-    if (shape_.levels == 0) return visit(std::size_t(0), blocks_.size());
+    if (shape.levels == 0) return visit(std::size_t(0), blocks.size());
     // The nodes of which some children are left: one at most on each level.
     struct Open {
         int level;
@@ -27,18 +64,18 @@ bool KdTree8T<T>::in_ball(const Vec3T<T>& center, T radius, const ReachT<T>& rea
     int size = 0;
     int level = 0;
     std::uint32_t number = 0;
-    std::uint32_t all = (1u << shape_.root_children()) - 1;
+    std::uint32_t all = (1u << shape.root_children()) - 1;
     for (;;) {
-        const KdTree8NodeT<T>& node = nodes_[shape_.first[std::size_t(level)] + number];
+        const KdTree8NodeT<T>& node = nodes[shape.first[std::size_t(level)] + number];
         std::uint32_t children =
-            lanes_up_to(detail::near2<Visit>(node, center), reach.last) & all;
+            lanes_up_to(near2<Visit>(node, center), reach.last) & all;
         all = 255;
-        if (level + 1 == shape_.levels) {
+        if (level + 1 == shape.levels) {
             for (; children != 0; children &= children - 1) {
                 const std::uint64_t leaf =
                     8 * number + static_cast<std::uint32_t>(std::countr_zero(children));
-                if (visit(shape_.first_block(shape_.halvings, leaf),
-                          shape_.first_block(shape_.halvings, leaf + 1)))
+                if (visit(shape.first_block(shape.halvings, leaf),
+                          shape.first_block(shape.halvings, leaf + 1)))
                     return true;
             }
         }
@@ -59,11 +96,11 @@ bool KdTree8T<T>::in_ball(const Vec3T<T>& center, T radius, const ReachT<T>& rea
 
 // The leaves within reach, of each node the nearest child first; a visit may shorten
 // the reach.
-template <std::floating_point T>
-template <typename Visit>
-void KdTree8T<T>::towards(const Vec3T<T>& center, const ReachT<T>& reach,
-                          Visit visit) const {
-    if (shape_.levels == 0) return visit(std::size_t(0), blocks_.size());
+template <std::floating_point T, typename Visit>
+void towards(const KdTree8PartsT<T>& tree, const Vec3T<T>& center,
+             const ReachT<T>& reach, Visit visit) {
+    const auto& [shape, nodes, blocks] = tree;
+    if (shape.levels == 0) return visit(std::size_t(0), blocks.size());
     struct Open {
         LanesT<T> near;       // how far its children are
         std::uint32_t number; // of the node
@@ -71,9 +108,9 @@ void KdTree8T<T>::towards(const Vec3T<T>& center, const ReachT<T>& reach,
     };
     Open open[12]; // a node on each level
     int level = 0;
-    open[0].near = detail::near2<void>(nodes_[0], center);
+    open[0].near = near2<void>(nodes[0], center);
     open[0].number = 0;
-    open[0].left = (1u << shape_.root_children()) - 1;
+    open[0].left = (1u << shape.root_children()) - 1;
     for (;;) {
         Open& at = open[level];
         const std::uint32_t i = smallest_lane(at.near, at.left, reach.last);
@@ -85,23 +122,23 @@ void KdTree8T<T>::towards(const Vec3T<T>& center, const ReachT<T>& reach,
         const std::uint32_t child = 8 * at.number + i;
         if (at.near.lane[i] > reach.sure) { // T cannot tell
             const KdTree8NodeT<T>& node =
-                nodes_[shape_.first[std::size_t(level)] + at.number];
+                nodes[shape.first[std::size_t(level)] + at.number];
             if (!reach.holds(box_distance2(node.low[i], node.high[i], center)))
                 continue;
         }
-        if (++level < shape_.levels) {
-            open[level].near = detail::near2<void>(
-                nodes_[shape_.first[std::size_t(level)] + child], center);
+        if (++level < shape.levels) {
+            open[level].near =
+                near2<void>(nodes[shape.first[std::size_t(level)] + child], center);
             open[level].number = child;
             open[level].left = 255;
         } else {
             --level;
-            visit(shape_.first_block(shape_.halvings, child),
-                  shape_.first_block(shape_.halvings, child + 1));
+            visit(shape.first_block(shape.halvings, child),
+                  shape.first_block(shape.halvings, child + 1));
         }
     }
 }
 
 /// \}
 
-} // namespace ljus
+} // namespace ljus::detail

@@ -10,14 +10,12 @@
 #include <type_traits>
 #include <utility>
 
-#include "ljus/accel/detail/point_block.hpp"
+#include "ljus/math/lanes.hpp"
 
-namespace ljus {
+namespace ljus::detail {
 
 /// \addtogroup kd_tree8
 /// \{
-
-namespace detail {
 
 /// The number in the middle of two, counted in floats: never more than the width of T
 /// in bits steps lie between any two numbers.
@@ -35,8 +33,6 @@ template <std::floating_point T>
     const Bits middle = (a & b) + ((a ^ b) >> 1);
     return std::bit_cast<T>(middle < 0 ? sign - middle : middle);
 }
-
-} // namespace detail
 
 /// How many numbers do not exceed a threshold.
 /// \param values     The numbers, filled up to whole eights with infinity.
@@ -120,7 +116,7 @@ template <std::floating_point T>
         const T part = (T(k - up_to_low) - T(0.5)) / T(up_to_high - up_to_low);
         T guess = low + (high - low) * part;
         if (step % 3 == 2 || !(low < guess && guess < high)) {
-            guess = detail::middle_in_bits(low, high);
+            guess = middle_in_bits(low, high);
             if (!(low < guess && guess < high)) return high; // neighbours
         }
         const std::size_t up_to_guess = count_up_to(values, count, guess);
@@ -132,4 +128,4 @@ template <std::floating_point T>
 
 /// \}
 
-} // namespace ljus
+} // namespace ljus::detail

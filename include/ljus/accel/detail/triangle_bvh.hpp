@@ -12,6 +12,8 @@ namespace ljus {
 /// \brief The fast tree for a mesh. Chapter: \ref ch_bvh.
 /// \{
 
+namespace detail {
+
 /// Up to eight triangles, coordinate by coordinate: five cache lines of 64 bytes.
 struct alignas(64) TriangleLanes {
     Lanes3 v1{};  ///< First corners.
@@ -20,13 +22,13 @@ struct alignas(64) TriangleLanes {
     Lanes size{}; ///< The largest component of both edges; below 0 for no triangle.
 };
 
-/// What a first look at eight triangles says: lanes, as yes_lanes() has them.
-struct FirstLook {
-    std::uint64_t maybe = 0;   ///< Those that the ray may hit.
-    std::uint64_t certain = 0; ///< Those among them that it hits.
+/// What the conservative filter says of eight triangles: lanes, as yes_lanes() has them.
+struct FilteredTriangles {
+    std::uint64_t possible = 0; ///< Those that the ray may hit.
+    std::uint64_t definite = 0; ///< Those among them that it hits.
 };
 
-/// A first look at eight triangles: the test of Moeller and Trumbore
+/// A conservative filter for eight triangles: the test of Moeller and Trumbore
 /// \cite moller1997 without its division, in float, and how far its rounding can move
 /// each number. Where a sign could change within that, a triangle's own test decides.
 /// \param block  The triangles.
@@ -34,10 +36,11 @@ struct FirstLook {
 /// \param ray    The ray.
 /// \return Which ones it may hit, and which it hits.
 /// \cost Some 90 operations for all eight together.
-// [first_look]
+// [conservative_filter]
 template <typename Caller>
-[[nodiscard]] inline FirstLook
-first_look(const TriangleLanes& block, const Bvh8Ray& ready, const Ray& ray) noexcept {
+[[nodiscard]] inline FilteredTriangles conservative_filter(const TriangleLanes& block,
+                                                           const Bvh8Ray& ready,
+                                                           const Ray& ray) noexcept {
     constexpr float min = std::numeric_limits<float>::min();
     // Each number is a sum of six products with at most 8 roundings on the way.
     constexpr float rounding = 64 * std::numeric_limits<float>::epsilon() / 2;
@@ -46,13 +49,13 @@ first_look(const TriangleLanes& block, const Bvh8Ray& ready, const Ray& ray) noe
     const float t_min = ray.t_min;
     const float t_max = ray.t_max < ready.last ? ray.t_max : ready.last;
     const auto size_of = [](float x) { return x < 0 ? -x : x; };
-    LaneMask maybe, certain;
+    LaneMask possible, definite;
     for (int i = 0; i < lane_count; ++i) {
-        const float x = block.v1.x.lane[i], y = block.v1.y.lane[i];
-        const float z = block.v1.z.lane[i];
-        const float e1x = block.v2.x.lane[i] - x, e2x = block.v3.x.lane[i] - x;
-        const float e1y = block.v2.y.lane[i] - y, e2y = block.v3.y.lane[i] - y;
-        const float e1z = block.v2.z.lane[i] - z, e2z = block.v3.z.lane[i] - z;
+        const float x = block.v1.x[i], y = block.v1.y[i];
+        const float z = block.v1.z[i];
+        const float e1x = block.v2.x[i] - x, e2x = block.v3.x[i] - x;
+        const float e1y = block.v2.y[i] - y, e2y = block.v3.y[i] - y;
+        const float e1z = block.v2.z[i] - z, e2z = block.v3.z[i] - z;
         const float tx = o.x - x, ty = o.y - y, tz = o.z - z;
         const float px = d.y * e2z - d.z * e2y;
         const float py = d.z * e2x - d.x * e2z;
@@ -85,21 +88,23 @@ first_look(const TriangleLanes& block, const Bvh8Ray& ready, const Ray& ray) noe
         const bool out =
             (inner < -wide) | (before < -near) | (behind < -far) | (size < 0);
         const bool in = (inner > wide) & (before > near) & (behind > far) & (size > 0);
-        maybe.lane[i] = out ? 0 : -1;
-        certain.lane[i] = in ? -1 : 0;
+        possible.lane[i] = out ? 0 : -1;
+        definite.lane[i] = in ? -1 : 0;
     }
-    return {yes_lanes(maybe), yes_lanes(certain)};
+    return {yes_lanes(possible), yes_lanes(definite)};
 }
-// [first_look]
+// [conservative_filter]
+
+} // namespace detail
 
 /// A wide tree over triangles, with the searches of BvhT, and the same answers. It
-/// keeps the triangles, in its own order: what a search asks about lies where the first
-/// look has just been.
+/// keeps the triangles, in its own order: what a search asks about lies where the
+/// filter has just been.
 ///
 ///     const TriangleBvh tree(count, [&](std::uint32_t i) { return triangles[i]; });
-///     tree.closest(ray, [&](std::uint32_t place, Ray& rest) {
-///         if (const auto hit = intersect<double>(rest, tree.triangle(place)))
-///             nearest.offer(*hit, tree.order()[place], rest);
+///     tree.closest(ray, [&](std::uint32_t slot, Ray& rest) {
+///         if (const auto hit = intersect<double>(rest, tree.triangle(slot)))
+///             nearest.offer(*hit, tree.primitive_ids()[slot], rest);
 ///     });
 /// \cost About 60 bytes a triangle.
 class TriangleBvh {
@@ -117,30 +122,28 @@ public:
         std::vector<Box> boxes;
         boxes.reserve(count);
         for (std::uint32_t i = 0; i < count; ++i) boxes.push_back(bounds(triangle(i)));
-        const BvhSettings settings{
-            .leaf_size = lane_count, .at_a_time = lane_count, .threads = threads};
-        tree_ = Bvh8(boxes, settings, lane_count);
-        TriangleLanes empty;
-        empty.size = all_lanes(-1.0f);
-        blocks_.resize(order().size() / lane_count, empty);
-        for (std::size_t place = 0; place < order().size(); ++place)
-            if (order()[place] != Bvh8::hole)
-                put(blocks_[place / lane_count], place % lane_count,
-                    triangle(order()[place]));
+        const BvhSettings settings{.leaf_size = detail::lane_count,
+                                   .at_a_time = detail::lane_count,
+                                   .threads = threads};
+        tree_ = Bvh8(boxes, settings, detail::lane_count);
+        detail::TriangleLanes empty;
+        for (float& size : empty.size.lane) size = -1; // no triangle
+        blocks_.resize(primitive_ids().size() / detail::lane_count, empty);
+        for (std::size_t slot = 0; slot < primitive_ids().size(); ++slot)
+            if (primitive_ids()[slot] != Bvh8::padding)
+                put(blocks_[slot / detail::lane_count], slot % detail::lane_count,
+                    triangle(primitive_ids()[slot]));
     }
 
-    /// order()[place] is a triangle's number, or Bvh8::hole.
-    [[nodiscard]] const std::vector<std::uint32_t>& order() const noexcept {
-        return tree_.order();
+    /// primitive_ids()[slot] is a triangle's number, or Bvh8::padding.
+    [[nodiscard]] const std::vector<std::uint32_t>& primitive_ids() const noexcept {
+        return tree_.primitive_ids();
     }
-    /// The triangle at a place that is no hole, as it was given.
-    [[nodiscard]] Triangle triangle(std::uint32_t place) const noexcept {
-        const TriangleLanes& block = blocks_[place / lane_count];
-        const std::size_t lane = place % lane_count;
-        const auto corner = [lane](const Lanes3& v) {
-            return Vec3{v.x.lane[lane], v.y.lane[lane], v.z.lane[lane]};
-        };
-        return {corner(block.v1), corner(block.v2), corner(block.v3)};
+    /// The triangle at a slot that is no padding, as it was given.
+    [[nodiscard]] Triangle triangle(std::uint32_t slot) const noexcept {
+        const detail::TriangleLanes& block = blocks_[slot / detail::lane_count];
+        const std::size_t lane = slot % detail::lane_count;
+        return {block.v1[lane], block.v2[lane], block.v3[lane]};
     }
     /// The tree of boxes.
     [[nodiscard]] const Bvh8& tree() const noexcept { return tree_; }
@@ -148,67 +151,65 @@ public:
     [[nodiscard]] const Box& box() const noexcept { return tree_.box(); }
     /// The memory that it takes, with what it keeps of the triangles.
     [[nodiscard]] std::size_t bytes() const noexcept {
-        return tree_.bytes() + blocks_.capacity() * sizeof(TriangleLanes);
+        return tree_.bytes() + blocks_.capacity() * sizeof(detail::TriangleLanes);
     }
 
     /// As BvhT::closest(): the triangles that the ray may hit are asked.
     template <typename Test, typename Watch = NoTrace>
     void closest(Ray ray, Test&& test, Watch&& watch = {}) const {
-        const auto ask = [&](std::uint32_t place) {
-            test(place, ray);
+        const auto ask = [&](std::uint32_t slot) {
+            test(slot, ray);
             return false;
         };
-        walk_nearest(tree_.wide(), ray, look_first<false>(ray, ask), watch);
+        detail::walk_nearest(tree_.wide(), ray, filtered_leaf<false>(ray, ask), watch);
     }
 
     /// As BvhT::any(), but a triangle that is certainly hit is not asked.
     template <typename Test, typename Watch = NoTrace>
     [[nodiscard]] bool any(const Ray& ray, Test&& test, Watch&& watch = {}) const {
-        return walk_any(tree_.wide(), ray, look_first<true>(ray, test), watch);
+        return detail::walk_any(tree_.wide(), ray, filtered_leaf<true>(ray, test),
+                                watch);
     }
 
 private:
     // A leaf of the tree's walks.
-    template <bool certain_ends, typename Ask>
-    struct LookFirst {
+    template <bool definite_ends, typename Ask>
+    struct FilteredLeaf {
         const TriangleBvh& of;
         const Ray& ray;
         Ask& ask;
 
         bool operator()(std::uint32_t first, std::uint32_t count,
-                        const Bvh8Ray* ready) const {
+                        const detail::Bvh8Ray* ready) const {
             if (ready == nullptr || !ready->moderate)
                 return of.tree_.each_place(ask)(first, count, ready);
-            FirstLook found =
-                first_look<Ask>(of.blocks_[first / lane_count], *ready, ray);
-            if (certain_ends && found.certain != 0) return true;
-            while (found.maybe != 0)
-                if (ask(first + static_cast<std::uint32_t>(take_lane(found.maybe))))
+            detail::FilteredTriangles found = detail::conservative_filter<Ask>(
+                of.blocks_[first / detail::lane_count], *ready, ray);
+            if (definite_ends && found.definite != 0) return true;
+            while (found.possible != 0)
+                if (ask(first +
+                        static_cast<std::uint32_t>(detail::take_lane(found.possible))))
                     return true;
             return false;
         }
     };
-    template <bool certain_ends, typename Ask>
-    LookFirst<certain_ends, Ask> look_first(const Ray& ray, Ask& ask) const {
+    template <bool definite_ends, typename Ask>
+    FilteredLeaf<definite_ends, Ask> filtered_leaf(const Ray& ray, Ask& ask) const {
         return {*this, ray, ask};
     }
 
-    static void put(TriangleLanes& block, std::size_t lane, const Triangle& triangle) {
-        const auto set = [&](Lanes3& lanes, const Vec3& v) {
-            lanes.x.lane[lane] = v.x;
-            lanes.y.lane[lane] = v.y;
-            lanes.z.lane[lane] = v.z;
-        };
+    static void put(detail::TriangleLanes& block, std::size_t lane,
+                    const Triangle& triangle) {
         const Vec3 e1 = triangle.v2 - triangle.v1;
         const Vec3 e2 = triangle.v3 - triangle.v1;
-        set(block.v1, triangle.v1);
-        set(block.v2, triangle.v2);
-        set(block.v3, triangle.v3);
+        block.v1.set(lane, triangle.v1);
+        block.v2.set(lane, triangle.v2);
+        block.v3.set(lane, triangle.v3);
         block.size.lane[lane] = max_component(glm::max(glm::abs(e1), glm::abs(e2)));
     }
 
     Bvh8 tree_;
-    std::vector<TriangleLanes> blocks_;
+    std::vector<detail::TriangleLanes> blocks_;
 };
 
 /// \}

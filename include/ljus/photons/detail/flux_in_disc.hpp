@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "ljus/accel/kd_tree8.hpp"
@@ -34,11 +36,13 @@ struct FluxDiscT {
 /// \param kernel  The shape.
 /// \param x       Squared distances over the squared radius, each in [0, 1].
 template <std::floating_point T>
-[[nodiscard]] LanesT<T> kernel_weights(Kernel kernel, const LanesT<T>& x) noexcept {
-    LanesT<T> weight;
+[[nodiscard]] detail::LanesT<T> kernel_weights(Kernel kernel,
+                                               const detail::LanesT<T>& x) noexcept {
+    detail::LanesT<T> weight;
     // One loop a kernel: a constant in it, and no choice.
     const auto fill = [&](auto chosen) {
-        for_lanes([&](int i) { weight.lane[i] = kernel_weight(chosen(), x.lane[i]); });
+        detail::for_lanes(
+            [&](int i) { weight.lane[i] = kernel_weight(chosen(), x.lane[i]); });
     };
     switch (kernel) {
     case Kernel::box:
@@ -62,24 +66,37 @@ template <std::floating_point T>
 
 namespace detail {
 
-// Eight bytes with a sign, as integers: each is shifted to the top of its half of the
-// eight and down again. Written as a conversion it leaves the lanes.
-template <typename Byte>
-constexpr void bytes_to_integers(const Byte (&bytes)[lane_count],
-                                 std::int32_t (&wide)[lane_count]) noexcept {
-    static_assert(sizeof(Byte) == 1);
-    std::array<Byte, lane_count> copy;
-    std::copy(bytes, bytes + lane_count, copy.begin());
-    const auto half = std::bit_cast<std::array<std::uint32_t, 2>>(copy);
-    constexpr bool little = std::endian::native == std::endian::little;
-    constexpr int up[lane_count] = {little ? 24 : 0, little ? 16 : 8, little ? 8 : 16,
-                                    little ? 0 : 24, little ? 24 : 0, little ? 16 : 8,
-                                    little ? 8 : 16, little ? 0 : 24};
-    const std::uint32_t first = half[0], second = half[1];
-    for_lanes([&](int i) {
-        const std::uint32_t four = i < 4 ? first : second;
-        wide[i] = static_cast<std::int32_t>(four << up[i]) >> 24;
+// Which of eight photons lie in a disc: 1 for those that do, or else 0. Small loops,
+// each of a few numbers: a long one is not always made a vector of.
+template <std::floating_point T>
+[[nodiscard]] inline detail::LanesT<T>
+lanes_in_disc(const detail::Lanes3T<T>& points, const RecordBlockT<T>& record,
+              const FluxDiscT<T>& disc, std::uint32_t found) noexcept {
+    const T nx = disc.normal.x, ny = disc.normal.y, nz = disc.normal.z;
+    const T cx = disc.center.x, cy = disc.center.y, cz = disc.center.z;
+    const T limit = disc.thickness * disc.radius;
+    const std::uint32_t kinds = std::uint32_t{disc.kinds.bits}
+                                << RecordCode::kind_shift;
+    detail::LanesT<T> height, along, length2, inside;
+    detail::for_lanes([&](int i) {
+        height.lane[i] =
+            (points.x[i] - cx) * nx + (points.y[i] - cy) * ny + (points.z[i] - cz) * nz;
     });
+    detail::for_lanes([&](int i) {
+        const T x = T(RecordCode::normal<0>(record.code[i]));
+        const T y = T(RecordCode::normal<1>(record.code[i]));
+        const T z = T(RecordCode::normal<2>(record.code[i]));
+        along.lane[i] = T(2) * T(127) * (x * nx + y * ny + z * nz);
+        length2.lane[i] = x * x + y * y + z * z;
+    });
+    detail::for_lanes([&](int i) {
+        const T h = height.lane[i];
+        const bool in =
+            (h <= limit) & (-h <= limit) & !(along.lane[i] < length2.lane[i]) &
+            ((record.code[i] & kinds) != 0) & ((found & detail::lane_bit[i]) != 0);
+        inside.lane[i] = in ? T(1) : T(0);
+    });
+    return inside;
 }
 
 } // namespace detail
@@ -98,58 +115,79 @@ template <std::floating_point T>
 flux_in_disc(const KdTree8T<T>& tree, const PhotonRecordsT<T>& records,
              const FluxDiscT<T>& disc, std::uint64_t& gathered) {
     const T per_radius2 = T(1) / (disc.radius * disc.radius);
-    const T height = disc.thickness * disc.radius;
-    const std::int32_t kinds = disc.kinds.bits;
-    const Vec3T<T> c = disc.center, n = disc.normal, d = disc.from;
+    const T limit = disc.thickness * disc.radius;
+    const std::uint32_t kinds = std::uint32_t{disc.kinds.bits}
+                                << detail::RecordCode::kind_shift;
+    const Vec3T<T> d = disc.from;
     RgbT<double> sum{0};
-    BlockT<T> part{}; // of some blocks: more terms would cost a float its last digits
+    // Of some blocks: more terms would cost a float its last digits.
+    detail::Lanes3T<T> part{};
+    std::int32_t count[detail::lane_count] = {};
     int parts = 0;
     const auto add_part = [&] {
-        for (std::size_t i = 0; i < lane_count; ++i) sum += RgbT<double>(part[i]);
+        for (std::size_t i = 0; i < detail::lane_count / 2; ++i)
+            sum += RgbT<double>(part[i] + part[i + detail::lane_count / 2]);
         part = {};
         parts = 0;
     };
-    const auto visit = [&](const FoundBlockT<T>& block) {
-        const RecordBlockT<T>& record = records.blocks()[block.first / 8];
-        std::int32_t nx[lane_count], ny[lane_count], nz[lane_count], kind[lane_count];
-        detail::bytes_to_integers(record.nx, nx);
-        detail::bytes_to_integers(record.ny, ny);
-        detail::bytes_to_integers(record.nz, nz);
-        detail::bytes_to_integers(record.kind, kind);
-        LanesT<T> shares;
-        std::int32_t inside[lane_count];
-        std::int32_t count = 0;
-        for_lanes([&](int i) {
-            const T h = (block.points.x[i] - c.x) * n.x +
-                        (block.points.y[i] - c.y) * n.y +
-                        (block.points.z[i] - c.z) * n.z;
-            const T x = T(nx[i]), y = T(ny[i]), z = T(nz[i]);
-            const T along = x * n.x + y * n.y + z * n.z;
-            const T length2 = x * x + y * y + z * z;
+    // Of a block of which one or two are found, these alone.
+    const auto add_one = [&](const FoundBlockT<T>& block, const RecordBlockT<T>& record,
+                             int lane) {
+        const auto i = static_cast<std::size_t>(lane);
+        const std::uint32_t code = record.code[i];
+        const T height = glm::dot(block.points[i] - disc.center, disc.normal);
+        const SmallNormal normal = detail::RecordCode::normal(code);
+        if ((code & kinds) == 0 || std::abs(height) > limit ||
+            turned_away(normal, disc.normal))
+            return;
+        ++count[0];
+        if (!(glm::dot(record.direction[i], d) < T(0))) return;
+        const T share = block.distance2.lane[i] * per_radius2;
+        const T weight = kernel_weight(disc.kernel, share < T(1) ? share : T(1));
+        part.x[i] += weight * record.flux.x[i];
+        part.y[i] += weight * record.flux.y[i];
+        part.z[i] += weight * record.flux.z[i];
+    };
+    const auto add_eight = [&](const FoundBlockT<T>& block,
+                               const RecordBlockT<T>& record) {
+        const detail::LanesT<T> inside =
+            detail::lanes_in_disc(block.points, record, disc, block.found);
+        // No choices between products: compilers make jumps of them. What does not lie
+        // inside is infinite or NaN at worst, and becomes 1.
+        detail::LanesT<T> shares, lit;
+        detail::for_lanes([&](int i) {
             const T share = block.distance2.lane[i] * per_radius2;
-            const std::int32_t in = (share < std::numeric_limits<T>::infinity()) &
-                                    (h <= height) & (-h <= height) &
-                                    !(T(2) * T(127) * along < length2) &
-                                    (kinds >> kind[i] & 1);
-            shares.lane[i] = in != 0 ? share : T(0);
-            inside[i] = in;
-            count += in;
+            shares.lane[i] = share < T(1) ? share : T(1);
         });
-        gathered += static_cast<std::uint64_t>(count);
-        const LanesT<T> weight = kernel_weights(disc.kernel, shares);
-        for_lanes([&](int i) {
+        const detail::LanesT<T> weight = kernel_weights(disc.kernel, shares);
+        detail::for_lanes([&](int i) {
             const T towards = record.direction.x[i] * d.x +
                               record.direction.y[i] * d.y + record.direction.z[i] * d.z;
-            const bool lit = (inside[i] != 0) & (towards < T(0));
-            const T w = lit ? weight.lane[i] : T(0);
-            part.x[i] += w * record.flux.x[i];
-            part.y[i] += w * record.flux.y[i];
-            part.z[i] += w * record.flux.z[i];
+            const T facing = towards < T(0) ? T(1) : T(0);
+            lit.lane[i] = inside.lane[i] * facing * weight.lane[i];
         });
+        detail::for_lanes([&](int i) {
+            part.x[i] += lit.lane[i] * record.flux.x[i];
+            part.y[i] += lit.lane[i] * record.flux.y[i];
+            part.z[i] += lit.lane[i] * record.flux.z[i];
+        });
+        detail::for_lanes(
+            [&](int i) { count[i] += static_cast<std::int32_t>(inside.lane[i]); });
+    };
+    const auto visit = [&](const FoundBlockT<T>& block) {
+        const RecordBlockT<T>& record = records.blocks()[block.first / 8];
+        if (const std::uint32_t rest = block.found & (block.found - 1);
+            (rest & (rest - 1)) == 0) {
+            add_one(block, record, std::countr_zero(block.found));
+            if (rest != 0) add_one(block, record, std::countr_zero(rest));
+        } else {
+            add_eight(block, record);
+        }
         if (++parts == 16) add_part();
     };
-    tree.visit_blocks(c, disc.radius, visit);
+    tree.visit_blocks(disc.center, disc.radius, visit);
     if (parts > 0) add_part();
+    for (const std::int32_t lane : count) gathered += static_cast<std::uint64_t>(lane);
     return sum;
 }
 // [flux in disc]
