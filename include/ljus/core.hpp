@@ -41,7 +41,8 @@ LJUS_CORE_EXTERN template void check(const Image&);
 // Trees.
 LJUS_CORE_EXTERN template BvhNodesT<float> build_bvh(std::span<const Box>,
                                                      const BvhSettings&);
-LJUS_CORE_EXTERN template Bvh8Nodes make_bvh8(const BvhNodesT<float>&, std::uint32_t);
+LJUS_CORE_EXTERN template detail::Bvh8Nodes detail::make_bvh8(const BvhNodesT<float>&,
+                                                              std::uint32_t);
 
 // Photons.
 LJUS_CORE_EXTERN template LightChoice light_choice(const std::vector<LightT<float>>&);

@@ -31,7 +31,7 @@ short_error() {
 }
 
 short_error 'Scene<Shapes<Sphere, Torus>, Materials<Lambertian>> s;' 'Shape'
-short_error 'Scene<Shapes<Sphere>, Materials<Torus>> s;' 'Material_'
+short_error 'Scene<Shapes<Sphere>, Materials<Torus>> s;' 'Material'
 short_error 'Scene<Shapes<Sphere>, Materials<Lambertian>> s; s.add(Mirror{});' \
     "no matching (member )?function"
 short_error 'Scene<Shapes<Sphere>, Materials<Lambertian>> s; s.add(Quad{}, MaterialId{});' \
@@ -43,6 +43,6 @@ short_error 'Scene<Shapes<SphereT<double>>, Materials<Lambertian>> s;' \
     'must have the precision of its shapes'
 short_error 'auto s = make_scene(Sphere{});' 'ScenePart'
 short_error 'auto s = make_scene(PointLight{});' 'PlacedPart'
-short_error 'auto s = make_scene(placed(Sphere{}, Torus{}));' 'Material_|constraints not satisfied'
+short_error 'auto s = make_scene(placed(Sphere{}, Torus{}));' 'Material|constraints not satisfied'
 short_error 'auto s = make_scene(placed(Torus{}, Lambertian{}));' 'Shape|constraints not satisfied'
 exit $status
