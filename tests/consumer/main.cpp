@@ -14,7 +14,7 @@ int main() {
 #ifdef USES_EVERYTHING
     // An engine, from the headers or from ljus::core.
     const std::vector<ljus::Box> boxes(3, ljus::Box{{0, 0, 0}, {1, 1, 1}});
-    if (ljus::Bvh(boxes).order().size() != 3) return 1;
+    if (ljus::Bvh(boxes).primitive_ids().size() != 3) return 1;
 #endif
     const ljus::Ray ray{.origin = {0, 0, 3}};
     const ljus::Frame frame = ljus::frame_around(ljus::Vec3{0, 0, 1});
