@@ -129,7 +129,6 @@ private:
     Mutex& turns_;
 };
 
-// [parallel_blocks]
 LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
                                  const ParallelSettings& options) {
     if (options.threads < 0 || options.threads > max_threads_allowed)
@@ -213,7 +212,6 @@ LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
     report(); // the last blocks may have ended while another thread was reporting
     return done >= count;
 }
-// [parallel_blocks]
 
 #endif
 
@@ -253,7 +251,6 @@ bool parallel_blocks(long long count, Body&& body,
 /// \param threads  As in ParallelSettings.
 /// \return The sum, the same for any number of threads; R() for no block.
 /// \throws As parallel_blocks().
-// [parallel_sum]
 template <std::invocable<long long> Body>
 [[nodiscard]] auto parallel_sum(long long count, Body&& body, int threads = 0) {
     using R = std::remove_cvref_t<std::invoke_result_t<Body&, long long>>;
@@ -267,7 +264,6 @@ template <std::invocable<long long> Body>
     for (const R& block_sum : sums) sum = sum + block_sum;
     return sum;
 }
-// [parallel_sum]
 
 /// \}
 

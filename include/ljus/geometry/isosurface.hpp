@@ -87,7 +87,6 @@ template <typename Solver = SphereTracing, std::floating_point T, LipschitzField
 /// \param t         What intersect() returned.
 /// \param rounding  What the values of f may be wrong by, the solver's tolerance in.
 /// \return Position, its error bound, the outer normal.
-// [refined]
 template <std::floating_point T, typename Value, typename Gradient>
 [[nodiscard]] SurfacePointT<T> refined(const Value& value, const Gradient& gradient,
                                        const RayT<T>& ray, T t, double rounding) {
@@ -111,7 +110,6 @@ template <std::floating_point T, typename Value, typename Gradient>
                      rounding_bound<T>(2) * glm::abs(Vec3T<T>(x)),
             .normal = Vec3T<T>(-glm::normalize(g))};
 }
-// [refined]
 
 /// The point of an isosurface that a ray hit.
 /// \param surface  The isosurface.

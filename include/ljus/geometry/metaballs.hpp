@@ -36,7 +36,6 @@ using Metaballs = MetaballsT<float>; ///< MetaballsT in float.
 /// \param balls  The metaballs.
 /// \param x      A point.
 /// \return f(X), in double: above 0 inside, 0 on the surface, -L far away.
-// [field]
 template <std::floating_point T>
 [[nodiscard]] WideT<T> field(const MetaballsT<T>& balls, const Vec3T<WideT<T>>& x) {
     using C = WideT<T>;
@@ -48,13 +47,11 @@ template <std::floating_point T>
     }
     return sum;
 }
-// [field]
 
 /// The gradient of the field: it points inwards.
 /// \param balls  The metaballs.
 /// \param x      A point.
 /// \return \f$ \nabla f = -4 \sum_i w_i s_i (X - C_i)/R_i^2 \f$, in double.
-// [gradient]
 template <std::floating_point T>
 [[nodiscard]] Vec3T<WideT<T>> gradient(const MetaballsT<T>& balls,
                                        const Vec3T<WideT<T>>& x) {
@@ -67,7 +64,6 @@ template <std::floating_point T>
     }
     return sum;
 }
-// [gradient]
 
 /// A bound of the gradient's length everywhere: the Lipschitz constant of the field.
 /// \param balls  The metaballs.
@@ -96,7 +92,6 @@ template <std::floating_point T>
 ///       most 3 n - 1 spans of n additions and mostly 0 or 1 root; never more than 10
 ///       roots of 106 steps.
 /// \report{Section 2.1}
-// [intersect]
 template <typename Solver = QuarticPieces, std::floating_point T>
 [[nodiscard]] std::optional<T> intersect(const RayT<T>& ray, const MetaballsT<T>& balls,
                                          const Solver& solver = {}) {
@@ -109,7 +104,6 @@ template <typename Solver = QuarticPieces, std::floating_point T>
     if (!t || !(*t <= std::numeric_limits<T>::max())) return std::nullopt;
     return static_cast<T>(*t);
 }
-// [intersect]
 
 /// The point of metaballs that a ray hit, put back onto the surface.
 /// \param balls  The metaballs.

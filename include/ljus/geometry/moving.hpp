@@ -143,7 +143,6 @@ template <typename S>
 /// A box around all its places: those between the first and the last lie between.
 /// \param moving  The shape.
 /// \return The box, a few units in the last place too large.
-// [bounds]
 template <typename S>
 [[nodiscard]] auto bounds(const Moving<S>& moving) noexcept {
     using T = ScalarOf<S>;
@@ -154,7 +153,6 @@ template <typename S>
     const BoxT<T> both = box_union(first, last);
     return BoxT<T>{both.low - rounding, both.high + rounding};
 }
-// [bounds]
 
 /// Refuses a way that is not finite, and what the shape refuses.
 /// \param moving  The shape.

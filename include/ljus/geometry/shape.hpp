@@ -162,7 +162,6 @@ template <std::floating_point T>
 inline constexpr bool is_flat<QuadT<T>> = true;
 
 /// What a scene asks of a shape.
-// [shape]
 template <typename S>
 concept Shape = HasBounds<S> &&
     requires(const S& shape, RayT<ScalarOf<S>> ray, FlatHitT<ScalarOf<S>> hit) {
@@ -185,7 +184,6 @@ concept Samplable = Shape<S> && HasArea<S> &&
     requires(const S& shape, Vec2T<ScalarOf<S>> u) {
     { sample_area(shape, u) } -> std::same_as<SurfacePointT<ScalarOf<S>>>;
 };
-// [shape]
 
 /// A shape without an area has no points to choose. A scene refuses it as a light, so
 /// that none is ever asked for.

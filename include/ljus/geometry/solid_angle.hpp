@@ -104,7 +104,6 @@ template <Shape S, std::floating_point T>
 /// \param u       Point of the unit square.
 /// \return The point and its density per steradian of the observer.
 /// \cite shirley1996
-// [sample_towards]
 template <std::floating_point T>
 [[nodiscard]] SeenPointT<T> sample_towards(const SphereT<T>& sphere,
                                            const Vec3T<T>& from,
@@ -126,7 +125,6 @@ template <std::floating_point T>
     return {.point = surface_point(sphere, ray, {.t = t}),
             .pdf = pdf_uniform_cone(cone.one_minus_cos)};
 }
-// [sample_towards]
 
 /// The density of sample_towards() for a sphere.
 /// \param sphere  The sphere.

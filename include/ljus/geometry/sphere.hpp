@@ -148,13 +148,11 @@ template <typename Compute = void, std::floating_point T>
 /// \param sphere  The sphere.
 /// \param point   A point on the sphere, or near to it; not its centre.
 /// \return Unit vector from the centre towards the point.
-// [normal]
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> normal(const SphereT<T>& sphere,
                               const Vec3T<T>& point) noexcept {
     return glm::normalize(point - sphere.center);
 }
-// [normal]
 
 /// The area of a sphere.
 /// \param sphere  The sphere.

@@ -39,7 +39,6 @@ namespace ljus {
 /// \param b  The other one.
 /// \return 0 for equal colours, 1 for green and blue.
 /// \cite andersson2020
-// [color_error]
 [[nodiscard]] inline double color_error(const RgbT<double>& a, const RgbT<double>& b) {
     const auto powered = [](const RgbT<double>& p, const RgbT<double>& q) {
         return std::pow(hyab(hunt_lab(p), hunt_lab(q)), 0.7);
@@ -50,7 +49,6 @@ namespace ljus {
     return error < bend ? 0.95 * error / bend
                         : 0.95 + 0.05 * (error - bend) / (most - bend);
 }
-// [color_error]
 
 /// FLIP of each pixel: how much a viewer who flips between two pictures sees there.
 ///

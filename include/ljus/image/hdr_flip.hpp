@@ -39,7 +39,6 @@ struct Exposures {
 ///         the one that takes the median there.
 /// \throws std::invalid_argument  for an image as check().
 /// \cite andersson2021
-// [exposures_of]
 template <std::floating_point T>
 [[nodiscard]] Exposures exposures_of(const ImageT<T>& reference) {
     check(reference);
@@ -63,7 +62,6 @@ template <std::floating_point T>
     const double last = std::log2(bright / *middle);
     return {first, last, std::max(2, static_cast<int>(std::ceil(last - first)))};
 }
-// [exposures_of]
 
 /// HDR-FLIP of each pixel: the largest flip_map() over the exposures_of() the
 /// reference.
@@ -74,7 +72,6 @@ template <std::floating_point T>
 /// \throws std::invalid_argument  as flip_map().
 /// \cost exposures_of().count times flip_map().
 /// \cite andersson2021
-// [hdr_flip_map]
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] ImageT<double> hdr_flip_map(const ImageT<T>& image,
                                           const ImageT<U>& reference,
@@ -100,7 +97,6 @@ template <std::floating_point T, std::floating_point U>
     }
     return worst;
 }
-// [hdr_flip_map]
 
 /// The mean of hdr_flip_map().
 /// \param image      Linear sRGB of any brightness.

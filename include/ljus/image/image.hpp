@@ -51,7 +51,6 @@ inline void require_image_size(long long width, long long height) {
 /// \param fill    The colour of every pixel.
 /// \return The image, with all its pixels in place.
 /// \throws std::invalid_argument  as require_image_size(), before any memory is taken.
-// [make_image]
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> make_image(int width, int height,
                                    RgbT<T> fill = RgbT<T>(T(0))) {
@@ -60,7 +59,6 @@ template <std::floating_point T = float>
         static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     return {.width = width, .height = height, .pixels = {count, fill}};
 }
-// [make_image]
 
 /// Refuses an image whose number of pixels does not fit its size.
 /// \param image  Any image.

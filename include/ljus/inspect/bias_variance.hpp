@@ -28,7 +28,6 @@ struct BiasVariance {
 /// \param reference  The truth, of that size; its own variance is part of the result.
 /// \return Both parts, in units of radiance squared.
 /// \throws std::invalid_argument  for fewer than 2 runs, or as require_same_size().
-// [bias_variance]
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] BiasVariance bias_variance(const std::vector<ImageT<T>>& runs,
                                          const ImageT<U>& reference) {
@@ -55,7 +54,6 @@ template <std::floating_point T, std::floating_point U>
     }
     return {.bias_squared = detail::mean(biases), .variance = detail::mean(variances)};
 }
-// [bias_variance]
 
 /// \}
 

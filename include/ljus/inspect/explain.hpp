@@ -48,7 +48,6 @@ struct ExplainedPixelT {
 /// \param keep      How many rays to keep in full.
 /// \return The pixel's parts.
 /// \throws std::invalid_argument  if the pixel lies outside of the picture.
-// [take_apart]
 template <typename R, template <std::floating_point> typename AnyCamera,
           std::floating_point T>
 requires Renderer<R, T>
@@ -99,7 +98,6 @@ requires Renderer<R, T>
                      });
     return pixel;
 }
-// [take_apart]
 
 namespace detail {
 

@@ -92,7 +92,6 @@ template <std::floating_point T, std::floating_point U>
 /// \param epsilon    Radiance squared, above 0: what counts as dark.
 /// \return Without unit; 1 for a black picture of a scene that is bright throughout.
 /// \throws std::invalid_argument  as require_same_size(), or for the epsilon.
-// [rel_mse]
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] double rel_mse(const ImageT<T>& image, const ImageT<U>& reference,
                              double epsilon = default_epsilon) {
@@ -100,7 +99,6 @@ template <std::floating_point T, std::floating_point U>
     return detail::mean(
         detail::pixel_errors(image, reference, detail::RelativeSquare{epsilon}));
 }
-// [rel_mse]
 
 /// The relative mean square error of the best pixels.
 ///

@@ -134,7 +134,6 @@ void add_dot(ImageT<T>& image, const Vec2T<T>& place, const RgbT<T>& color,
 /// \throws std::invalid_argument  if the radius of a dot is not in (0, 1000].
 /// \cost One ray a photon that is drawn and lies within the picture.
 /// \report{Section 3.2.2, Figs. 5 to 8}
-// [add_photon_dots]
 template <SceneLike S, std::floating_point T, typename Color>
 long long add_photon_dots(ImageT<T>& image, const S& scene, const CameraT<T>& camera,
                           const std::vector<PhotonT<T>>& photons,
@@ -153,7 +152,6 @@ long long add_photon_dots(ImageT<T>& image, const S& scene, const CameraT<T>& ca
     }
     return seen;
 }
-// [add_photon_dots]
 
 /// \}
 

@@ -28,7 +28,6 @@ namespace ljus {
 /// \param c  Every channel at least 0 and below 1.69e38.
 /// \return R, G, B, E; zeros below 2.9e-39. Decoded, a channel is off by at most 1/256
 ///         of the largest one, without a preferred direction.
-// [to_rgbe]
 [[nodiscard]] inline std::array<unsigned char, 4>
 to_rgbe(const RgbT<double>& c) noexcept {
     const double largest = max_component(c);
@@ -43,7 +42,6 @@ to_rgbe(const RgbT<double>& c) noexcept {
     return {mantissa(c.x), mantissa(c.y), mantissa(c.z),
             static_cast<unsigned char>(exponent + 128)};
 }
-// [to_rgbe]
 
 /// The colour of four bytes, without the half step that Ward's own programs add to
 /// their mantissas, which they round down.

@@ -35,7 +35,6 @@ inline constexpr std::size_t light_bytes = 24;
 /// \param map   The map.
 /// \throws std::runtime_error  as save_file().
 /// \cost 24 bytes a patch.
-// [save]
 inline void save_light_map(const std::string& path, const LightMap& map) {
     Bytes bytes(detail::light_map_magic.begin(), detail::light_map_magic.end());
     detail::put_number(bytes, detail::light_map_version);
@@ -55,7 +54,6 @@ inline void save_light_map(const std::string& path, const LightMap& map) {
     detail::put_checksum(bytes);
     save_file(path, bytes);
 }
-// [save]
 
 /// Loads a light map.
 /// \param path  The file.
@@ -63,7 +61,6 @@ inline void save_light_map(const std::string& path, const LightMap& map) {
 /// \return The map, the same bit by bit as the one that was saved.
 /// \throws std::runtime_error  "cannot read 'a.light': its checksum is wrong, ...":
 ///         what is cut short, damaged, of another version or no light map is refused.
-// [load]
 [[nodiscard]] inline LightMap load_light_map(const std::string& path,
                                              std::size_t most = 10'000'000) {
     const Bytes bytes = load_file(
@@ -126,7 +123,6 @@ inline void save_light_map(const std::string& path, const LightMap& map) {
     }
     return map;
 }
-// [load]
 
 /// \}
 

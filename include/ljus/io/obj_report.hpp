@@ -102,7 +102,6 @@ namespace detail {
 
 // Counts the edges of a mesh that a closed surface does not have, with the lines of its
 // triangles. Vertices at the same place count as one. O(n log n).
-// [count_edges]
 template <std::floating_point T>
 void count_edges(const MeshDataT<T>& data, const std::vector<long long>& lines,
                  ObjReport& report) {
@@ -142,7 +141,6 @@ void count_edges(const MeshDataT<T>& data, const std::vector<long long>& lines,
             report.add(ObjTrouble::edge_turned, line);
     }
 }
-// [count_edges]
 
 } // namespace detail
 

@@ -25,7 +25,6 @@ namespace ljus {
 /// \param image  Linear colours.
 /// \param path   The file; an older one is replaced at the very end (save_file()).
 /// \throws std::invalid_argument  as check(); std::runtime_error as save_file().
-// [save_pfm]
 template <std::floating_point T>
 void save_pfm(const ImageT<T>& image, const std::string& path) {
     check(image);
@@ -45,7 +44,6 @@ void save_pfm(const ImageT<T>& image, const std::string& path) {
         }
     save_file(path, bytes);
 }
-// [save_pfm]
 
 /// Loads a PFM file, of colours or of grey, of either byte order.
 /// \param path  The file.

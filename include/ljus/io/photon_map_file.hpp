@@ -48,7 +48,6 @@ inline constexpr std::uint32_t map_version = 1;
 /// \param map   The map.
 /// \throws std::runtime_error  as save_file().
 /// \cost 42 bytes a photon in float.
-// [save]
 template <std::floating_point T>
 void save_photon_map(const std::string& path, const PhotonMapT<T>& map) {
     Bytes bytes(detail::map_magic.begin(), detail::map_magic.end());
@@ -67,7 +66,6 @@ void save_photon_map(const std::string& path, const PhotonMapT<T>& map) {
     detail::put_checksum(bytes);
     save_file(path, bytes);
 }
-// [save]
 
 /// Loads a map.
 /// \tparam T     The precision that it was saved with.

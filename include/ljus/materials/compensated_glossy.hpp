@@ -47,7 +47,6 @@ template <std::floating_point T, typename Facet>
 /// \return The material; with roughness 0 the same mirror.
 /// \throws std::invalid_argument as check() of the gloss.
 /// \cost bake_energy_loss(), once.
-// [full glossy]
 template <std::floating_point T, typename F>
 [[nodiscard]] CompensatedGlossyT<T, F> compensated_glossy(const GlossyT<T, F>& first) {
     check(first);
@@ -55,7 +54,6 @@ template <std::floating_point T, typename F>
             .loss = bake_energy_loss(first.roughness * first.roughness),
             .mean = mean_reflectance<T>(first.reflectance)};
 }
-// [full glossy]
 
 /// What there is: as of the gloss.
 template <std::floating_point T, typename F>
@@ -123,7 +121,6 @@ template <std::floating_point T, typename F>
 /// \return The sample; nothing if `wo` lies on the surface, if the direction would lead
 ///         into it, or without the part.
 /// \cost Up to twice sample() of the gloss.
-// [full sample]
 template <std::floating_point T, typename F>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const CompensatedGlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& u,
@@ -148,7 +145,6 @@ sample(const CompensatedGlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>
     const RgbT<T> f = evaluate(gloss, wo, wi);
     return diffuse_sample(wi, f * (std::abs(wi.z) / density), density);
 }
-// [full sample]
 
 /// Refuses gloss that cannot be, and a table that is not its own.
 /// \param gloss  The surface.

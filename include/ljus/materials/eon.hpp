@@ -140,7 +140,6 @@ template <std::floating_point T>
 /// \cost About three times a cosine-weighted direction's; see chapter 14 for what it
 ///       saves.
 /// \cite eon2025
-// [eon sample]
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const EonT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
@@ -156,7 +155,6 @@ sample(const EonT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
         std::numbers::inv_pi_v<T> * std::abs(wi.z) * eon_weight(surface, wo, wi);
     return diffuse_sample(wi, f_cos / density, density);
 }
-// [eon sample]
 
 /// Refuses an albedo or a roughness outside [0, 1].
 /// \param surface  The surface.

@@ -75,7 +75,6 @@ template <std::floating_point T>
 /// \return The sample; nothing if `wo` lies on the surface or without Lobes::specular.
 /// \cost As boundary().
 /// \report{Section 3.2.5}
-// [glass sample]
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const GlassT<T>& glass, const Vec3T<T>& wo, const Vec3T<T>& u,
@@ -87,7 +86,6 @@ sample(const GlassT<T>& glass, const Vec3T<T>& wo, const Vec3T<T>& u,
         return specular_sample(reflect(wo), RgbT<T>{T(1)});
     return specular_sample(*met.refracted, RgbT<T>{T(1)}, met.eta_scale);
 }
-// [glass sample]
 
 /// Both branches, each with its share: for a path that goes both ways. What sample()
 /// makes noise of, a lamp mirrored in a ball, is then the same in each path.
@@ -95,7 +93,6 @@ sample(const GlassT<T>& glass, const Vec3T<T>& wo, const Vec3T<T>& u,
 /// \param wo         Towards where the light goes; z < 0 is inside.
 /// \param transport  Radiance or flux.
 /// \return The reflected and the refracted sample; nothing if there is only one.
-// [both ways]
 template <std::floating_point T>
 [[nodiscard]] std::optional<std::array<BsdfSampleT<T>, 2>>
 both_ways(const GlassT<T>& glass, const Vec3T<T>& wo, Transport transport) noexcept {
@@ -106,7 +103,6 @@ both_ways(const GlassT<T>& glass, const Vec3T<T>& wo, Transport transport) noexc
         specular_sample(reflect(wo), RgbT<T>{f}),
         specular_sample(*met.refracted, RgbT<T>{T(1) - f}, met.eta_scale)};
 }
-// [both ways]
 
 /// The absorption inside, per scene unit; see transmittance().
 /// \param glass  The glass.
@@ -191,14 +187,12 @@ template <std::floating_point T>
 /// \param pane  The pane.
 /// \param wo    Towards where the light goes.
 /// \return PaneSharesT::transmitted.
-// [pane pass_through]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> pass_through(const ThinGlassT<T>& pane,
                                    const Vec3T<T>& /*position*/,
                                    const Vec3T<T>& wo) noexcept {
     return pane_shares(pane, std::min(std::abs(wo.z), T(1))).transmitted;
 }
-// [pane pass_through]
 
 /// The mirror direction, with PaneSharesT::reflected as weight. What goes straight on
 /// is not sampled.
@@ -208,7 +202,6 @@ template <std::floating_point T>
 /// \return The sample; nothing if `wo` lies on the surface or without Lobes::specular.
 /// \cost pane_shares().
 /// \report{Section 3.2.5}
-// [thin glass sample]
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const ThinGlassT<T>& pane, const Vec3T<T>& wo, const Vec3T<T>&,
@@ -218,7 +211,6 @@ sample(const ThinGlassT<T>& pane, const Vec3T<T>& wo, const Vec3T<T>&,
     const T cos_theta = std::min(std::abs(wo.z), T(1));
     return specular_sample(reflect(wo), pane_shares(pane, cos_theta).reflected);
 }
-// [thin glass sample]
 
 /// Refuses an index or a tint that no pane can have.
 /// \param pane  The pane.

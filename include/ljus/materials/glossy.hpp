@@ -103,7 +103,6 @@ template <std::floating_point T, typename F>
 ///         side of `wo`; 0 elsewhere. Its integral is below 1: what is missing are
 ///         directions into the surface.
 /// \cite heitz2018
-// [glossy pdf]
 template <std::floating_point T, typename F>
 [[nodiscard]] T pdf(const GlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& wi,
                     Lobes which = Lobes::all) noexcept {
@@ -114,7 +113,6 @@ template <std::floating_point T, typename F>
     return ggx_distribution(alpha, half_vector(out, in)) /
            (T(2) * (out.z + ggx_lambda(alpha, out)));
 }
-// [glossy pdf]
 
 /// A facet that is seen from `wo`, and the mirror direction of it. The weight is
 /// \f$ F\, G_2 / G_1 \f$, at most F.
@@ -126,7 +124,6 @@ template <std::floating_point T, typename F>
 ///         into it, or without the part.
 /// \cost One sine, one cosine, eight square roots.
 /// \cite heitz2018
-// [glossy sample]
 template <std::floating_point T, typename F>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const GlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& u,
@@ -150,7 +147,6 @@ sample(const GlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& u,
     if (is_black(weight)) return std::nullopt;
     return diffuse_sample(in, weight, pdf(gloss, wo, in));
 }
-// [glossy sample]
 
 /// Refuses what no facet can reflect, and a roughness out of range.
 /// \param gloss  The surface.

@@ -149,7 +149,6 @@ template <std::floating_point T>
 /// \return The sample; nothing if `wo` lies on the surface or all shares are 0.
 /// \cost Fresnel once for `wo`, and for the matt part once for `wi`.
 /// \report{Sections 3.2.1, 3.2.4 and 3.2.5}
-// [mixture sample]
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const MixtureT<T>& mixture, const Vec3T<T>& wo, const Vec3T<T>& u,
@@ -178,7 +177,6 @@ sample(const MixtureT<T>& mixture, const Vec3T<T>& wo, const Vec3T<T>& u,
     }
     return specular_sample(reflect(wo), RgbT<T>{sum});
 }
-// [mixture sample]
 
 /// The absorption inside, per scene unit; see transmittance().
 /// \param mixture  The material.

@@ -68,7 +68,6 @@ template <std::floating_point T>
 /// \param cos_theta  Cosine between ray and normal, of either sign.
 /// \param thickness  In nm.
 /// \return R for each channel, in [0, 1].
-// [film_reflectance]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> reflectance(const SoapFilmT<T>& film, T cos_theta,
                                   T thickness) noexcept {
@@ -83,7 +82,6 @@ template <std::floating_point T>
     }
     return into_gamut(film_preintegrated(c, film.index, thickness));
 }
-// [film_reflectance]
 
 /// A point of a film: what the film is there.
 template <std::floating_point T>
@@ -122,7 +120,6 @@ template <std::floating_point T>
 /// \param which  The parts to sample from.
 /// \return The sample; nothing if `wo` lies on the surface or without Lobes::specular.
 /// \report{Figure 4}
-// [film sample]
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const FilmPointT<T>& point, const Vec3T<T>& wo, const Vec3T<T>&,
@@ -131,7 +128,6 @@ sample(const FilmPointT<T>& point, const Vec3T<T>& wo, const Vec3T<T>&,
         return std::nullopt;
     return specular_sample(reflect(wo), reflectance(point.film, wo.z, point.thickness));
 }
-// [film sample]
 
 /// The same for a film as thick as at its level.
 template <std::floating_point T>

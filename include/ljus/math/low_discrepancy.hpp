@@ -30,7 +30,6 @@ using SobolTable = std::array<std::array<std::uint32_t, 32>, sobol_dimensions>;
 /// polynomial (degree s, inner coefficients a) and s odd numbers a dimension.
 /// \return The table; made by the compiler.
 /// \cite joe2008
-// [sobol_table]
 [[nodiscard]] constexpr SobolTable make_sobol_table() noexcept {
     struct Seed {
         unsigned s, a, m[6];
@@ -63,7 +62,6 @@ using SobolTable = std::array<std::array<std::uint32_t, 32>, sobol_dimensions>;
     }
     return table;
 }
-// [sobol_table]
 
 /// The table.
 inline constexpr SobolTable sobol_table = make_sobol_table();
@@ -74,7 +72,6 @@ inline constexpr SobolTable sobol_table = make_sobol_table();
 /// \return The coordinate times 2^32. The first 2^m points are a (t,m,s)-net: t is 0
 ///         in each dimension alone and in dimensions 0 and 1 together.
 /// \cost One exclusive or a bit of the index that is set.
-// [sobol]
 [[nodiscard]] constexpr std::uint32_t sobol(std::uint32_t index,
                                             std::uint32_t dimension) noexcept {
     std::uint32_t bits = 0;
@@ -82,7 +79,6 @@ inline constexpr SobolTable sobol_table = make_sobol_table();
         if (index & 1u) bits ^= sobol_table[dimension][i];
     return bits;
 }
-// [sobol]
 
 /// The bits in the opposite order.
 /// \param x  Any number.
@@ -166,7 +162,6 @@ constexpr void start_bounce(SobolStream& stream, std::uint64_t bounce) noexcept 
 /// The next number, uniform in [0, 1): never 1, in float or in double.
 /// \param stream  Moves on by one dimension.
 /// \return A multiple of 2^-24 (float) or 2^-32 (double, while the dimensions last).
-// [next_sobol]
 template <std::floating_point T = float>
 [[nodiscard]] constexpr T next_1d(SobolStream& stream) noexcept {
     const std::uint32_t d = stream.dimension;
@@ -178,7 +173,6 @@ template <std::floating_point T = float>
     else
         return static_cast<T>(bits) * T(0x1p-32);
 }
-// [next_sobol]
 
 /// The next point of the unit square [0, 1)^2.
 /// \param stream  Moves on by two dimensions.

@@ -25,12 +25,10 @@ namespace ljus {
 /// The first and the last are the values at the ends; p lies between the least and the
 /// largest; and it has no more roots in (0, 1) than the row changes its sign, and as
 /// many or fewer by an even number \cite farouki2012.
-// [bernstein]
 template <std::floating_point T, std::size_t N>
 struct BernsteinT {
     std::array<T, N + 1> c{}; ///< c_0 to c_N.
 };
-// [bernstein]
 
 /// The coefficients 1, N, ..., N, 1 of (a + b)^N.
 template <std::floating_point T, std::size_t N>
@@ -186,7 +184,6 @@ template <std::floating_point T, std::size_t N>
 /// \return Where it first crosses zero in (0, 1], or touches it within noise() at an
 ///         extremum; nothing if it keeps its sign, and nothing for a NaN.
 /// \cost No evaluation if the coefficients have one sign; one root if they change once.
-// [first_change]
 template <std::floating_point T, std::size_t N>
 [[nodiscard]] std::optional<T> first_change(const BernsteinT<T, N>& p) noexcept {
     const int changes = sign_changes(p);
@@ -204,7 +201,6 @@ template <std::floating_point T, std::size_t N>
     if (sign * p.c[N] < T(0)) return root_between(p, before, T(1));
     return std::nullopt;
 }
-// [first_change]
 
 /// A polynomial in powers, c[0] + c[1] x + ... + c[N] x^N, on an interval: as Bernstein
 /// coefficients over it.

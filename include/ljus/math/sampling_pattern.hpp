@@ -49,7 +49,6 @@ struct Strata {
 /// \return The place; each place once, and each as often as any over the keys.
 /// \cost At most two scrambles in the mean.
 /// \cite kensler2013
-// [shuffled]
 [[nodiscard]] constexpr std::uint32_t shuffled(std::uint32_t i, std::uint32_t count,
                                                std::uint64_t key) noexcept {
     std::uint32_t mask = count - 1;
@@ -69,7 +68,6 @@ struct Strata {
     const std::uint64_t step = ((mix_bits(~bits) >> 32) * count) >> 32; // in [0, count)
     return static_cast<std::uint32_t>((i + step) % count);
 }
-// [shuffled]
 
 /// The place of one ray within its pixel.
 /// \param strata  From strata_for().
@@ -79,7 +77,6 @@ struct Strata {
 /// \return Point of the unit square, uniform over all rays and keys; rounding may put
 ///         it onto the far border of its cell, and so onto 1.
 /// \report{Section 3.2}
-// [stratified]
 template <std::floating_point T>
 [[nodiscard]] constexpr Vec2T<T> stratified(const Strata& strata, int ray,
                                             std::uint64_t key,
@@ -92,7 +89,6 @@ template <std::floating_point T>
             : ray / strata.columns;
     return {(T(column) + u.x) / T(strata.columns), (T(row) + u.y) / T(strata.rows)};
 }
-// [stratified]
 
 /// \}
 
@@ -121,7 +117,6 @@ struct Pattern {
 /// \param sampling  Which one.
 /// \param points    At least 1.
 /// \return The pattern.
-// [make_pattern]
 [[nodiscard]] constexpr Pattern make_pattern(Sampling sampling, int points) noexcept {
     Pattern pattern{.sampling = sampling, .points = points};
     if (sampling == Sampling::jittered) pattern.strata = strata_for(points);
@@ -133,7 +128,6 @@ struct Pattern {
     }
     return pattern;
 }
-// [make_pattern]
 
 /// A point of a correlated multi-jittered pattern.
 ///
@@ -168,7 +162,6 @@ template <std::floating_point T>
 /// \return Point of the unit square, below 1. The first 2^k points lie one in each cell
 ///         of every dyadic grid of 2^k cells.
 /// \cite owen1995 \cite burley2020
-// [scrambled_sobol]
 template <std::floating_point T>
 [[nodiscard]] constexpr Vec2T<T> scrambled_sobol(int number,
                                                  std::uint64_t key) noexcept {
@@ -176,7 +169,6 @@ template <std::floating_point T>
                        .index = static_cast<std::uint32_t>(number)};
     return next_2d<T>(stream);
 }
-// [scrambled_sobol]
 
 /// The place of one ray within its pixel.
 /// \param pattern  From make_pattern().

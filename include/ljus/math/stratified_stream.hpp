@@ -73,7 +73,6 @@ template <std::floating_point T>
 /// The next number, uniform in [0, 1): each of the pixel's rays has a part of its own.
 /// \param stream  Moves on by one draw.
 /// \return The number.
-// [next 1d]
 template <std::floating_point T = float>
 [[nodiscard]] constexpr T next_1d(StratifiedStream& stream) noexcept {
     std::uint64_t key = 0;
@@ -81,7 +80,6 @@ template <std::floating_point T = float>
     if (stream.pattern.sampling == Sampling::random) return u;
     return below_one((cell + u) / T(stream.pattern.points));
 }
-// [next 1d]
 
 /// The next point of the unit square: each of the pixel's rays has a place of its own.
 /// \param stream  Moves on by one draw.

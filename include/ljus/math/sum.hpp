@@ -33,7 +33,6 @@ using CompensatedSum = CompensatedSumT<double>; ///< CompensatedSumT in double.
 /// \param total  The sum, changed.
 /// \param term   Any number; NaN and infinity stay in the sum, as in a plain one.
 /// \cost 11 additions, one test.
-// [add]
 template <std::floating_point T>
 constexpr void add(CompensatedSumT<T>& total, T term) noexcept {
     // Knuth's two-sum: sum + term = rounded + error, exactly.
@@ -48,7 +47,6 @@ constexpr void add(CompensatedSumT<T>& total, T term) noexcept {
     total.sum = finite ? sum : rounded;
     total.lack = finite ? lack - (sum - rounded) : T(0);
 }
-// [add]
 
 /// The sum of numbers as if in twice their digits, rounded once.
 /// \param terms  Anything contiguous: a vector, an array, a span.
@@ -88,14 +86,12 @@ template <typename T>
 /// \param terms  Anything contiguous: a vector, an array, a span.
 /// \return The sum; 0 for no terms.
 /// \cost One addition a term.
-// [pairwise_sum]
 template <typename Terms>
 requires std::constructible_from < std::span<const typename Terms::value_type>,
 const Terms& > [[nodiscard]] constexpr auto pairwise_sum(const Terms& terms) noexcept {
     const std::span<const typename Terms::value_type> all(terms);
     return detail::pairwise_sum(all.data(), all.size());
 }
-// [pairwise_sum]
 
 /// \}
 

@@ -55,7 +55,6 @@ template <std::floating_point T>
 /// standard's matrix follows.)
 /// \param xyz  Relative to equal energy.
 /// \return Linear sRGB. A pure colour has a channel below 0: no screen shows it.
-// [xyz_to_rgb]
 template <std::floating_point T>
 [[nodiscard]] constexpr RgbT<T> xyz_to_rgb(const Vec3T<T>& xyz) noexcept {
     // The rows of IEC 61966-2-1 times (0.95047, 1, 1.08883); they add up to 1.
@@ -67,7 +66,6 @@ template <std::floating_point T>
     };
     return {row(r), row(g), row(b)};
 }
-// [xyz_to_rgb]
 
 /// The colour that a screen can show and a surface can have, nearest to one that it
 /// cannot: mixed with as much grey of the same luminance as brings all channels into

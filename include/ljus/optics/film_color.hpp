@@ -52,7 +52,6 @@ template <std::floating_point T, typename Spectrum>
 /// \param thickness  In nm, >= 0.
 /// \return R as linear sRGB.
 /// \cost 470 wavelengths for a film of 400 nm, 10 000 times that for one of 1 mm.
-// [film_spectral]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> film_spectral(T cos_theta, T index, T thickness) {
     const T path = thickness * std::sqrt(film_cosine2(cos_theta, index));
@@ -65,7 +64,6 @@ template <std::floating_point T>
         },
         std::min(T(1), finest));
 }
-// [film_spectral]
 
 /// The dominant wavelengths of a screen's red, green and blue, in nm.
 template <std::floating_point T>
@@ -77,7 +75,6 @@ inline constexpr Vec3T<T> screen_wavelengths{T(611.4), T(549.1), T(464.3)};
 /// \param thickness  In nm, >= 0.
 /// \return R in [0, 1] for each channel: fringes never fade, however thick the film.
 /// \cost Three times thin_film().
-// [film_three]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> film_three(T cos_theta, T index, T thickness) noexcept {
     const auto at = [&](T wavelength) {
@@ -86,7 +83,6 @@ template <std::floating_point T>
     const Vec3T<T>& w = screen_wavelengths<T>;
     return {at(w.x), at(w.y), at(w.z)};
 }
-// [film_three]
 
 /// How much of a wave that comes late an eye still sees swing: the Fourier transform of
 /// its sensitivity, by four Gaussians over the wave number.
@@ -95,7 +91,6 @@ template <std::floating_point T>
 ///         and towards 0 for a large one.
 /// \cost Four cosines and four exponentials.
 /// \cite belcour2017
-// [swing]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> visible_swing(T delay) noexcept {
     struct Gaussian {
@@ -117,7 +112,6 @@ template <std::floating_point T>
         Vec3T<T>{(swing(fit[0]) + swing(fit[3])) / (area(fit[0]) + area(fit[3])),
                  swing(fit[1]) / area(fit[1]), swing(fit[2]) / area(fit[2])});
 }
-// [swing]
 
 /// The colour of a film, integrated over the spectrum beforehand. A film's reflectance
 /// is a sum of waves that have been inside k times,

@@ -43,7 +43,6 @@ struct FilmTableSize {
 /// \return The table.
 /// \throws std::invalid_argument  for an index or a size out of range.
 /// \cost By default 10 million samples: about 0.1 s.
-// [bake]
 template <std::floating_point T = float>
 [[nodiscard]] FilmTableT<T> bake_film_table(T index, const FilmTableSize& size = {}) {
     require_index("the index of a film", index);
@@ -105,7 +104,6 @@ template <std::floating_point T = float>
         add(RgbT<double>{thick_film(cosine(column), n)});
     return table;
 }
-// [bake]
 
 /// The colour of a film from its table: bilinear, and the mean beyond the longest path.
 /// \param table      Of bake_film_table().
@@ -113,7 +111,6 @@ template <std::floating_point T = float>
 /// \param thickness  In nm, >= 0.
 /// \return R as linear sRGB, each channel in [0, 1].
 /// \cost Three square roots, a division and four cells of memory.
-// [look_up]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> look_up(const FilmTableT<T>& table, T cos_theta,
                               T thickness) noexcept {
@@ -131,7 +128,6 @@ template <std::floating_point T>
     const int row = static_cast<int>(y);
     return glm::mix(in_row(row), in_row(row + 1), y - static_cast<T>(row));
 }
-// [look_up]
 
 /// \}
 

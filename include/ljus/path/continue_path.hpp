@@ -33,7 +33,6 @@ template <typename M, std::floating_point T>
 /// \param material  What the surface is made of.
 /// \param next      The direction, its weight, its density.
 /// \param wi        The same direction in the world.
-// [follow]
 template <std::floating_point T, Material M>
 void follow(PathStateT<T>& path, const VertexT<T>& vertex, const M& material,
             const BsdfSampleT<T>& next, const Vec3T<T>& wi) noexcept {
@@ -47,7 +46,6 @@ void follow(PathStateT<T>& path, const VertexT<T>& vertex, const M& material,
     (next.specular ? path.met_specular : path.met_diffuse) = true;
     path.ray = spawn_ray(vertex.point, wi, vertex.time);
 }
-// [follow]
 
 /// Continues a path in a direction that the material samples.
 /// \param path       Gets its new ray, throughput and medium.
@@ -58,7 +56,6 @@ void follow(PathStateT<T>& path, const VertexT<T>& vertex, const M& material,
 /// \param stream     Three numbers are drawn.
 /// \return False if the path ends here: its light is absorbed.
 /// \report{Section 3.2.4}
-// [continue_path]
 template <std::floating_point T, Material M, typename Stream>
 [[nodiscard]] bool continue_path(PathStateT<T>& path, const VertexT<T>& vertex,
                                  const M& material, Transport transport, Lobes which,
@@ -69,7 +66,6 @@ template <std::floating_point T, Material M, typename Stream>
     follow(path, vertex, material, scattered->sample, scattered->wi);
     return true;
 }
-// [continue_path]
 
 /// Continues a camera path both ways at a boundary: the path itself is reflected, a
 /// copy of it refracted.
@@ -79,7 +75,6 @@ template <std::floating_point T, Material M, typename Stream>
 /// \return The copy, with random numbers of its own; nothing, and the path as it was,
 ///         where there is one way only.
 /// \report{Section 3.2.5}
-// [split_path]
 template <std::floating_point T, Material M>
 [[nodiscard]] std::optional<PathStateT<T>>
 split_path(PathStateT<T>& path, const VertexT<T>& vertex, const M& material) {
@@ -98,7 +93,6 @@ split_path(PathStateT<T>& path, const VertexT<T>& vertex, const M& material) {
         return std::nullopt;
     }
 }
-// [split_path]
 
 /// \}
 

@@ -29,7 +29,6 @@ namespace ljus {
 /// \report{Section 3.2.3}
 /// \erratum{The report's program divides the sum over the lights by their number, so
 ///          that a second lamp dims the first.}
-// [direct_light]
 template <SceneLike S, std::floating_point T, Material M, typename Weigh>
 [[nodiscard]] RgbT<T> direct_light(const S& scene, const LightT<T>& light,
                                    const VertexT<T>& vertex, const M& material,
@@ -48,7 +47,6 @@ template <SceneLike S, std::floating_point T, Material M, typename Weigh>
     return std::abs(wi.z) * weigh(*sampled, wi) * f * sampled->weight *
            transmittance(vertex.medium, distance) * visible;
 }
-// [direct_light]
 
 /// The light of all lights at a surface, by shadow rays to each.
 /// \param scene     The scene.

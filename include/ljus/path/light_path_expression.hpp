@@ -135,7 +135,6 @@ struct LightPathExpressionReader {
 ///                    usual; at most 63 letters. It must outlive the class.
 /// \return The class; the compiler makes it, if it is constexpr.
 /// \throws std::invalid_argument  for an expression that is none.
-// [light_path_expression]
 [[nodiscard]] constexpr LightPathExpression
 light_path_expression(std::string_view expression) {
     LightPathExpression result{.expression = expression};
@@ -146,7 +145,6 @@ light_path_expression(std::string_view expression) {
     result.last = whole.last | (whole.empty ? 1u : 0u);
     return result;
 }
-// [light_path_expression]
 
 /// Whether a path belongs to a class.
 /// \param paths  The class.

@@ -81,12 +81,10 @@ struct Filtered {
 /// \return A renderer for render().
 /// \throws std::invalid_argument  as light_path_expression().
 /// \cost As much as the whole renderer: nothing is left out but the sums.
-// [only]
 template <typename R>
 [[nodiscard]] Filtered<R> only(const R& whole, std::string_view carried) {
     return {whole, light_path_expression(carried)};
 }
-// [only]
 
 /// The radiance of one camera path, as far as the filter lets it through.
 /// \param renderer  From only().
@@ -94,7 +92,6 @@ template <typename R>
 /// \param stream    The numbers of this path.
 /// \param counts    Counts the rays.
 /// \return Radiance, W/(m^2 sr).
-// [filtered]
 template <typename R, std::floating_point T, typename Log = NoLog>
 [[nodiscard]] RgbT<T> radiance(const Filtered<R>& renderer, const RayT<T>& ray,
                                typename R::Stream& stream, Counts& counts, Log&& = {}) {
@@ -102,7 +99,6 @@ template <typename R, std::floating_point T, typename Log = NoLog>
     (void)radiance(renderer.whole, ray, stream, counts, log);
     return log.sum;
 }
-// [filtered]
 
 /// \}
 

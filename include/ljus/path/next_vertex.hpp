@@ -153,7 +153,6 @@ struct PassageT {
 /// \param hit     What the ray meets first; becomes what its last part meets.
 /// \param stream  A number is drawn for each thin surface.
 /// \return What they left.
-// [pass_thin_surfaces]
 template <SceneLike S, std::floating_point T, typename Stream>
 [[nodiscard]] PassageT<T> pass_thin_surfaces(const S& scene, RayT<T>& ray,
                                              std::optional<SceneHitT<T>>& hit,
@@ -176,7 +175,6 @@ template <SceneLike S, std::floating_point T, typename Stream>
     hit.reset();
     return passage;
 }
-// [pass_thin_surfaces]
 
 /// Sends a path to its next vertex. Media and thin surfaces on the way take their part
 /// of the throughput.

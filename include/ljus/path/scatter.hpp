@@ -40,7 +40,6 @@ template <std::floating_point T>
 /// \param vertex     Where it lands.
 /// \param direction  The photon's direction of travel.
 /// \return \f$ |\omega \cdot N_s| / |\omega \cdot N_g| \f$; 0 if they disagree.
-// [landing_factor]
 template <std::floating_point T>
 [[nodiscard]] T landing_factor(const VertexT<T>& vertex,
                                const Vec3T<T>& direction) noexcept {
@@ -48,7 +47,6 @@ template <std::floating_point T>
     if (!vertex.smooth) return T(1);
     return std::abs(vertex.wo.z / glm::dot(direction, vertex.point.normal));
 }
-// [landing_factor]
 
 /// A scattered direction.
 template <std::floating_point T>

@@ -14,7 +14,6 @@ namespace ljus {
 /// \{
 
 /// Where a path arrived. Every renderer and the photon pass see a surface as this.
-// [vertex]
 template <std::floating_point T>
 struct VertexT {
     SurfacePointT<T> point{};      ///< Position, rounding error, geometric normal.
@@ -36,7 +35,6 @@ struct VertexT {
     }
 };
 using Vertex = VertexT<float>; ///< VertexT in float.
-// [vertex]
 
 /// Whether a material looks up by texture coordinates; a comparison in a scene that
 /// lists such a type, and nothing in any other.

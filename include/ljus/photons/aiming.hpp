@@ -110,7 +110,6 @@ struct ChosenTargetT {
 /// \param size_of   Called with each; 0 leaves it out.
 /// \param u_target  In [0, 1).
 /// \return The target; nothing if none has a size.
-// [choose_target]
 template <std::floating_point T, typename SizeOf>
 [[nodiscard]] std::optional<ChosenTargetT<T>>
 choose_target(const std::vector<ObjectId>& targets, SizeOf size_of, T u_target) {
@@ -132,7 +131,6 @@ choose_target(const std::vector<ObjectId>& targets, SizeOf size_of, T u_target) 
     if (!(chosen.sum > T(0))) return std::nullopt;
     return chosen;
 }
-// [choose_target]
 
 /// How much of its flux a light's point sends around a direction, per steradian; aimed
 /// photons are paid for with it.
@@ -140,7 +138,6 @@ choose_target(const std::vector<ObjectId>& targets, SizeOf size_of, T u_target) 
 /// \param point      The point of it.
 /// \param direction  Unit, away from it.
 /// \return cos / pi, 1 / (4 pi) or a spot's intensity over its flux; 0 behind a lamp.
-// [emitted_share]
 template <std::floating_point T>
 [[nodiscard]] T emitted_share(const LightT<T>& light, const SurfacePointT<T>& point,
                               const Vec3T<T>& direction) noexcept {
@@ -151,7 +148,6 @@ template <std::floating_point T>
     const T cosine = glm::dot(direction, point.normal);
     return cosine > T(0) ? cosine * std::numbers::inv_pi_v<T> : T(0);
 }
-// [emitted_share]
 
 /// A photon aimed at one of several objects: at the cone in which the light's point
 /// sees the object's bounding sphere, uniformly; a wide cone is chosen more often, so

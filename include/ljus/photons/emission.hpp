@@ -43,7 +43,6 @@ template <SceneLike S, std::floating_point T>
 /// \param radius  Of the disc.
 /// \param u       Point of the unit square: where in the disc.
 /// \return The ray.
-// [sun_ray]
 template <std::floating_point T>
 [[nodiscard]] RayT<T> sun_ray(const LightT<T>& sun, const Vec3T<T>& center, T radius,
                               const Vec2T<T>& u) {
@@ -53,7 +52,6 @@ template <std::floating_point T>
     return {.origin = center + to_world(frame, Vec3T<T>{disc.x, disc.y, -back}),
             .direction = sun.direction};
 }
-// [sun_ray]
 
 /// The way of a photon that leaves a light, with the density of what the light sends:
 /// uniform over an object's area and with cos / pi in direction; uniform over the

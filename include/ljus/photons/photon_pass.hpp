@@ -84,14 +84,12 @@ inline constexpr long long pilot_paths = 4 * photon_block;
 /// \param photons  Paths in all.
 /// \param mean     Photons stored a path, as seen so far.
 /// \return Bytes.
-// [expected_bytes]
 template <std::floating_point T>
 [[nodiscard]] double expected_bytes(long long photons, double mean) noexcept {
     const auto blocks = static_cast<double>(block_count(photons, photon_block));
     return 2 * static_cast<double>(photons) * mean * sizeof(PhotonT<T>) +
            blocks * sizeof(PhotonBlockT<T>);
 }
-// [expected_bytes]
 
 /// Refuses a pass that will need more memory than it may take.
 /// \param pass  The pass.

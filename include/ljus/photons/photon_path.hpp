@@ -99,7 +99,6 @@ template <std::floating_point T>
 /// \param light     The number of its light.
 /// \param map       For which map.
 /// \param out       Takes it.
-// [store]
 template <std::floating_point T, Material M>
 void store_photon(const PathStateT<T>& path, const VertexT<T>& vertex,
                   const M& material, std::uint16_t light, MapType map,
@@ -113,7 +112,6 @@ void store_photon(const PathStateT<T>& path, const VertexT<T>& vertex,
     out.push_back({vertex.point.position, path.ray.direction, landing * path.throughput,
                    light, kind, small_normal(vertex.point.normal)});
 }
-// [store]
 
 /// Scatters a photon at a vertex, unless roulette ends it there.
 /// \param path      Gets its new ray, flux and medium.
@@ -123,7 +121,6 @@ void store_photon(const PathStateT<T>& path, const VertexT<T>& vertex,
 /// \param stream    Four numbers are drawn.
 /// \param audit     Takes what was absorbed, and what roulette moved.
 /// \return Whether it goes on.
-// [scatter_photon]
 template <std::floating_point T, Material M, typename Stream>
 [[nodiscard]] bool scatter_photon(PathStateT<T>& path, const VertexT<T>& vertex,
                                   const M& material, MapType map, Stream& stream,
@@ -142,7 +139,6 @@ template <std::floating_point T, Material M, typename Stream>
     path.throughput = *survivor;
     return true;
 }
-// [scatter_photon]
 
 /// Follows one photon and stores it at every diffuse surface where its map keeps it.
 ///

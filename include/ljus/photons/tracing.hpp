@@ -26,7 +26,6 @@ namespace ljus {
 /// \param pass     How many in all, and with which seed.
 /// \param paths    Which of them.
 /// \param block    Takes the photons and the account.
-// [trace_block]
 template <SceneLike S, std::floating_point T>
 void trace_block(const S& scene, MapType map, const LightChoice& choice,
                  const std::vector<ObjectId>& targets, const PhotonPassSettings& pass,
@@ -57,7 +56,6 @@ void trace_block(const S& scene, MapType map, const LightChoice& choice,
                      block.audit);
     }
 }
-// [trace_block]
 
 /// Joins the photons of blocks, in their order, and frees them.
 /// \param blocks  The blocks.
@@ -90,7 +88,6 @@ long long join_blocks(std::vector<PhotonBlockT<T>>& blocks, TracedPhotonsT<T>& r
 /// \return The photons in the order of emission, the same for any number of threads.
 /// \throws std::invalid_argument  if the scene has no light or more than 65536, a
 ///         number of the pass is out of range, or the memory would not do.
-// [trace_photons]
 template <SceneLike S>
 [[nodiscard]] TracedPhotonsT<typename S::Scalar>
 trace_photons(const S& scene, MapType map, const PhotonPassSettings& pass) {
@@ -146,7 +143,6 @@ trace_photons(const S& scene, MapType map, const PhotonPassSettings& pass) {
     }
     return result;
 }
-// [trace_photons]
 
 /// \}
 

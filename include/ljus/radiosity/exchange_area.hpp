@@ -88,7 +88,6 @@ struct EdgeRule {
 /// \param v     along this: the second edge.
 /// \param unit  Distances are measured in it: some length of this size.
 /// \return \f$\cos\varphi \int\!\!\int \ln(r / \text{unit})\, ds\, dt\f$
-// [edge_pair]
 [[nodiscard]] inline double edge_pair(const glm::dvec3& a, const glm::dvec3& u,
                                       const glm::dvec3& b, const glm::dvec3& v,
                                       double unit) noexcept {
@@ -135,7 +134,6 @@ struct EdgeRule {
     }
     return cosine * length_u * sum;
 }
-// [edge_pair]
 
 /// The exchange area of two facets between which nothing stands: the area of either,
 /// times the form factor from it to the other.

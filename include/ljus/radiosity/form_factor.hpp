@@ -68,7 +68,6 @@ template <std::floating_point T>
 /// \param normal  Unit; points to the side that stays.
 /// \param width   What lies as near as this to the plane counts as on it.
 /// \return The part, with at most one corner more; no corner if nothing stays.
-// [clipped]
 [[nodiscard]] inline Facet clipped(const Facet& facet, const glm::dvec3& point,
                                    const glm::dvec3& normal,
                                    double width = 0) noexcept {
@@ -91,7 +90,6 @@ template <std::floating_point T>
     }
     return part.count < 3 ? Facet{} : part;
 }
-// [clipped]
 
 /// The form factor from a point of a surface to a facet: the share of what the point
 /// sends out, or of what could come to it, that the facet takes.
@@ -132,7 +130,6 @@ template <std::floating_point T>
 /// \param distance  Between them, above 0.
 /// \return The same in both directions: 0.1998249 for unit squares at distance 1.
 /// \cite howell2010
-// [facing]
 [[nodiscard]] inline double form_factor_facing(double a, double b,
                                                double distance) noexcept {
     const double x = a / distance, y = b / distance;
@@ -142,7 +139,6 @@ template <std::floating_point T>
                          x * std::atan(x) - y * std::atan(y);
     return 2 * std::numbers::inv_pi / (x * y) * (corners + sides);
 }
-// [facing]
 
 /// The form factor from a floor to a wall that stands on one of its edges.
 /// \param edge    Length of the common edge, above 0.
@@ -150,7 +146,6 @@ template <std::floating_point T>
 /// \param height  The wall's other side.
 /// \return From the floor to the wall: 0.2000438 for two unit squares.
 /// \cite howell2010
-// [corner]
 [[nodiscard]] inline double form_factor_corner(double edge, double floor,
                                                double height) noexcept {
     const double w = floor / edge, h = height / edge;
@@ -162,7 +157,6 @@ template <std::floating_point T>
                         h2 * std::log(h2 * (1 + s) / ((1 + h2) * s));
     return std::numbers::inv_pi / w * (angles + logs / 4);
 }
-// [corner]
 
 /// \}
 

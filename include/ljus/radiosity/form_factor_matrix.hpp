@@ -55,7 +55,6 @@ struct FormFactorSettings {
 /// \param factors  Changed: each exchange area by a factor of its row and one of its
 ///                 column.
 /// \return Whether it could be done: not if a patch sees no other.
-// [close_rows]
 inline bool close_rows(FormFactors& factors) {
     const std::size_t n = factors.size();
     std::vector<double> scale(n, 1.0);
@@ -76,7 +75,6 @@ inline bool close_rows(FormFactors& factors) {
             factors.exchange[i * n + j] *= scale[i] * scale[j];
     return worst <= 1e-10;
 }
-// [close_rows]
 
 /// Finds the form factors between all patches: the closed form between flat ones, times
 /// the visible share; else by rays from both, weighted so that their noise is least.
@@ -89,7 +87,6 @@ inline bool close_rows(FormFactors& factors) {
 ///         closed.
 /// \cost n^2 numbers of 8 bytes; of time see the chapter.
 /// \report{Section 2.2}
-// [make_form_factors]
 template <SceneLike S>
 [[nodiscard]] std::optional<FormFactors>
 make_form_factors(const S& scene, const Patches& all,
@@ -143,7 +140,6 @@ make_form_factors(const S& scene, const Patches& all,
                 "false in a room with a patch that sees no other");
     return factors;
 }
-// [make_form_factors]
 
 /// \}
 

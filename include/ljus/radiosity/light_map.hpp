@@ -32,7 +32,6 @@ struct LightMap {
 /// triangle. On a ball the first column has one vertex, the pole, and so has the last.
 /// \param grid   The grid.
 /// \param place  Of the cell.
-// [cell_vertices]
 [[nodiscard]] constexpr std::array<std::uint32_t, 4>
 cell_vertices(const PatchGrid& grid, const CellPlace& place) noexcept {
     const auto vertex = [&](std::uint32_t right, std::uint32_t up) {
@@ -50,14 +49,12 @@ cell_vertices(const PatchGrid& grid, const CellPlace& place) noexcept {
     if (place.upper) return {vertex(1, 1), vertex(0, 1), vertex(1, 0), no_grid};
     return {vertex(0, 0), vertex(1, 0), vertex(0, 1), no_grid};
 }
-// [cell_vertices]
 
 /// The light at the vertices of a grid: the mean of the patches that meet there, after
 /// Gouraud \cite gouraud1971.
 /// \param grid        The grid.
 /// \param irradiance  Of its cells.
 /// \return Of its vertices.
-// [vertex_light]
 [[nodiscard]] inline std::vector<RgbT<double>>
 vertex_light(const PatchGrid& grid, std::span<const RgbT<double>> irradiance) {
     std::vector<RgbT<double>> sum(grid.vertices(), RgbT<double>(0));
@@ -71,7 +68,6 @@ vertex_light(const PatchGrid& grid, std::span<const RgbT<double>> irradiance) {
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] /= count[i];
     return sum;
 }
-// [vertex_light]
 
 /// What a picture of a light map looks like.
 struct LightMapSettings {
@@ -132,7 +128,6 @@ template <SceneLike S>
 /// \param at        The place, see place_on().
 /// \param vertices  vertex_light() of the grid.
 /// \return W/m^2.
-// [blend]
 [[nodiscard]] inline RgbT<double>
 blended_light(const PatchGrid& grid, const glm::dvec2& at,
               std::span<const RgbT<double>> vertices) noexcept {
@@ -146,7 +141,6 @@ blended_light(const PatchGrid& grid, const glm::dvec2& at,
     return (1 - t.x - t.y) * vertices[v[0]] + t.x * vertices[v[1]] +
            t.y * vertices[v[2]];
 }
-// [blend]
 
 /// The radiance that a ray finds: one intersection and one look into the map.
 /// \param view    The scene and its light map.

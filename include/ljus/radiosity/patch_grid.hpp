@@ -109,7 +109,6 @@ struct CellPlace {
 /// \param at    The place; what rounding put outside belongs to the border.
 /// \param local Takes where in the cell's own square it lies, unless it is null.
 /// \return Its number within the grid.
-// [cell_of]
 [[nodiscard]] inline std::uint32_t cell_of(const PatchGrid& grid, const glm::dvec2& at,
                                            glm::dvec2* local = nullptr) noexcept {
     const double u = std::clamp(at.x, 0.0, 1.0) * grid.columns;
@@ -124,7 +123,6 @@ struct CellPlace {
     const bool upper = inside.x + inside.y > 1 && column + row + 1 < grid.columns;
     return row * (2 * grid.columns - row) + 2 * column + (upper ? 1 : 0);
 }
-// [cell_of]
 
 /// The place of a hit on its shape.
 /// \param kind          Of the grid.

@@ -106,7 +106,6 @@ void shoot_rays(const S& scene, const Patches& all, std::uint32_t number, int ra
 /// \param rays    How many, at least 1.
 /// \param seed    Of the random streams.
 /// \return In [0, 1]: the weights cancel, and the closed form knows them better.
-// [visible_share]
 template <SceneLike S>
 [[nodiscard]] double visible_share(const S& scene, const Patches& all,
                                    std::uint32_t one, std::uint32_t two, int rays,
@@ -136,7 +135,6 @@ template <SceneLike S>
     }
     return total > 0 ? visible / total : 0;
 }
-// [visible_share]
 
 /// \}
 

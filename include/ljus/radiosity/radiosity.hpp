@@ -41,7 +41,6 @@ struct Radiosity {
 /// \return Emitted = absorbed + escaped, if the equations are solved and the form
 ///         factors reciprocal: to rounding, however large the patches and however few
 ///         the rays.
-// [energy_balance]
 [[nodiscard]] inline EnergyBalance
 energy_balance(const Patches& patches, const FormFactors& factors,
                const std::vector<RgbT<double>>& radiosity) {
@@ -55,7 +54,6 @@ energy_balance(const Patches& patches, const FormFactors& factors,
     }
     return sum;
 }
-// [energy_balance]
 
 /// The light map of a solution.
 /// \param scene      The scene.
@@ -81,7 +79,6 @@ template <SceneLike S>
 /// \throws std::invalid_argument  as make_patches(), make_form_factors() and
 ///         solve_radiosity().
 /// \report{Section 2.2}
-// [make_radiosity]
 template <SceneLike S>
 [[nodiscard]] std::optional<Radiosity>
 make_radiosity(const S& scene, const RadiositySettings& settings = {}) {
@@ -93,7 +90,6 @@ make_radiosity(const S& scene, const RadiositySettings& settings = {}) {
     all.map = make_light_map(scene, all.patches, all.factors, all.solution.radiosity);
     return all;
 }
-// [make_radiosity]
 
 /// \}
 

@@ -45,7 +45,6 @@ struct RadiositySolution {
 /// \param threads    As in ParallelSettings.
 /// \return \f$ H_i = \sum_j F_{ij} B_j \f$, in W/m^2.
 /// \cost n^2 multiplications for each channel.
-// [gather]
 [[nodiscard]] inline std::vector<RgbT<double>>
 multiply(const FormFactors& factors, const std::vector<RgbT<double>>& radiosity,
          int threads = 0) {
@@ -61,7 +60,6 @@ multiply(const FormFactors& factors, const std::vector<RgbT<double>>& radiosity,
     parallel_blocks(static_cast<long long>(n), body, {.threads = threads});
     return irradiance;
 }
-// [gather]
 
 namespace detail {
 
@@ -107,7 +105,6 @@ inline void relax(const FormFactors& factors, const std::vector<Patch>& patches,
 /// \param factors  The form factors.
 /// \param unsent   Radiosity that waits on each patch.
 /// \return Its number; the first one of equals.
-// [brightest]
 [[nodiscard]] inline std::size_t brightest(const FormFactors& factors,
                                            const std::vector<RgbT<double>>& unsent) {
     std::size_t best = 0;
@@ -119,7 +116,6 @@ inline void relax(const FormFactors& factors, const std::vector<Patch>& patches,
     }
     return best;
 }
-// [brightest]
 
 /// Solves the equations of radiosity.
 ///
@@ -134,7 +130,6 @@ inline void relax(const FormFactors& factors, const std::vector<Patch>& patches,
 ///         albedo of 1 in a closed room, or a row sum above 1 by the noise of few rays.
 /// \cost n^2 multiplications a sweep and channel.
 /// \report{Section 2.2}
-// [solve]
 [[nodiscard]] inline RadiositySolution
 solve_radiosity(const FormFactors& factors, const std::vector<Patch>& patches,
                 const SolveSettings& settings = {}) {
@@ -183,7 +178,6 @@ solve_radiosity(const FormFactors& factors, const std::vector<Patch>& patches,
     }
     return solution;
 }
-// [solve]
 
 /// \}
 

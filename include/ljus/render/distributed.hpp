@@ -62,7 +62,6 @@ DistributedTracer<S> make_distributed(const S&& scene,
 /// \param counts    Counts the rays.
 /// \return Radiance towards wo.
 /// \report{Section 2.1}
-// [soft shadow]
 template <SceneLike S, std::floating_point T, Material M, typename Stream>
 [[nodiscard]] RgbT<T> soft_light(const S& scene, const VertexT<T>& vertex,
                                  const M& material, Stream& stream, Counts& counts) {
@@ -76,7 +75,6 @@ template <SceneLike S, std::floating_point T, Material M, typename Stream>
     }
     return sum;
 }
-// [soft shadow]
 
 /// The radiance that one camera ray finds, at a random time, by one ray at each mirror,
 /// glass or gloss and one to each light.

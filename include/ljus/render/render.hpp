@@ -88,7 +88,6 @@ template <typename R, template <std::floating_point> typename AnyCamera,
 /// \return The picture, the same for any number of threads. A sample that is not finite
 ///         is left out and counted.
 /// \throws std::invalid_argument  if the size or the number of rays is below 1.
-// [render]
 template <typename R, template <std::floating_point> typename AnyCamera,
           std::floating_point T>
 requires Renderer<R, T>
@@ -125,7 +124,6 @@ requires Renderer<R, T>
     for (const Counts& cost : counts) result.counts += cost;
     return result;
 }
-// [render]
 
 /// \}
 

@@ -159,7 +159,6 @@ void trace_branch(const WhittedTracer<S>& tracer, PathStateT<T> path, Stream& st
 /// \return Radiance, W/(m^2 sr).
 /// \cost Up to 2^max_depth rays, if every ray meets glass.
 /// \report{Section 2.1}
-// [radiance]
 template <SceneLike S, std::floating_point T, typename Stream, typename Log = NoLog>
 [[nodiscard]] RgbT<T> radiance(const WhittedTracer<S>& tracer, const RayT<T>& ray,
                                Stream& stream, Counts& counts, Log&& log = {}) {
@@ -169,7 +168,6 @@ template <SceneLike S, std::floating_point T, typename Stream, typename Log = No
                  sum);
     return sum;
 }
-// [radiance]
 
 /// \}
 

@@ -77,7 +77,6 @@ using Light = LightT<float>; ///< LightT in float.
 /// \param light  The spot light.
 /// \param wo     Unit direction away from it.
 /// \return 1 within the inner cone, 0 outside of the outer one.
-// [spot_share]
 template <std::floating_point T>
 [[nodiscard]] T spot_share(const LightT<T>& light, const Vec3T<T>& wo) noexcept {
     // As |a - b|^2 / 2, which keeps the digits of a narrow cone; 1 - cos would not.
@@ -86,7 +85,6 @@ template <std::floating_point T>
     if (w <= light.inner) return T(1);
     return w < light.outer ? (light.outer - w) / (light.outer - light.inner) : T(0);
 }
-// [spot_share]
 
 /// 1 - cos of the angle of a spot light's photon from the axis, with the density of its
 /// intensity: even up to `inner`, then falling to 0 at `outer`.
@@ -134,7 +132,6 @@ struct LightSampleT {
 /// \report{Section 3.2.3}
 /// \erratum{The program behind the report leaves out the light's area and the inverse
 ///          square: a wall ten times as far was lit as brightly.}
-// [sample_light]
 template <typename S, std::floating_point T>
 [[nodiscard]] std::optional<LightSampleT<T>>
 sample_light(const S& scene, const LightT<T>& light, const Vec3T<T>& from,
@@ -173,7 +170,6 @@ sample_light(const S& scene, const LightT<T>& light, const Vec3T<T>& from,
                            .weight = light.emission / seen.pdf,
                            .pdf = seen.pdf};
 }
-// [sample_light]
 
 /// \}
 

@@ -129,7 +129,6 @@ template <typename... S, typename... M>
 /// \param parts  placed() shapes, at least one, and lights; of one precision.
 /// \return The scene.
 /// \throws std::invalid_argument  as Scene::add().
-// [make_scene]
 template <ScenePart... Part>
 requires(PlacedPart<Part> || ...) [[nodiscard]] auto make_scene(const Part&... parts) {
     auto scene = scene_of((TypeList<>{} + ... + typename PartOf<Part>::Shape{}),
@@ -137,7 +136,6 @@ requires(PlacedPart<Part> || ...) [[nodiscard]] auto make_scene(const Part&... p
     (add_part(scene, parts), ...);
     return scene;
 }
-// [make_scene]
 
 /// \}
 

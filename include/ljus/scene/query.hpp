@@ -45,7 +45,6 @@ template <typename Compute, std::floating_point T, typename S>
 /// \param ray    Hits count in [t_min, t_max].
 /// \param shape  The shape.
 /// \return Whether hit_of() would return a hit.
-// [is_met]
 template <typename Compute, std::floating_point T, typename S>
 [[nodiscard]] bool is_met(const RayT<T>& ray, const S& shape) {
     if constexpr (requires { meets<Compute>(ray, shape); })
@@ -53,7 +52,6 @@ template <typename Compute, std::floating_point T, typename S>
     else
         return hit_of<Compute>(ray, shape).has_value();
 }
-// [is_met]
 
 /// The first object that a ray meets, by asking every shape in turn: the exact twin of
 /// the tree in an IndexedScene.
@@ -62,7 +60,6 @@ template <typename Compute, std::floating_point T, typename S>
 /// \param ray    Hits count in [t_min, t_max].
 /// \return The nearest hit, the earlier object on a tie; nothing for a miss.
 /// \cost One intersection a shape.
-// [closest_hit]
 template <typename Compute = void, typename G, typename M, std::floating_point T>
 [[nodiscard]] std::optional<SceneHitT<T>> closest_hit(const Scene<G, M>& scene,
                                                       RayT<T> ray) {
@@ -80,7 +77,6 @@ template <typename Compute = void, typename G, typename M, std::floating_point T
     std::apply([&](const auto&... shapes) { (ask_all(shapes), ...); }, scene.shapes);
     return closest;
 }
-// [closest_hit]
 
 /// Whether anything lies on a ray: the question of a shadow ray.
 /// \tparam Compute  The arithmetic, as for intersect().
@@ -99,7 +95,6 @@ template <typename Compute = void, typename G, typename M, std::floating_point T
 }
 
 /// What the renderers ask of a scene: a Scene, or one with an index over it.
-// [scene_like]
 template <typename S>
 concept SceneLike = requires(const S& scene, const RayT<typename S::Scalar>& ray,
                              ObjectId object) {
@@ -112,7 +107,6 @@ concept SceneLike = requires(const S& scene, const RayT<typename S::Scalar>& ray
         } -> std::same_as<std::optional<SceneHitT<typename S::Scalar>>>;
     { occluded(scene, ray) } -> std::same_as<bool>;
 };
-// [scene_like]
 
 /// \}
 

@@ -65,7 +65,6 @@ void add_cornell_lamp(S& scene) {
 
 /// The box with its lamp and its balls.
 /// \return The scene and its camera.
-// [cornell_box]
 template <std::floating_point T = float>
 [[nodiscard]] Room<CornellSceneT<T>> cornell_box() {
     Room<CornellSceneT<T>> room;
@@ -79,7 +78,6 @@ template <std::floating_point T = float>
     room.camera = cornell_camera<T>();
     return room;
 }
-// [cornell_box]
 
 /// The same box with two matt balls in the places of mirror and glass: nothing but
 /// diffuse surfaces, so that all renderers of this book could carry all of its light.

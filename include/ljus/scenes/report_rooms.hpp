@@ -96,7 +96,6 @@ void add_report_matt_objects(ReportSceneT<T>& scene) {
 /// The room of figures 1 and 15: two lamps, and every material.
 /// \return The scene and its camera.
 /// \report{Figures 1 and 15}
-// [final_room]
 template <std::floating_point T = float>
 [[nodiscard]] Room<ReportSceneT<T>> final_room() {
     Room<ReportSceneT<T>> room{.camera = report_camera<T>()};
@@ -114,7 +113,6 @@ template <std::floating_point T = float>
     detail::add_ceiling_lamp(room.scene, T(4), T(2), T(1), RgbT<T>{1, 1, T(0.65)});
     return room;
 }
-// [final_room]
 
 /// The room of figure 12: one lamp, and one of each material.
 /// \return The scene and its camera.

@@ -38,7 +38,6 @@ inline constexpr T steepest_blob = T(8) / (T(3) * std::numbers::sqrt3_v<T>);
 
 /// A blob as a ray sees it: \f$ s(t) = h - k (t - m)^2 \f$, and its field is w s^2
 /// where s > 0.
-// [strand]
 template <std::floating_point C>
 struct StrandT {
     C enter = C(0);             ///< Where s becomes positive.
@@ -48,14 +47,12 @@ struct StrandT {
     C bend = C(0);              ///< k = D.D / R^2.
     C weight = C(1);            ///< w.
 };
-// [strand]
 
 /// A blob on a ray, in the way of chord(): the difference of vectors before the square.
 /// \param ray   The ray; its range is ignored.
 /// \param blob  The blob.
 /// \return In double; nothing if the ray passes by, and nothing for data that are not
 ///         finite, a zero direction, or a radius not above 0.
-// [on_ray]
 template <std::floating_point T>
 [[nodiscard]] std::optional<StrandT<WideT<T>>> strand(const RayT<T>& ray,
                                                       const BlobT<T>& blob) noexcept {
@@ -76,7 +73,6 @@ template <std::floating_point T>
     return StrandT<C>{middle - half, middle + half, middle,
                       height,        bend,          C(blob.weight)};
 }
-// [on_ray]
 
 /// The strands of a ray: without the heap for up to 16.
 template <std::floating_point C>

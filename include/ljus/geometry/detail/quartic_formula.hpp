@@ -43,7 +43,6 @@ struct QuarticRootsT {
 ///         coefficient is not small, the roots to about half of T's digits or better.
 /// \cost One cosine or cube root, up to 4 square roots. No loop.
 /// \report{Section 2.1} \cite schwarze1990
-// [quartic_formula]
 template <std::floating_point T>
 [[nodiscard]] QuarticRootsT<T> quartic_formula(const std::array<T, 5>& c) noexcept {
     const T b = c[3] / c[4], d = c[2] / c[4], e = c[1] / c[4], f = c[0] / c[4];
@@ -81,7 +80,6 @@ template <std::floating_point T>
     }
     return result;
 }
-// [quartic_formula]
 
 /// \}
 

@@ -60,7 +60,6 @@ inline constexpr Vec3T<double> xyz_shares[3] = {
 /// \param c  Linear sRGB.
 /// \return L*, and a* and b* times L*/100.
 /// \cite andersson2020
-// [hunt_lab]
 [[nodiscard]] inline Vec3T<double> hunt_lab(const RgbT<double>& c) noexcept {
     const auto root = [](double t) {
         constexpr double d = 6.0 / 29;
@@ -72,7 +71,6 @@ inline constexpr Vec3T<double> xyz_shares[3] = {
     return {lightness, 0.01 * lightness * 500 * (x - y),
             0.01 * lightness * 200 * (y - z)};
 }
-// [hunt_lab]
 
 /// The distance HyAB, made for large differences: lightness by its amount, colour by
 /// its length.
