@@ -33,11 +33,11 @@ auto metal(const ljus::ConductorIndexT<T>& index, double roughness) {
 // At roughness 1 f is 1/(2 pi (mu_i + mu_o)): its integral is no riddle.
 TEST_CASE("facet loss: at roughness 1 it is mu log(1 + 1/mu), the law of Lommel and "
           "Seeliger") {
-    const auto loss = ljus::bake_energy_loss(1.0);
+    const auto loss = ljus::detail::bake_energy_loss(1.0);
     double least = 1, most = -1;
     for (int i = 1; i <= 1000; ++i) {
         const double mu = std::pow(i / 1000.0, 3);
-        const double apart = ljus::lost_at(loss, mu) - mu * std::log1p(1 / mu);
+        const double apart = ljus::detail::lost_at(loss, mu) - mu * std::log1p(1 / mu);
         least = std::min(least, apart);
         most = std::max(most, apart);
     }
@@ -91,7 +91,7 @@ TEST_CASE("full glossy: it is the gloss and what that loses, no more than there 
             const auto wo = at_degrees<double>(degrees);
             const auto full = albedo_by_quadrature(m, wo, 300);
             const auto first = albedo_by_quadrature(m.first, wo, 300);
-            const double lost = ljus::lost_at(m.loss, wo.z);
+            const double lost = ljus::detail::lost_at(m.loss, wo.z);
             for (int c = 0; c < 3; ++c) {
                 CHECK(full[c] > first[c]);
                 CHECK(full[c] < first[c] + lost + 1e-5);

@@ -58,7 +58,7 @@ TEST_CASE_TEMPLATE("light choice: the extremes of u choose the first and the las
         const auto choice =
             light_choice(lights_of(std::vector<Rgb>(count, Rgb{0.1f, 0.2f, 0.3f})));
         CHECK(choose_light(choice, T(0)).light == 0);
-        CHECK(choose_light(choice, below_one<T>).light == count - 1);
+        CHECK(choose_light(choice, detail::below_one<T>).light == count - 1);
         // Even u = 1, which no stream gives, stays among the lights.
         CHECK(choose_light(choice, T(1)).light == count - 1);
     }
@@ -87,7 +87,7 @@ TEST_CASE_TEMPLATE("light choice: a light without power is never chosen", T, flo
         const auto choice = light_choice(lights_of(fluxes));
         CHECK(probability_of<T>(choice, std::uint32_t(dark)) == T(0));
         for (int i = 0; i <= 3000; ++i) {
-            const T u = i == 3000 ? below_one<T> : T(i) / T(3000);
+            const T u = i == 3000 ? detail::below_one<T> : T(i) / T(3000);
             const auto chosen = choose_light(choice, u);
             REQUIRE(chosen.light != dark);
             REQUIRE(chosen.probability > 0);
@@ -100,7 +100,7 @@ TEST_CASE("light choice: lights of all powers that float can say") {
     const std::vector<Rgb> fluxes{Rgb{1e-38f}, Rgb{1e38f}, Rgb{1e-40f}, Rgb{1}};
     const auto lights = lights_of(fluxes);
     const auto choice = light_choice(lights);
-    for (const float u : {0.0f, 0x1p-24f, 0.5f, below_one<float>}) {
+    for (const float u : {0.0f, 0x1p-24f, 0.5f, detail::below_one<float>}) {
         const auto chosen = choose_light(choice, u);
         REQUIRE(chosen.probability > 0);
         CHECK(is_finite(lights[chosen.light].flux / chosen.probability));

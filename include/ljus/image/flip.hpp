@@ -30,6 +30,8 @@ namespace ljus {
     return distance * pixels / width * std::numbers::pi / 180;
 }
 
+namespace detail {
+
 /// What two colours differ by, if nothing else is near them.
 ///
 /// The distance of large colour differences, HyAB, to the power 0.7, and then by two
@@ -50,6 +52,8 @@ namespace ljus {
                         : 0.95 + 0.05 * (error - bend) / (most - bend);
 }
 
+} // namespace detail
+
 /// FLIP of each pixel: how much a viewer who flips between two pictures sees there.
 ///
 /// What is too fine for the eye is blurred away, channel by channel, before colours are
@@ -69,15 +73,18 @@ template <std::floating_point T, std::floating_point U>
 [[nodiscard]] ImageT<double> flip_map(const ImageT<T>& image,
                                       const ImageT<U>& reference,
                                       double ppd = pixels_per_degree()) {
-    require_same_size(image, reference);
+    detail::require_same_size(image, reference);
     require(ppd >= 1 && ppd <= 1000, "pixels per degree", ppd, "from 1 to 1000");
-    const ImageT<double> a = opponent_image(image), b = opponent_image(reference);
-    const ImageT<double> seen_a = as_seen(a, ppd), seen_b = as_seen(b, ppd);
-    const ImageT<double> features_a = features(a, ppd), features_b = features(b, ppd);
+    const ImageT<double> a = detail::opponent_image(image),
+                         b = detail::opponent_image(reference);
+    const ImageT<double> seen_a = detail::as_seen(a, ppd),
+                         seen_b = detail::as_seen(b, ppd);
+    const ImageT<double> features_a = detail::features(a, ppd),
+                         features_b = detail::features(b, ppd);
 
     ImageT<double> map = make_image<double>(image.width, image.height);
     for (std::size_t i = 0; i < map.pixels.size(); ++i) {
-        const double color = color_error(seen_a.pixels[i], seen_b.pixels[i]);
+        const double color = detail::color_error(seen_a.pixels[i], seen_b.pixels[i]);
         const RgbT<double> change = features_a.pixels[i] - features_b.pixels[i];
         const double larger = glm::max(std::abs(change.x), std::abs(change.y));
         const double feature = std::sqrt(larger / std::numbers::sqrt2);

@@ -14,6 +14,8 @@ namespace ljus {
 /// \addtogroup flip
 /// \{
 
+namespace detail {
+
 /// The first and the last exposure of HDR-FLIP, and how many there are.
 struct Exposures {
     double first = 0; ///< In stops: the brightest pixel is nearly white.
@@ -63,6 +65,8 @@ template <std::floating_point T>
     return {first, last, std::max(2, static_cast<int>(std::ceil(last - first)))};
 }
 
+} // namespace detail
+
 /// HDR-FLIP of each pixel: the largest flip_map() over the exposures_of() the
 /// reference.
 /// \param image      Linear sRGB of any brightness.
@@ -76,8 +80,8 @@ template <std::floating_point T, std::floating_point U>
 [[nodiscard]] ImageT<double> hdr_flip_map(const ImageT<T>& image,
                                           const ImageT<U>& reference,
                                           double ppd = pixels_per_degree()) {
-    require_same_size(image, reference);
-    const Exposures exposures = exposures_of(reference);
+    detail::require_same_size(image, reference);
+    const detail::Exposures exposures = detail::exposures_of(reference);
     ImageT<double> worst = make_image<double>(image.width, image.height);
     for (int i = 0; i < exposures.count; ++i) {
         const double part = double(i) / (exposures.count - 1);
@@ -88,7 +92,7 @@ template <std::floating_point T, std::floating_point U>
             for (std::size_t k = 0; k < result.pixels.size(); ++k)
                 for (int c = 0; c < 3; ++c)
                     result.pixels[k][c] =
-                        film_curve(light * double(picture.pixels[k][c]));
+                        detail::film_curve(light * double(picture.pixels[k][c]));
             return result;
         };
         const auto map = flip_map(developed(image), developed(reference), ppd);

@@ -35,7 +35,7 @@ template <std::floating_point T, std::floating_point U>
         throw std::invalid_argument("Bias and variance were asked of " +
                                     std::to_string(runs.size()) +
                                     " runs; there must be at least 2.");
-    for (const ImageT<T>& run : runs) require_same_size(run, reference);
+    for (const ImageT<T>& run : runs) detail::require_same_size(run, reference);
 
     const double count = static_cast<double>(runs.size());
     std::vector<double> biases(reference.pixels.size());

@@ -55,7 +55,7 @@ requires Renderer<R, T>
                                             const AnyCamera<T>& camera,
                                             const RenderSettings& picture, int x, int y,
                                             int keep = 4) {
-    require_image_size(picture.width, picture.height);
+    detail::require_image_size(picture.width, picture.height);
     require(picture.samples >= 1, "samples", static_cast<long long>(picture.samples),
             "at least 1");
     require(x >= 0 && x < picture.width, "the pixel's column",

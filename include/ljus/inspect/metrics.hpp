@@ -180,7 +180,7 @@ template <std::floating_point T>
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] double block_error(const ImageT<T>& image, const ImageT<U>& reference,
                                  int size = 10, double epsilon = default_epsilon) {
-    require_same_size(image, reference);
+    detail::require_same_size(image, reference);
     return rel_mse(block_means(image, size), block_means(reference, size), epsilon);
 }
 

@@ -139,7 +139,8 @@ inline void read_rgbe_row(ByteReader& reader,
 ///     1991), or is shorter or longer than its header says.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_hdr(const std::string& path) {
-    detail::ByteReader reader{path, load_file(path, 8 * std::size_t(max_pixels), "#?")};
+    detail::ByteReader reader{
+        path, load_file(path, 8 * std::size_t(detail::max_pixels), "#?")};
     double exposure = 1.0;
     for (std::string line = reader.line(); !line.empty(); line = reader.line()) {
         if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe")
@@ -162,7 +163,7 @@ template <std::floating_point T = float>
     if (y_word != "-Y" || x_word != "+X")
         reader.fail("its rows go " + detail::shown(y_word) + " " +
                     detail::shown(x_word) + "; only -Y +X is read");
-    if (width > max_pixels / height) reader.fail("its image is too large");
+    if (width > detail::max_pixels / height) reader.fail("its image is too large");
 
     // The image grows by rows, so that a short file with a large size takes no memory.
     ImageT<T> image{.width = width, .height = height, .pixels = {}};

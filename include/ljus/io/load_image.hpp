@@ -78,9 +78,9 @@ template <std::floating_point T = float>
             stbi_failure_reason() + ".");
     if (width < 1 || height < 1)
         throw std::runtime_error(detail::shown_path(path).append(" has no pixels."));
-    if (width > max_pixels / height)
+    if (width > detail::max_pixels / height)
         throw std::runtime_error(detail::shown_path(path).append(" has more than ") +
-                                 std::to_string(max_pixels) + " pixels.");
+                                 std::to_string(detail::max_pixels) + " pixels.");
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
         stbi_load_from_memory(data, size, &width, &height, &channels, 3),
         stbi_image_free);

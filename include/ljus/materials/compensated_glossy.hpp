@@ -21,10 +21,10 @@ namespace ljus {
 /// \tparam Facet  As GlossyT has it.
 template <std::floating_point T, typename Facet = RgbT<T>>
 struct CompensatedGlossyT {
-    using Scalar = T;          ///< The precision of its numbers.
-    GlossyT<T, Facet> first{}; ///< One reflection.
-    EnergyLossT<T> loss{};     ///< What it loses; of bake_energy_loss().
-    RgbT<T> mean{T(0)};        ///< A facet's mean reflectance; of mean_reflectance().
+    using Scalar = T;              ///< The precision of its numbers.
+    GlossyT<T, Facet> first{};     ///< One reflection.
+    detail::EnergyLossT<T> loss{}; ///< What it loses; of bake_energy_loss().
+    RgbT<T> mean{T(0)}; ///< A facet's mean reflectance; of mean_reflectance().
 };
 using CompensatedGlossy = CompensatedGlossyT<float>; ///< Of a colour, in float.
 using FullRoughMetal =
@@ -51,7 +51,7 @@ template <std::floating_point T, typename F>
 [[nodiscard]] CompensatedGlossyT<T, F> compensated_glossy(const GlossyT<T, F>& first) {
     check(first);
     return {.first = first,
-            .loss = bake_energy_loss(first.roughness * first.roughness),
+            .loss = detail::bake_energy_loss(first.roughness * first.roughness),
             .mean = mean_reflectance<T>(first.reflectance)};
 }
 
@@ -72,10 +72,11 @@ template <std::floating_point T, typename F>
 template <std::floating_point T, typename F>
 [[nodiscard]] RgbT<T> evaluate(const CompensatedGlossyT<T, F>& gloss,
                                const Vec3T<T>& wo, const Vec3T<T>& wi) noexcept {
-    const EnergyLossT<T>& loss = gloss.loss;
+    const detail::EnergyLossT<T>& loss = gloss.loss;
     const RgbT<T> first = evaluate(gloss.first, wo, wi);
     if (!same_side(wo, wi) || !(loss.mean > T(0))) return first;
-    const T out = lost_at(loss, std::abs(wo.z)), in = lost_at(loss, std::abs(wi.z));
+    const T out = detail::lost_at(loss, std::abs(wo.z)),
+            in = detail::lost_at(loss, std::abs(wi.z));
     const T again = out * in / loss.mean * std::numbers::inv_pi_v<T>;
     return first + again * multiple_scattering(gloss.mean, loss.mean);
 }
@@ -88,7 +89,7 @@ template <std::floating_point T, typename F>
 template <std::floating_point T, typename F>
 [[nodiscard]] T chance_of_first(const CompensatedGlossyT<T, F>& gloss,
                                 const Vec3T<T>& wo) noexcept {
-    const T lost = lost_at(gloss.loss, std::abs(wo.z));
+    const T lost = detail::lost_at(gloss.loss, std::abs(wo.z));
     const T first = (T(1) - lost) * max_component(gloss.mean);
     const T again =
         lost * max_component(multiple_scattering(gloss.mean, gloss.loss.mean));
@@ -109,7 +110,8 @@ template <std::floating_point T, typename F>
     if (!has(which & lobes(gloss), Lobes::glossy) || !same_side(wo, wi) ||
         chance >= T(1))
         return first;
-    return chance * first + (T(1) - chance) * pdf_lost(gloss.loss, std::abs(wi.z));
+    return chance * first +
+           (T(1) - chance) * detail::pdf_lost(gloss.loss, std::abs(wi.z));
 }
 
 /// The mirror direction of a facet that is seen, or a direction as light is lost.
@@ -135,7 +137,7 @@ sample(const CompensatedGlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>
         if (!first) return std::nullopt;
         wi = first->wi;
     } else {
-        const T z = sample_lost(gloss.loss, u.y);
+        const T z = detail::sample_lost(gloss.loss, u.y);
         const T phi = T(2) * std::numbers::pi_v<T> * u.x;
         const T sine = std::sqrt((T(1) - z) * (T(1) + z));
         wi = {sine * std::cos(phi), sine * std::sin(phi), std::copysign(z, wo.z)};

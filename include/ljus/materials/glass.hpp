@@ -116,7 +116,7 @@ template <std::floating_point T>
 /// \throws std::invalid_argument naming the member.
 template <std::floating_point T>
 void check(const GlassT<T>& glass) {
-    require_index("glass.index", glass.index);
+    detail::require_index("glass.index", glass.index);
     require_radiance("glass.absorption", glass.absorption);
 }
 
@@ -217,7 +217,7 @@ sample(const ThinGlassT<T>& pane, const Vec3T<T>& wo, const Vec3T<T>&,
 /// \throws std::invalid_argument naming the member.
 template <std::floating_point T>
 void check(const ThinGlassT<T>& pane) {
-    require_index("thin_glass.index", pane.index);
+    detail::require_index("thin_glass.index", pane.index);
     require_unit("thin_glass.tint", pane.tint);
 }
 

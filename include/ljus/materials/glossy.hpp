@@ -156,7 +156,7 @@ void check(const GlossyT<T, F>& gloss) {
     if constexpr (std::same_as<F, RgbT<T>>)
         require_unit("glossy.reflectance", gloss.reflectance);
     else
-        require_conductor("glossy.reflectance", gloss.reflectance);
+        detail::require_conductor("glossy.reflectance", gloss.reflectance);
     const T r = gloss.roughness;
     require(r == T(0) || (r >= min_roughness<T> && r <= T(1)), "glossy.roughness", r,
             "0, which is a mirror, or within [0.01, 1]");

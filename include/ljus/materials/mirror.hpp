@@ -92,7 +92,7 @@ sample(const MetalT<T>& metal, const Vec3T<T>& wo, const Vec3T<T>&,
 /// \throws std::invalid_argument naming the member.
 template <std::floating_point T>
 void check(const MetalT<T>& metal) {
-    require_conductor("metal.index", metal.index);
+    detail::require_conductor("metal.index", metal.index);
 }
 
 /// \}

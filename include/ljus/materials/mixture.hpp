@@ -201,7 +201,7 @@ void check(const MixtureT<T>& mixture) {
     require_unit("mixture.color", mixture.color);
     require_unit("mixture.reflectivity", mixture.reflectivity);
     require_unit("mixture.transparency", mixture.transparency);
-    require_index("mixture.index", mixture.index);
+    detail::require_index("mixture.index", mixture.index);
     require_unit("mixture.specularity", mixture.specularity);
     require(std::isfinite(mixture.emissivity) && mixture.emissivity >= T(0),
             "mixture.emissivity", mixture.emissivity, "finite and at least 0");

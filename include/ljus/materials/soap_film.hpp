@@ -144,7 +144,7 @@ template <std::floating_point T>
 void check(const SoapFilmT<T>& film) {
     require(film.thickness >= T(0) && film.thickness <= max_film_thickness<T>,
             "soap_film.thickness", film.thickness, "within [0, 1e6] nm");
-    require_index("soap_film.index", film.index);
+    detail::require_index("soap_film.index", film.index);
     require(film.index >= T(1), "soap_film.index", film.index, "at least 1");
     require(std::isfinite(film.scale) && film.scale >= T(0), "soap_film.scale",
             film.scale, "finite and at least 0");

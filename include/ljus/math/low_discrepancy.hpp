@@ -19,6 +19,8 @@ namespace ljus {
 /// than chance.
 /// \{
 
+namespace detail {
+
 /// How many dimensions sobol() has.
 inline constexpr std::uint32_t sobol_dimensions = 16;
 
@@ -66,6 +68,8 @@ using SobolTable = std::array<std::array<std::uint32_t, 32>, sobol_dimensions>;
 /// The table.
 inline constexpr SobolTable sobol_table = make_sobol_table();
 
+} // namespace detail
+
 /// One coordinate of one of Sobol's points \cite sobol1967.
 /// \param index      Which point.
 /// \param dimension  Which coordinate, below sobol_dimensions.
@@ -76,9 +80,11 @@ inline constexpr SobolTable sobol_table = make_sobol_table();
                                             std::uint32_t dimension) noexcept {
     std::uint32_t bits = 0;
     for (std::size_t i = 0; index != 0; ++i, index >>= 1)
-        if (index & 1u) bits ^= sobol_table[dimension][i];
+        if (index & 1u) bits ^= detail::sobol_table[dimension][i];
     return bits;
 }
+
+namespace detail {
 
 /// The bits in the opposite order.
 /// \param x  Any number.
@@ -116,6 +122,8 @@ inline constexpr SobolTable sobol_table = make_sobol_table();
 }
 // [owen]
 
+} // namespace detail
+
 /// The numbers of one path out of many that shall be spread evenly together: the first
 /// sobol_dimensions are a scrambled point of Sobol, all further ones are random. Draw
 /// from it as from a RandomStream.
@@ -143,6 +151,8 @@ struct SobolStream {
             .rest = random_stream(seed, pass, iteration, path)};
 }
 
+namespace detail {
+
 /// The stream of one path whose numbers are all random: those of random_stream(), for
 /// code that shall be compiled once for both.
 /// \param rest  Where the numbers come from.
@@ -150,6 +160,8 @@ struct SobolStream {
 [[nodiscard]] constexpr SobolStream without_points(const RandomStream& rest) noexcept {
     return {.dimension = sobol_dimensions, .rest = rest};
 }
+
+} // namespace detail
 
 /// Moves a stream to the start of a bounce. The dimensions of the point go on: paths
 /// that draw equally much in each bounce meet the same ones.
@@ -165,9 +177,10 @@ constexpr void start_bounce(SobolStream& stream, std::uint64_t bounce) noexcept 
 template <std::floating_point T = float>
 [[nodiscard]] constexpr T next_1d(SobolStream& stream) noexcept {
     const std::uint32_t d = stream.dimension;
-    if (d >= sobol_dimensions) return next_1d<T>(stream.rest);
+    if (d >= detail::sobol_dimensions) return next_1d<T>(stream.rest);
     ++stream.dimension;
-    const std::uint32_t bits = owen_scrambled(sobol(stream.index, d), stream.seed + d);
+    const std::uint32_t bits =
+        detail::owen_scrambled(sobol(stream.index, d), stream.seed + d);
     if constexpr (sizeof(T) == 4)
         return static_cast<T>(bits >> 8) * T(0x1p-24);
     else

@@ -15,6 +15,8 @@ namespace ljus {
 /// \brief Section 3.2: "stratified grid sampling".
 /// \{
 
+namespace detail {
+
 /// A pixel cut into columns x rows cells, or only into columns and rows.
 struct Strata {
     int columns = 1; ///< Cells side by side.
@@ -90,6 +92,8 @@ template <std::floating_point T>
     return {(T(column) + u.x) / T(strata.columns), (T(row) + u.y) / T(strata.rows)};
 }
 
+} // namespace detail
+
 /// \}
 
 /// \defgroup sampling_pattern Sampling patterns
@@ -110,7 +114,7 @@ enum class Sampling : std::uint8_t {
 struct Pattern {
     Sampling sampling = Sampling::multi_jittered; ///< Which one.
     int points = 1;                               ///< How many there will be.
-    Strata strata{};                              ///< Its cells, if it has any.
+    detail::Strata strata{};                      ///< Its cells, if it has any.
 };
 
 /// Prepares a pattern.
@@ -119,7 +123,7 @@ struct Pattern {
 /// \return The pattern.
 [[nodiscard]] constexpr Pattern make_pattern(Sampling sampling, int points) noexcept {
     Pattern pattern{.sampling = sampling, .points = points};
-    if (sampling == Sampling::jittered) pattern.strata = strata_for(points);
+    if (sampling == Sampling::jittered) pattern.strata = detail::strata_for(points);
     if (sampling == Sampling::multi_jittered) {
         int columns = 1;
         while (columns + 1 <= points / (columns + 1)) ++columns;
@@ -128,6 +132,8 @@ struct Pattern {
     }
     return pattern;
 }
+
+namespace detail {
 
 /// A point of a correlated multi-jittered pattern.
 ///
@@ -195,6 +201,8 @@ template <std::floating_point T>
     }
 }
 // [spread]
+
+} // namespace detail
 
 /// \}
 

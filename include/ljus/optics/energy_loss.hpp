@@ -16,6 +16,8 @@ namespace ljus {
 /// \addtogroup microfacet
 /// \{
 
+namespace detail {
+
 /// What white facets do not return of light at an angle \cite kulla2017, in a table
 /// over the cosine mu, with steps that are small at the horizon, and within alpha of it
 /// smaller still: there the loss is steep.
@@ -98,8 +100,6 @@ template <std::floating_point T>
            std::numbers::inv_pi_v<T> / ((high - low) * (high + low));
 }
 
-namespace detail {
-
 // The mean of 1 - G2/G1 over the facets that are seen: what reflection into another
 // facet costs. Most of it is at u.y close to 1, where facets are steep; there the grid
 // is fine.
@@ -123,8 +123,6 @@ inline double energy_loss(double alpha, double mu) {
     }
     return sum / (rows * columns);
 }
-
-} // namespace detail
 
 /// Makes the table of one roughness, in double.
 /// \param alpha  Roughness; 0 is a mirror, else in [1e-4, 1].
@@ -161,6 +159,8 @@ template <std::floating_point T = float>
         loss.below[i] = static_cast<T>(sum[i] / sum.back());
     return loss;
 }
+
+} // namespace detail
 
 /// \}
 

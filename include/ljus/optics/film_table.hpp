@@ -30,12 +30,16 @@ struct FilmTableT {
 };
 using FilmTable = FilmTableT<float>; ///< FilmTableT in float.
 
+namespace detail {
+
 /// How fine a table is.
 struct FilmTableSize {
     int cosines = 65;      ///< At least 2.
     int paths = 641;       ///< At least 2, without the row of the mean.
     double longest = 4000; ///< In nm.
 };
+
+} // namespace detail
 
 /// Makes the table of one index, in double.
 /// \param index  In [1, 1000].
@@ -44,8 +48,9 @@ struct FilmTableSize {
 /// \throws std::invalid_argument  for an index or a size out of range.
 /// \cost By default 10 million samples: about 0.1 s.
 template <std::floating_point T = float>
-[[nodiscard]] FilmTableT<T> bake_film_table(T index, const FilmTableSize& size = {}) {
-    require_index("the index of a film", index);
+[[nodiscard]] FilmTableT<T> bake_film_table(T index,
+                                            const detail::FilmTableSize& size = {}) {
+    detail::require_index("the index of a film", index);
     require(index >= T(1), "the index of a film", index, "at least 1");
     require(size.cosines >= 2, "cosines", static_cast<long long>(size.cosines),
             "at least 2");
@@ -54,15 +59,17 @@ template <std::floating_point T = float>
 
     // As close as the fringes of the longest path ask for, see film_spectral().
     const double n = double(index);
-    const double finest =
-        visible<double>[0] * visible<double>[0] / (4 * std::numbers::pi * size.longest);
+    const double finest = detail::visible<double>[0] * detail::visible<double>[0] /
+                          (4 * std::numbers::pi * size.longest);
     const int count = static_cast<int>(
-        std::ceil((visible<double>[1] - visible<double>[0]) / std::min(2.0, finest)));
-    const double step = (visible<double>[1] - visible<double>[0]) / count;
+        std::ceil((detail::visible<double>[1] - detail::visible<double>[0]) /
+                  std::min(2.0, finest)));
+    const double step =
+        (detail::visible<double>[1] - detail::visible<double>[0]) / count;
     std::vector<Vec3T<double>> eye;
     Vec3T<double> white{0};
     const auto wavelength = [&](int i) {
-        return visible<double>[0] + (i + 0.5) * step;
+        return detail::visible<double>[0] + (i + 0.5) * step;
     };
     for (int i = 0; i < count; ++i)
         white += eye.emplace_back(cie_observer(wavelength(i)));
@@ -97,7 +104,7 @@ template <std::floating_point T = float>
             Vec3T<double> sum{0};
             for (std::size_t i = 0; i < eye.size(); ++i)
                 sum += eye[i] * film_shares(c, n, strength * sines[i]).reflected;
-            add(xyz_to_rgb(sum / white));
+            add(detail::xyz_to_rgb(sum / white));
         }
     }
     for (int column = 0; column < size.cosines; ++column)

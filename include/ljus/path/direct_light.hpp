@@ -61,7 +61,7 @@ template <SceneLike S, std::floating_point T, Material M>
 [[nodiscard]] RgbT<T> sample_all_lights(const S& scene, const VertexT<T>& vertex,
                                         const M& material, int rays,
                                         RandomStream& stream, Counts& counts) {
-    const Strata strata = strata_for(rays);
+    const detail::Strata strata = detail::strata_for(rays);
     const auto unweighted = [](const LightSampleT<T>&, const Vec3T<T>&) {
         return T(1);
     };
@@ -69,7 +69,7 @@ template <SceneLike S, std::floating_point T, Material M>
     RgbT<T> sum{T(0)};
     for (const LightT<T>& light : scene.lights)
         for (int i = 0; i < rays; ++i) {
-            const Vec2T<T> u = stratified(strata, i, key, next_2d<T>(stream));
+            const Vec2T<T> u = detail::stratified(strata, i, key, next_2d<T>(stream));
             sum += direct_light(scene, light, vertex, material, u, unweighted, counts);
         }
     return sum / T(rays);

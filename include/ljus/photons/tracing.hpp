@@ -34,10 +34,10 @@ void trace_block(const S& scene, MapType map, const LightChoice& choice,
         map == MapType::caustics ? Pass::caustics_photons : Pass::general_photons;
     for (long long i = paths.first; i < paths.last; ++i) {
         const auto path = static_cast<std::uint64_t>(i);
-        SobolStream stream =
-            pass.numbers == PhotonSampling::sobol
-                ? sobol_stream(pass.seed, part, pass.iteration, path)
-                : without_points(random_stream(pass.seed, part, pass.iteration, path));
+        SobolStream stream = pass.numbers == PhotonSampling::sobol
+                                 ? sobol_stream(pass.seed, part, pass.iteration, path)
+                                 : detail::without_points(random_stream(
+                                       pass.seed, part, pass.iteration, path));
         EmittedPhotonT<T> photon;
         std::optional<ObjectId> target;
         if (map == MapType::caustics) {

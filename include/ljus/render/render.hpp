@@ -73,8 +73,8 @@ template <typename R, template <std::floating_point> typename AnyCamera,
         static_cast<std::uint64_t>(x);
     typename R::Stream stream;
     start_ray(stream, picture.seed, pixel, number, pattern);
-    const Vec2T<T> place =
-        spread(pattern, number, mix_bits(picture.seed) ^ pixel, next_2d<T>(stream));
+    const Vec2T<T> place = detail::spread(
+        pattern, number, mix_bits(picture.seed) ^ pixel, next_2d<T>(stream));
     const RayT<T> ray = camera_ray(camera, Vec2T<T>{T(x), T(y)} + place, picture.width,
                                    picture.height, stream);
     ++counts.camera_rays;

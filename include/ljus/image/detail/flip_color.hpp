@@ -12,6 +12,8 @@ namespace ljus {
 /// \addtogroup flip
 /// \{
 
+namespace detail {
+
 /// The shares of red, green and blue in X, Y and Z, by the primaries of Rec. 709; each
 /// row adds up to 1, because all three are in units of the white point's.
 inline constexpr Vec3T<double> xyz_shares[3] = {
@@ -82,6 +84,8 @@ inline constexpr Vec3T<double> xyz_shares[3] = {
                                  const Vec3T<double>& b) noexcept {
     return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
 }
+
+} // namespace detail
 
 /// \}
 

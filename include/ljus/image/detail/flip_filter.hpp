@@ -15,6 +15,8 @@ namespace ljus {
 /// \addtogroup flip
 /// \{
 
+namespace detail {
+
 /// One Gaussian of a contrast sensitivity: a sqrt(pi / b) exp(-pi^2 x^2 / b), x in
 /// degrees.
 struct EyeGaussian {
@@ -162,6 +164,8 @@ template <std::floating_point T>
     }
     return found;
 }
+
+} // namespace detail
 
 /// \}
 
