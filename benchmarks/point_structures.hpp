@@ -139,8 +139,8 @@ struct MortonOrder {
         const auto number = [](float x) {
             return std::min<std::uint64_t>(static_cast<std::uint64_t>(x), 2097151);
         };
-        return detail::spread(number(q.x)) | detail::spread(number(q.y)) << 1 |
-               detail::spread(number(q.z)) << 2;
+        return spread(number(q.x)) | spread(number(q.y)) << 1 |
+               spread(number(q.z)) << 2;
     }
     template <typename Visit>
     void visit_within(const Vec3& center, float radius, Visit visit) const {

@@ -163,7 +163,7 @@ TEST_CASE("polynomial: no root is lost, none is invented, and they come in order
             for (std::size_t k = 1; k < 5; ++k) slope[k - 1] = double(k) * known.p[k];
             const double step = 4096 * std::numeric_limits<double>::epsilon();
 
-            const auto roots = roots_in(known.p, known.low, known.high);
+            const auto roots = detail::roots_in(known.p, known.low, known.high);
             CHECK(std::is_sorted(roots.begin(), roots.end()));
             found += int(roots.count);
             for (const double x : roots) {
@@ -176,7 +176,7 @@ TEST_CASE("polynomial: no root is lost, none is invented, and they come in order
                 worst_residual =
                     std::max(worst_residual, residual / (allowed + steep * step));
             }
-            const auto formula = quartic_formula(known.p);
+            const auto formula = detail::quartic_formula(known.p);
             for (const double truth : known.roots) {
                 ++truths;
                 double nearest = 1e300, nearest_formula = 1e300;
@@ -210,27 +210,32 @@ TEST_CASE("polynomial: no root is lost, none is invented, and they come in order
 }
 
 TEST_CASE("polynomial: known roots") {
-    const auto r = roots_in(std::array{24.0, -50.0, 35.0, -10.0, 1.0}, 0.0, 5.0);
+    const auto r =
+        detail::roots_in(std::array{24.0, -50.0, 35.0, -10.0, 1.0}, 0.0, 5.0);
     REQUIRE(r.count == 4);
     for (std::size_t i = 0; i < 4; ++i)
         CHECK(r.at[i] == doctest::Approx(double(i + 1)).epsilon(1e-12));
-    CHECK(roots_in(std::array{24.0, -50.0, 35.0, -10.0, 1.0}, 1.5, 3.5).count == 2);
-    CHECK(roots_in(std::array{1.0, 0.0, 1.0}, -9.0, 9.0).count == 0);
-    CHECK(roots_in(std::array{-2.0, 0.0, 1.0}, 0.0, 2.0).at[0] ==
+    CHECK(detail::roots_in(std::array{24.0, -50.0, 35.0, -10.0, 1.0}, 1.5, 3.5).count ==
+          2);
+    CHECK(detail::roots_in(std::array{1.0, 0.0, 1.0}, -9.0, 9.0).count == 0);
+    CHECK(detail::roots_in(std::array{-2.0, 0.0, 1.0}, 0.0, 2.0).at[0] ==
           doctest::Approx(std::sqrt(2.0)).epsilon(1e-15));
-    CHECK(roots_in(std::array{-1.0, 2.0}, 0.0, 1.0).at[0] == 0.5);
-    CHECK(roots_in(std::array{0.0f, 1.0f}, -1.0f, 1.0f).at[0] == 0.0f);
+    CHECK(detail::roots_in(std::array{-1.0, 2.0}, 0.0, 1.0).at[0] == 0.5);
+    CHECK(detail::roots_in(std::array{0.0f, 1.0f}, -1.0f, 1.0f).at[0] == 0.0f);
 }
 
 TEST_CASE("polynomial: the constant 0 has a root, a constant has none, a NaN no end") {
-    CHECK(roots(BernsteinT<double, 4>{}, 0.0).count > 0);
-    CHECK(roots(BernsteinT<double, 4>{{1, 1, 1, 1, 1}}, 0.0).count == 0);
-    CHECK(roots(BernsteinT<double, 4>{{-1, -1, -1, -1, -1}}, 0.0).count == 0);
+    CHECK(detail::roots(detail::BernsteinT<double, 4>{}, 0.0).count > 0);
+    CHECK(detail::roots(detail::BernsteinT<double, 4>{{1, 1, 1, 1, 1}}, 0.0).count ==
+          0);
+    CHECK(
+        detail::roots(detail::BernsteinT<double, 4>{{-1, -1, -1, -1, -1}}, 0.0).count ==
+        0);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double inf = std::numeric_limits<double>::infinity();
     Numbers n;
     for (int i = 0; i < 20000; ++i) { // each returns
-        BernsteinT<double, 4> p;
+        detail::BernsteinT<double, 4> p;
         for (double& c : p.c) {
             const int kind = n.below(8);
             c = kind == 0   ? nan
@@ -239,39 +244,41 @@ TEST_CASE("polynomial: the constant 0 has a root, a constant has none, a NaN no 
                 : kind == 3 ? 0
                             : n.sign() * n.power(-320, 308);
         }
-        CHECK(roots(p, noise(p)).count <= 5);
-        (void)first_change(p);
-        (void)quartic_formula(p.c);
+        CHECK(detail::roots(p, detail::noise(p)).count <= 5);
+        (void)detail::first_change(p);
+        (void)detail::quartic_formula(p.c);
     }
-    CHECK_FALSE(first_change(BernsteinT<double, 4>{{nan, nan, nan, nan, nan}}));
+    CHECK_FALSE(
+        detail::first_change(detail::BernsteinT<double, 4>{{nan, nan, nan, nan, nan}}));
 }
 
 TEST_CASE("polynomial: value and derivative on Bernstein coefficients") {
     // u^3 (1 - u) * 4 has one coefficient; its derivative is 12 u^2 - 16 u^3.
-    const BernsteinT<double, 4> p{{0, 0, 0, 1, 0}};
-    CHECK(value_at(p, 0.5) == 0.25);
-    CHECK(value_at(derivative(p), 0.5) == 1.0);
-    CHECK(value_at(on_interval(std::array{1.0, 2.0, 3.0}, 2.0, 4.0), 0.5) == 34.0);
-    CHECK(sign_changes(BernsteinT<double, 4>{{1, 0, -1, 0, 2}}) == 2);
-    CHECK(sign_changes(p) == 0);
+    const detail::BernsteinT<double, 4> p{{0, 0, 0, 1, 0}};
+    CHECK(detail::value_at(p, 0.5) == 0.25);
+    CHECK(detail::value_at(detail::derivative(p), 0.5) == 1.0);
+    CHECK(detail::value_at(detail::on_interval(std::array{1.0, 2.0, 3.0}, 2.0, 4.0),
+                           0.5) == 34.0);
+    CHECK(detail::sign_changes(detail::BernsteinT<double, 4>{{1, 0, -1, 0, 2}}) == 2);
+    CHECK(detail::sign_changes(p) == 0);
 }
 
 TEST_CASE("polynomial: the first change of sign") {
     // (u - 1/4)(u - 3/4): below, between, and from an end to the other
-    const auto p = on_interval(std::array{3.0 / 16, -1.0, 1.0}, 0.0, 1.0);
-    REQUIRE(first_change(p));
-    CHECK(*first_change(p) == doctest::Approx(0.25).epsilon(1e-14));
-    const auto late = on_interval(std::array{3.0 / 16, -1.0, 1.0}, 0.5, 1.5);
-    REQUIRE(first_change(late));
-    CHECK(*first_change(late) == doctest::Approx(0.25).epsilon(1e-14));
+    const auto p = detail::on_interval(std::array{3.0 / 16, -1.0, 1.0}, 0.0, 1.0);
+    REQUIRE(detail::first_change(p));
+    CHECK(*detail::first_change(p) == doctest::Approx(0.25).epsilon(1e-14));
+    const auto late = detail::on_interval(std::array{3.0 / 16, -1.0, 1.0}, 0.5, 1.5);
+    REQUIRE(detail::first_change(late));
+    CHECK(*detail::first_change(late) == doctest::Approx(0.25).epsilon(1e-14));
     // A touch counts, a miss by a little does not.
-    const auto touch = on_interval(std::array{0.25, -1.0, 1.0}, 0.0, 1.0);
-    REQUIRE(first_change(touch));
-    CHECK(*first_change(touch) == doctest::Approx(0.5));
-    CHECK_FALSE(
-        first_change(on_interval(std::array{0.25 + 1e-13, -1.0, 1.0}, 0.0, 1.0)));
+    const auto touch = detail::on_interval(std::array{0.25, -1.0, 1.0}, 0.0, 1.0);
+    REQUIRE(detail::first_change(touch));
+    CHECK(*detail::first_change(touch) == doctest::Approx(0.5));
+    CHECK_FALSE(detail::first_change(
+        detail::on_interval(std::array{0.25 + 1e-13, -1.0, 1.0}, 0.0, 1.0)));
     // A quartic that changes three times: the first of them.
-    const auto three = on_interval(
+    const auto three = detail::on_interval(
         std::array{-0.1 * 0.5 * 0.8, 0.05 + 0.08 + 0.4, -1.4, 1.0}, 0.0, 1.0);
-    CHECK(*first_change(three) == doctest::Approx(0.1).epsilon(1e-12));
+    CHECK(*detail::first_change(three) == doctest::Approx(0.1).epsilon(1e-12));
 }

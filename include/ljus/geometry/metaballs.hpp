@@ -26,8 +26,8 @@ namespace ljus {
 // [metaballs]
 template <std::floating_point T>
 struct MetaballsT {
-    std::vector<BlobT<T>> blobs{}; ///< At least one.
-    T level = T(0.25);             ///< L, above 0, below the sum of positive weights.
+    std::vector<detail::BlobT<T>> blobs{}; ///< At least one.
+    T level = T(0.25); ///< L, above 0, below the sum of positive weights.
 };
 using Metaballs = MetaballsT<float>; ///< MetaballsT in float.
 // [metaballs]
@@ -40,7 +40,7 @@ template <std::floating_point T>
 [[nodiscard]] WideT<T> field(const MetaballsT<T>& balls, const Vec3T<WideT<T>>& x) {
     using C = WideT<T>;
     C sum = -C(balls.level);
-    for (const BlobT<T>& blob : balls.blobs) {
+    for (const detail::BlobT<T>& blob : balls.blobs) {
         const Vec3T<C> q = (x - Vec3T<C>(blob.center)) / C(blob.radius);
         const C s = C(1) - glm::dot(q, q);
         if (s > C(0)) sum += C(blob.weight) * s * s;
@@ -57,7 +57,7 @@ template <std::floating_point T>
                                        const Vec3T<WideT<T>>& x) {
     using C = WideT<T>;
     Vec3T<C> sum{0};
-    for (const BlobT<T>& blob : balls.blobs) {
+    for (const detail::BlobT<T>& blob : balls.blobs) {
         const Vec3T<C> q = (x - Vec3T<C>(blob.center)) / C(blob.radius);
         const C s = C(1) - glm::dot(q, q);
         if (s > C(0)) sum -= C(4) * C(blob.weight) * s * q / C(blob.radius);
@@ -72,9 +72,9 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] WideT<T> lipschitz(const MetaballsT<T>& balls) {
     WideT<T> sum = 0;
-    for (const BlobT<T>& blob : balls.blobs)
+    for (const detail::BlobT<T>& blob : balls.blobs)
         sum += std::abs(WideT<T>(blob.weight)) / WideT<T>(blob.radius);
-    return sum * steepest_blob<WideT<T>>;
+    return sum * detail::steepest_blob<WideT<T>>;
 }
 
 /// The distance at which a ray first meets metaballs, from outside or from within.
@@ -96,11 +96,11 @@ template <typename Solver = QuarticPieces, std::floating_point T>
 [[nodiscard]] std::optional<T> intersect(const RayT<T>& ray, const MetaballsT<T>& balls,
                                          const Solver& solver = {}) {
     using C = WideT<T>;
-    StrandsT<C> strands;
-    for (const BlobT<T>& blob : balls.blobs)
-        if (const auto met = strand(ray, blob)) strands.add(*met);
-    const auto line = line_of(strands, C(balls.level));
-    const auto t = first_meeting(solver, line, C(ray.t_min), C(ray.t_max));
+    detail::StrandsT<C> strands;
+    for (const detail::BlobT<T>& blob : balls.blobs)
+        if (const auto met = detail::strand(ray, blob)) strands.add(*met);
+    const auto line = detail::line_of(strands, C(balls.level));
+    const auto t = detail::first_meeting(solver, line, C(ray.t_min), C(ray.t_max));
     if (!t || !(*t <= std::numeric_limits<T>::max())) return std::nullopt;
     return static_cast<T>(*t);
 }
@@ -116,11 +116,14 @@ template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T>
 surface_point(const MetaballsT<T>& balls, const RayT<T>& ray, const FlatHitT<T>& hit) {
     WideT<T> size = balls.level;
-    for (const BlobT<T>& blob : balls.blobs) size += std::abs(WideT<T>(blob.weight));
-    return refined([&](const auto& x) { return field(balls, x); },
-                   [&](const auto& x) { return gradient(balls, x); }, ray, hit.t,
-                   64 * std::numeric_limits<WideT<T>>::epsilon() * size);
+    for (const detail::BlobT<T>& blob : balls.blobs)
+        size += std::abs(WideT<T>(blob.weight));
+    return detail::refined([&](const auto& x) { return field(balls, x); },
+                           [&](const auto& x) { return gradient(balls, x); }, ray,
+                           hit.t, 64 * std::numeric_limits<WideT<T>>::epsilon() * size);
 }
+
+namespace detail {
 
 /// The radius within which a blob can hold a share of the level up.
 /// \param blob   A blob of positive weight.
@@ -132,6 +135,8 @@ template <std::floating_point T>
     return s < 1 ? WideT<T>(blob.radius) * std::sqrt(1 - s) : WideT<T>(-1);
 }
 
+} // namespace detail
+
 /// A sphere around metaballs. Where n blobs together reach the level, one of them has
 /// at least 1/n of it: that lies within the blob's reach, and the sphere holds all
 /// reaches. For one blob it is the surface itself.
@@ -141,13 +146,14 @@ template <std::floating_point T>
 [[nodiscard]] SphereT<T> bounding_sphere(const MetaballsT<T>& balls) {
     using C = WideT<T>;
     C positive = 0;
-    for (const BlobT<T>& blob : balls.blobs) positive += blob.weight > T(0) ? 1 : 0;
+    for (const detail::BlobT<T>& blob : balls.blobs)
+        positive += blob.weight > T(0) ? 1 : 0;
     constexpr C far = std::numeric_limits<C>::infinity();
     Vec3T<C> low{far}, high{-far};
     const auto each = [&](const auto& visit) {
-        for (const BlobT<T>& blob : balls.blobs) {
+        for (const detail::BlobT<T>& blob : balls.blobs) {
             if (!(blob.weight > T(0))) continue;
-            const C reach = reach_of(blob, C(balls.level) / positive);
+            const C reach = detail::reach_of(blob, C(balls.level) / positive);
             if (reach >= C(0)) visit(Vec3T<C>(blob.center), reach);
         }
     };
@@ -174,7 +180,7 @@ template <std::floating_point T>
 void check(const MetaballsT<T>& balls) {
     require_positive("metaballs.level", balls.level);
     T most = T(0);
-    for (const BlobT<T>& blob : balls.blobs) {
+    for (const detail::BlobT<T>& blob : balls.blobs) {
         require_finite("metaballs.blobs.center", blob.center);
         require_positive("metaballs.blobs.radius", blob.radius);
         require(std::isfinite(blob.weight), "metaballs.blobs.weight", blob.weight,

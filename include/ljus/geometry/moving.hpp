@@ -16,6 +16,8 @@ namespace ljus {
 /// \name Moved shapes
 /// \{
 
+namespace detail {
+
 /// A shape in another place.
 /// \param shape  The shape.
 /// \param by     In scene units.
@@ -36,12 +38,15 @@ template <std::floating_point T>
                                            const Vec3T<T>& by) noexcept {
     return {.v1 = shape.v1 + by, .v2 = shape.v2 + by, .v3 = shape.v3 + by};
 }
+
+} // namespace detail
+
 /// \}
 
 /// A shape that is moved at little cost, so that it can be at each ray's own time.
 template <typename S>
 concept Movable = Shape<S> && requires(const S& shape, const Vec3T<ScalarOf<S>>& by) {
-    { moved(shape, by) } -> std::same_as<S>;
+    { detail::moved(shape, by) } -> std::same_as<S>;
 };
 
 /// A shape on its way in a straight line. Time runs from 0, when the shutter opens, to
@@ -58,12 +63,17 @@ struct Moving {
 };
 // [moving]
 
+namespace detail {
+
 /// Whether a type of shape moves.
 template <typename S>
 inline constexpr bool is_moving = false;
+
 /// The one that does.
 template <typename S>
 inline constexpr bool is_moving<Moving<S>> = true;
+
+} // namespace detail
 
 /// A shape at a time.
 /// \param moving  The shape.
@@ -72,13 +82,13 @@ inline constexpr bool is_moving<Moving<S>> = true;
 // [at_time]
 template <typename S, std::floating_point T>
 [[nodiscard]] S at_time(const Moving<S>& moving, T time) noexcept {
-    return moved(moving.shape, time * moving.way);
+    return detail::moved(moving.shape, time * moving.way);
 }
 // [at_time]
 
 /// The same for a shape that stands still: itself.
 template <typename S, std::floating_point T>
-requires(!is_moving<S>)
+requires(!detail::is_moving<S>)
     [[nodiscard]] constexpr const S& at_time(const S& shape, T) noexcept {
     return shape;
 }

@@ -150,16 +150,21 @@ concept HasBounds = requires(const S& shape) {
     bounding_sphere(shape);
 };
 
+namespace detail {
+
 /// Whether a type of shape lies in a plane: it fills little of its bounding sphere and
 /// no ray meets it twice, so that photons are aimed at points of its area.
 template <typename S>
 inline constexpr bool is_flat = false;
+
 /// A triangle is flat.
 template <std::floating_point T>
 inline constexpr bool is_flat<TriangleT<T>> = true;
 /// A quad is flat.
 template <std::floating_point T>
 inline constexpr bool is_flat<QuadT<T>> = true;
+
+} // namespace detail
 
 /// What a scene asks of a shape.
 template <typename S>

@@ -13,6 +13,8 @@ namespace ljus {
 /// steradian holds the cosine and the inverse square that the report's program forgot.
 /// \{
 
+namespace detail {
+
 /// The directions from a point to a sphere: a cone.
 template <std::floating_point T>
 struct ConeT {
@@ -138,6 +140,8 @@ template <std::floating_point T>
     if (!sees_cone(sphere, from)) return pdf_from_area(from, point, area(sphere));
     return pdf_uniform_cone(cone_towards(sphere, from).one_minus_cos);
 }
+
+} // namespace detail
 
 /// \}
 

@@ -101,7 +101,7 @@ template <std::floating_point T, std::floating_point U>
     std::vector<double> values;
     values.reserve(map.pixels.size());
     for (const RgbT<double>& value : map.pixels) values.push_back(value.x);
-    return pairwise_sum(values) / static_cast<double>(values.size());
+    return detail::pairwise_sum(values) / static_cast<double>(values.size());
 }
 
 /// The mean of flip_map().

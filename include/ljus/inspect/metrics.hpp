@@ -54,7 +54,7 @@ std::vector<double> pixel_errors(const ImageT<T>& image, const ImageT<U>& refere
 }
 
 inline double mean(const std::vector<double>& values) {
-    return ljus::pairwise_sum(values) / static_cast<double>(values.size());
+    return ljus::detail::pairwise_sum(values) / static_cast<double>(values.size());
 }
 
 // The squared relative error of one channel.

@@ -20,6 +20,8 @@ namespace ljus {
 /// \brief Section 2.1: isosurfaces "treated analytically". Chapter: \ref ch_metaballs.
 /// \{
 
+namespace detail {
+
 /// A polynomial of degree N on [0, 1], as its Bernstein coefficients:
 /// \f[ p(u) = \sum_{i=0}^{N} c_i \binom{N}{i} u^i (1 - u)^{N-i}. \f]
 /// The first and the last are the values at the ends; p lies between the least and the
@@ -241,6 +243,8 @@ template <std::floating_point T, std::size_t M>
         result.at[i] = glm::min(high, low + result.at[i] * (high - low));
     return result;
 }
+
+} // namespace detail
 
 /// \}
 

@@ -77,8 +77,6 @@ template <typename T>
     return pairwise_sum(first, half) + pairwise_sum(first + half, count - half);
 }
 
-} // namespace detail
-
 /// The sum of numbers or colours by halves: each half is summed in the same way.
 ///
 /// No term passes through more than 16 + log2(n) additions, so that the error grows
@@ -92,6 +90,8 @@ const Terms& > [[nodiscard]] constexpr auto pairwise_sum(const Terms& terms) noe
     const std::span<const typename Terms::value_type> all(terms);
     return detail::pairwise_sum(all.data(), all.size());
 }
+
+} // namespace detail
 
 /// \}
 

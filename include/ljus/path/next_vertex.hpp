@@ -45,7 +45,7 @@ inline constexpr bool lists_thin_surfaces = S::any_material([]<typename M>() {
 /// Whether a type of scene lists a shape that moves.
 template <SceneLike S>
 inline constexpr bool lists_moving = S::any_shape([]<typename G>() {
-    return is_moving<G>;
+    return detail::is_moving<G>;
 });
 
 /// Whether a scene has a thin surface among its materials: the pass is on.

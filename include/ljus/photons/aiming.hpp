@@ -40,9 +40,9 @@ struct AimedPhotonT {
 /// How a point of a light aims at an object.
 template <std::floating_point T>
 struct AimT {
-    ConeT<T> cone{};      ///< In which it sees the object's bounding sphere.
-    bool at_area = false; ///< At points of the object's area instead of the cone.
-    T size = T(0);        ///< About the solid angle over 2 pi: how often it is chosen.
+    detail::ConeT<T> cone{}; ///< In which it sees the object's bounding sphere.
+    bool at_area = false;    ///< At points of the object's area instead of the cone.
+    T size = T(0); ///< About the solid angle over 2 pi: how often it is chosen.
 };
 
 /// How a point of a light aims at an object: at the cone in which it sees the object's
@@ -60,12 +60,13 @@ template <SceneLike S, std::floating_point T>
                              const SurfacePointT<T>& from, ObjectId target) {
     return scene.visit_shape(target, [&](const auto& shape) {
         const SphereT<T> bound = bounding_sphere(shape);
-        const ConeT<T> cone = cone_towards(bound, from.position);
+        const detail::ConeT<T> cone = detail::cone_towards(bound, from.position);
         if (light.kind == LightKind::spot && light.outer < cone.one_minus_cos)
             return AimT<T>{{light.direction, light.outer}, false, light.outer};
         if (cone.one_minus_cos == T(2) && light.object) // inside
             return AimT<T>{{from.normal, T(1)}, false, T(1)};
-        if (cone.one_minus_cos == T(2) || !is_flat<std::remove_cvref_t<decltype(shape)>>)
+        if (cone.one_minus_cos == T(2) ||
+            !detail::is_flat<std::remove_cvref_t<decltype(shape)>>)
             return AimT<T>{cone, false, cone.one_minus_cos};
         const Vec3T<T> way = bound.center - from.position;
         T size = T(0);
@@ -90,7 +91,7 @@ template <std::floating_point T>
 [[nodiscard]] EmittedPhotonT<T> aim_at_ball(const LightT<T>& light,
                                             const SphereT<T>& ball,
                                             const Vec2T<T>& u) noexcept {
-    const ConeT<T> cone = cone_towards(ball, light.position);
+    const detail::ConeT<T> cone = detail::cone_towards(ball, light.position);
     const Vec3T<T> local = sample_uniform_cone(u, cone.one_minus_cos);
     return {.ray{.origin = light.position,
                  .direction = to_world(frame_around(cone.axis), local)},
@@ -217,7 +218,8 @@ aim(const S& scene, const LightChoice& choice, const std::vector<ObjectId>& targ
     T pdf = pdf_uniform_cone(at.cone.one_minus_cos);
     if (at.at_area) {
         const auto seen = scene.visit_shape(aimed->target, [&](const auto& shape) {
-            return sample_towards(at_time(shape, time), point.position, u_direction);
+            return detail::sample_towards(at_time(shape, time), point.position,
+                                          u_direction);
         });
         direction = glm::normalize(seen.point.position - point.position);
         pdf = seen.pdf;

@@ -34,7 +34,7 @@ struct FormFactors {
     /// The share of what patch i sends out that arrives at any patch: 1 in a closed
     /// room.
     [[nodiscard]] double row_sum(std::size_t i) const noexcept {
-        return pairwise_sum(row(i)) / area[i];
+        return detail::pairwise_sum(row(i)) / area[i];
     }
 };
 

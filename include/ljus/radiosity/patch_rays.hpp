@@ -132,9 +132,9 @@ template <SceneLike S>
         if (!(glm::dot(way, a.normal) > T(0) && cosines > 0)) continue;
         const double weight = cosines / (distance2 * distance2);
         total += weight;
-        if (!occluded(scene, spawn_ray_to(a, b))) detail::visible += weight;
+        if (!occluded(scene, spawn_ray_to(a, b))) visible += weight;
     }
-    return total > 0 ? detail::visible / total : 0;
+    return total > 0 ? visible / total : 0;
 }
 
 /// \}

@@ -112,7 +112,8 @@ template <SceneLike S, std::floating_point T>
 [[nodiscard]] T pdf_of_light(const PathTracer<S>& tracer, const PathStateT<T>& path,
                              const VertexT<T>& vertex) {
     const T pdf = tracer.scene.visit_shape(vertex.id, [&](const auto& shape) {
-        return pdf_towards(at_time(shape, vertex.time), path.previous, vertex.point);
+        return detail::pdf_towards(at_time(shape, vertex.time), path.previous,
+                                   vertex.point);
     });
     return pdf * probability_of<T>(tracer.lights, vertex.object.light);
 }

@@ -155,9 +155,10 @@ sample_light(const S& scene, const LightT<T>& light, const Vec3T<T>& from,
                                .wi = wi,
                                .weight = share * light.emission / distance2};
     }
-    SeenPointT<T> seen = scene.visit_shape(*light.object, [&](const auto& shape) {
-        return sample_towards(at_time(shape, time), from, u);
-    });
+    detail::SeenPointT<T> seen =
+        scene.visit_shape(*light.object, [&](const auto& shape) {
+            return detail::sample_towards(at_time(shape, time), from, u);
+        });
     if (scene.object(*light.object).inside_out) seen.point.normal = -seen.point.normal;
 
     const Vec3T<T> wi = glm::normalize(seen.point.position - from);

@@ -23,6 +23,8 @@ namespace ljus {
 /// \ref ch_metaballs.
 /// \{
 
+namespace detail {
+
 /// One source of a field: \f$ w (1 - r^2/R^2)^2 \f$ within R, and 0 beyond.
 template <std::floating_point T>
 struct BlobT {
@@ -40,12 +42,12 @@ inline constexpr T steepest_blob = T(8) / (T(3) * std::numbers::sqrt3_v<T>);
 /// where s > 0.
 template <std::floating_point C>
 struct StrandT {
-    C enter = C(0);             ///< Where s becomes positive.
-    C leave = C(0); ///< Where it ends to be.
-    C middle = C(0);            ///< m, where the ray is nearest to the centre.
-    C height = C(0);            ///< h = 1 - p^2/R^2 there.
-    C bend = C(0);              ///< k = D.D / R^2.
-    C weight = C(1);            ///< w.
+    C enter = C(0);  ///< Where s becomes positive.
+    C leave = C(0);  ///< Where it ends to be.
+    C middle = C(0); ///< m, where the ray is nearest to the centre.
+    C height = C(0); ///< h = 1 - p^2/R^2 there.
+    C bend = C(0);   ///< k = D.D / R^2.
+    C weight = C(1); ///< w.
 };
 
 /// A blob on a ray, in the way of chord(): the difference of vectors before the square.
@@ -103,7 +105,7 @@ struct MetaballLineT {
     std::span<const StrandT<C>> strands{}; ///< The blobs that the ray meets.
     C level = C(0);                        ///< L.
     C enter = C(0);                        ///< Where the first of them begins.
-    C leave = C(-1);           ///< Where the last of them ends.
+    C leave = C(-1);                       ///< Where the last of them ends.
 
     /// f(O + tD).
     [[nodiscard]] C value(C t) const noexcept {
@@ -179,6 +181,8 @@ template <std::floating_point C>
     }
     return line;
 }
+
+} // namespace detail
 
 /// \}
 

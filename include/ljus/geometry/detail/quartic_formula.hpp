@@ -18,6 +18,8 @@ namespace ljus {
 /// \ref ch_metaballs.
 /// \{
 
+namespace detail {
+
 /// Real roots, in no order.
 template <std::floating_point T>
 struct QuarticRootsT {
@@ -80,6 +82,8 @@ template <std::floating_point T>
     }
     return result;
 }
+
+} // namespace detail
 
 /// \}
 
