@@ -100,9 +100,9 @@ TEST_CASE("full glossy: it is the gloss and what that loses, no more than there 
             CHECK(full.x / full.z > first.x / first.z);
         }
     }
-    CHECK(ljus::mean_reflectance<double>(ljus::RgbT<double>{1}).x ==
+    CHECK(ljus::detail::mean_reflectance<double>(ljus::RgbT<double>{1}).x ==
           doctest::Approx(1).epsilon(1e-12));
-    const auto grey = ljus::mean_reflectance<double>(ljus::RgbT<double>{0.2});
+    const auto grey = ljus::detail::mean_reflectance<double>(ljus::RgbT<double>{0.2});
     CHECK(grey.x == doctest::Approx(0.2 + 0.8 / 21).epsilon(1e-4)); // Schlick's mean
 }
 

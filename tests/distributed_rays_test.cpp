@@ -379,8 +379,9 @@ TEST_CASE("distributed rays: a moving lamp lights as the mean over its places") 
 TEST_CASE("distributed rays: a scene in which nothing moves draws no time") {
     const auto scene = edge_scene();
     const auto tracer = make_distributed(scene);
-    static_assert(!lists_moving<decltype(scene)>);
-    static_assert(lists_moving<Scene<Shapes<Quad, Moving<Sphere>>, Materials<Mirror>>>);
+    static_assert(!detail::lists_moving<decltype(scene)>);
+    static_assert(
+        detail::lists_moving<Scene<Shapes<Quad, Moving<Sphere>>, Materials<Mirror>>>);
     RandomStream stream;
     Counts counts;
     const RayT<double> up{.origin{30, 5, 30}, .direction{0, 1, 0}};

@@ -180,7 +180,7 @@ TEST_CASE("glossy: the smoother, the more a mirror; at roughness 0 it is one") {
     REQUIRE(s);
     CHECK(s->specular);
     CHECK(s->wi == ljus::reflect(wo));
-    CHECK(s->weight == ljus::facet_reflectance(mirror.reflectance, wo.z));
+    CHECK(s->weight == ljus::detail::facet_reflectance(mirror.reflectance, wo.z));
     CHECK_FALSE(sample(mirror, wo, u, Transport::flux, Lobes::glossy));
 
     double farther = 1;

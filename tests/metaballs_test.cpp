@@ -81,8 +81,7 @@ TEST_CASE("metaballs: the field of one blob by hand, of more by their sum") {
     for (int i = 0; i < 200; ++i) {
         const Point x = Point{0, 0, -4} + n.point(1.5);
         double sum = -0.25;
-        for (const detail::Blob& b : all.blobs)
-            sum += field(Metaballs{.blobs{b}}, x) + 0.25;
+        for (const Blob& b : all.blobs) sum += field(Metaballs{.blobs{b}}, x) + 0.25;
         CHECK(field(all, x) == doctest::Approx(sum).epsilon(1e-12));
     }
 }
@@ -257,7 +256,7 @@ TEST_CASE("metaballs: the bounding sphere holds every hit, and is tight for one 
     CHECK(bounding_sphere(Metaballs{.blobs{{.weight = 0.1f}}}).radius ==
           0); // no surface
     // Ten weak blobs in one place, none of which reaches the level alone.
-    const Metaballs weak{.blobs = std::vector(10, detail::Blob{.weight = 0.1f})};
+    const Metaballs weak{.blobs = std::vector(10, Blob{.weight = 0.1f})};
     CHECK(double(bounding_sphere(weak).radius) >= sphere_radius(1, 1, 0.25));
 }
 
@@ -397,7 +396,7 @@ TEST_CASE("metaballs: glass and grey ones in the path tracer and the photon mapp
     Scene<Shapes<Metaballs, Sphere, Quad>, Materials<Lambertian, Glass>> scene;
     const auto grey = scene.add(Lambertian{.albedo = Rgb{0.6f}});
     Metaballs left = peanut();
-    for (detail::Blob& b : left.blobs) b.center.x -= 1.6f;
+    for (Blob& b : left.blobs) b.center.x -= 1.6f;
     scene.add(peanut(), scene.add(Glass{}));
     scene.add(left, grey);
     scene.add(Quad{.corner{-4, -1, 0}, .edge_u{8, 0, 0}, .edge_v{0, 0, -8}}, grey);

@@ -85,12 +85,13 @@ TEST_CASE_TEMPLATE("microfacet: as many facets as 50 digits count", T, float, do
 TEST_CASE_TEMPLATE("microfacet: the middle is one, where squares underflow too", T,
                    float, double) {
     const T tiny = std::numeric_limits<T>::min();
-    const auto h = ljus::half_vector(Vec3T<T>{1, 0, tiny}, Vec3T<T>{-1, 0, tiny});
+    const auto h =
+        ljus::detail::half_vector(Vec3T<T>{1, 0, tiny}, Vec3T<T>{-1, 0, tiny});
     CHECK(h == Vec3T<T>{0, 0, 1});
     Draws draws;
     for (int i = 0; i < 1000; ++i) {
         const auto a = draws.above<T>(), b = draws.above<T>();
-        const auto m = ljus::half_vector(a, b);
+        const auto m = ljus::detail::half_vector(a, b);
         REQUIRE(std::abs(glm::length(m) - 1) <= 2 * std::numeric_limits<T>::epsilon());
         REQUIRE(std::abs(glm::dot(a, m) - glm::dot(b, m)) <=
                 4 * std::numeric_limits<T>::epsilon());

@@ -155,13 +155,14 @@ TEST_CASE("thin sheets: the survey says whether there are any") {
     const auto without = survey(room_with(nullptr), PhotonMappingSettings{});
     CHECK_FALSE(without.thin_film.on);
     CHECK(without.thin_film.why == "no material is one");
-    CHECK_FALSE(lists_thin_surfaces<Scene<Shapes<Sphere>, Materials<Lambertian>>>);
+    CHECK_FALSE(
+        detail::lists_thin_surfaces<Scene<Shapes<Sphere>, Materials<Lambertian>>>);
 }
 
 TEST_CASE("thin sheets: a lamp is seen through a bubble by T of each wall") {
     const SoapFilm film{.thickness = 300, .scale = 0.7f};
     const Room room = room_with(&film);
-    const IndexedT<Room> indexed(room);
+    const detail::IndexedT<Room> indexed(room);
     Draws draws;
     int hits = 0;
     for (int i = 0; i < 2000; ++i) {

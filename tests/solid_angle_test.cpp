@@ -46,8 +46,7 @@ Mean measured(const S& shape, const Vec3T<T>& from, int count, bool all = false)
     Numbers n;
     Mean mean;
     for (int i = 0; i < count; ++i) {
-        const detail::SeenPointT<T> seen =
-            detail::sample_towards(shape, from, n.square<T>());
+        const SeenPointT<T> seen = sample_towards(shape, from, n.square<T>());
         const bool faces = glm::dot(seen.point.position - from, seen.point.normal) < 0;
         mean.add(faces || all ? 1.0 / double(seen.pdf) : 0.0);
     }
@@ -75,8 +74,7 @@ TEST_CASE_TEMPLATE("solid angle: the cone of a sphere, near, far, tiny and huge"
             // And so is the density of every point, for all of the cone.
             Numbers n;
             for (int i = 0; i < 50; ++i) {
-                const auto seen =
-                    detail::sample_towards(ball, Vec3T<T>{0}, n.square<T>());
+                const auto seen = sample_towards(ball, Vec3T<T>{0}, n.square<T>());
                 REQUIRE(double(seen.pdf) ==
                         doctest::Approx(1 / truth).epsilon(allowed));
             }
@@ -108,7 +106,7 @@ TEST_CASE("solid angle: a sphere just outside of which the observer stands") {
     // On the surface itself the answer is a number or nothing, never a wrong light.
     Numbers n;
     for (int i = 0; i < 1000; ++i)
-        CHECK(detail::sample_towards(ball, Vec3{0, 1, 0}, n.square<float>()).pdf >= 0);
+        CHECK(sample_towards(ball, Vec3{0, 1, 0}, n.square<float>()).pdf >= 0);
 }
 
 TEST_CASE_TEMPLATE("solid angle: on the wall of a spherical room all of it is seen", T,
@@ -120,8 +118,7 @@ TEST_CASE_TEMPLATE("solid angle: on the wall of a spherical room all of it is se
         Mean light;
         for (int i = 0; i < 40000; ++i) {
             const auto from = sample_area(room, n.square<T>());
-            const auto seen =
-                detail::sample_towards(room, from.position, n.square<T>());
+            const auto seen = sample_towards(room, from.position, n.square<T>());
             const Vec3T<T> way = seen.point.position - from.position;
             // Both normals point inwards; L = 1 gives the irradiance pi.
             const double cosine = -double(glm::dot(glm::normalize(way), from.normal));
@@ -146,7 +143,7 @@ TEST_CASE_TEMPLATE(
                 const auto center = offset * n.point(1);
                 const auto from = Vec3T<T>(center + ratio * n.direction());
                 const SphereT<T> ball{Vec3T<T>(center), T(1)};
-                const auto seen = detail::sample_towards(ball, from, n.square<T>());
+                const auto seen = sample_towards(ball, from, n.square<T>());
                 const Vec3T<T> way = seen.point.position - from;
                 averted += !(glm::dot(way, seen.point.normal) < 0);
                 const double distance = glm::distance(glm::dvec3(seen.point.position),
@@ -171,8 +168,8 @@ TEST_CASE("solid angle: directions fill the cone of a sphere evenly") {
         Numbers n;
         std::array<int, 100> cells{};
         for (int i = 0; i < 100000; ++i) {
-            const detail::SeenPointT<float> seen =
-                detail::sample_towards(ball, from, n.square<float>());
+            const SeenPointT<float> seen =
+                sample_towards(ball, from, n.square<float>());
             const auto wi =
                 glm::normalize(glm::dvec3(seen.point.position) - glm::dvec3(from));
             const double px = glm::dot(wi, x), py = glm::dot(wi, y);
@@ -216,7 +213,7 @@ TEST_CASE("solid angle: small and far, every point of a lamp has the lamp's dens
         const Quad lamp{{0, distance, 0}, side, across};
         Numbers n;
         for (int i = 0; i < 100; ++i) {
-            const auto seen = detail::sample_towards(lamp, Vec3{0}, n.square<float>());
+            const auto seen = sample_towards(lamp, Vec3{0}, n.square<float>());
             CHECK(double(seen.pdf) ==
                   doctest::Approx(double(distance) * distance * 2).epsilon(0.04));
         }
@@ -233,8 +230,8 @@ TEST_CASE_TEMPLATE("solid angle: pdf_towards is the density of sample_towards", 
                             Vec3T<T>(n.point(3))};
         const TriangleT<T> triangle{quad.corner, quad.edge_u, quad.edge_v};
         const auto same = [&](const auto& shape) {
-            const auto seen = detail::sample_towards(shape, from, n.square<T>());
-            return detail::pdf_towards(shape, from, seen.point) == seen.pdf;
+            const auto seen = sample_towards(shape, from, n.square<T>());
+            return pdf_towards(shape, from, seen.point) == seen.pdf;
         };
         REQUIRE(same(ball));
         REQUIRE(same(quad));
@@ -244,9 +241,8 @@ TEST_CASE_TEMPLATE("solid angle: pdf_towards is the density of sample_towards", 
 
 TEST_CASE("solid angle: a surface seen edge-on gives no light, not a wrong one") {
     const Quad lamp{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    const auto seen = detail::sample_towards(lamp, Vec3{3, 0.25f, 0}, Vec2{0.5f, 0.5f});
+    const auto seen = sample_towards(lamp, Vec3{3, 0.25f, 0}, Vec2{0.5f, 0.5f});
     CHECK_FALSE(std::isfinite(seen.pdf));
-    const auto on_it =
-        detail::sample_towards(lamp, Vec3{0.5f, 0.5f, 0}, Vec2{0.5f, 0.5f});
+    const auto on_it = sample_towards(lamp, Vec3{0.5f, 0.5f, 0}, Vec2{0.5f, 0.5f});
     CHECK_FALSE(std::isfinite(on_it.pdf));
 }

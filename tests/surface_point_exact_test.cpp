@@ -121,7 +121,7 @@ void leave_it(Tally& tally, Numbers& n, const Made<T>& made, const Shape& shape,
         point = sample_area(shape, n.square<T>());
     } else {
         const V observer = V(made.target) + made.size * n.power(0, 2) * n.direction();
-        point = detail::sample_towards(shape, Vec3T<T>(observer), n.square<T>()).point;
+        point = sample_towards(shape, Vec3T<T>(observer), n.square<T>()).point;
     }
     const V up = true_normal(shape, point.position);
 

@@ -38,8 +38,7 @@ Lost shadow_rays(double offset, double distance, bool lamp_near, MakeLamp make_l
                              Vec3T<T>(across)};
         const SurfacePointT<T> from = point_at(floor, T(0.5), T(0.5));
         const auto lamp = make_lamp(lamp_at, -way, n);
-        const auto to =
-            detail::sample_towards(lamp, from.position, n.square<T>()).point;
+        const auto to = sample_towards(lamp, from.position, n.square<T>()).point;
         if (!(glm::dot(to.position - from.position, to.normal) < 0)) continue;
         const RayT<T> ray = spawn_ray_to(from, to);
         ++lost.rays;

@@ -1,103 +1,79 @@
-#One point of the lamp for all rays : Whitted's hard shadow, not a penumbra.
-ljus_break_it(NAME distributed - rays - hard -
-              shadow HEADER render /
-                  distributed.hpp TEST distributed_rays FROM
-                  "direct_light(scene, light, vertex, material, u, whole, counts)" TO
-                  "direct_light(scene, light, vertex, material, Vec2T<T>{T(0.5)}, "
-                  "whole, counts)" CASES "distributed rays: the penumbra*")
+# One point of the lamp for all rays: Whitted's hard shadow, not a penumbra.
+ljus_break_it(NAME distributed-rays-hard-shadow HEADER render/distributed.hpp
+    TEST distributed_rays
+    FROM "direct_light(scene, light, vertex, material, u, whole, counts)"
+    TO   "direct_light(scene, light, vertex, material, Vec2T<T>{T(0.5)}, whole, counts)"
+    CASES "distributed rays: the penumbra*")
 
-#A lamp in gloss has two owners : the shadow ray and the reflected one.
-    ljus_break_it(NAME distributed - rays - two -
-                  owners HEADER render / distributed.hpp TEST distributed_rays FROM
-                                         "if (gloss && light.object) continue;" TO
-                                         "" CASES "distributed rays: gloss sees*")
+# A lamp in gloss has two owners: the shadow ray and the reflected one.
+ljus_break_it(NAME distributed-rays-two-owners HEADER render/distributed.hpp
+    TEST distributed_rays
+    FROM "if (gloss && light.object) continue;"
+    TO   ""
+    CASES "distributed rays: gloss sees*")
 
-#Matt surfaces send their light on as well.
-        ljus_break_it(NAME distributed - rays -
-                      matt HEADER render /
-                          distributed.hpp TEST distributed_rays FROM
-                          "has(parts, Lobes::glossy) ? Lobes::all : Lobes::specular" TO
-                          "Lobes::all" CASES "distributed rays: a matt surface*")
+# Matt surfaces send their light on as well.
+ljus_break_it(NAME distributed-rays-matt HEADER render/distributed.hpp
+    TEST distributed_rays
+    FROM "has(parts, Lobes::glossy) ? Lobes::all : Lobes::specular"
+    TO   "Lobes::all"
+    CASES "distributed rays: a matt surface*")
 
-#The depth counts one turn too many.
-            ljus_break_it(
-                NAME distributed - rays -
-                depth HEADER render /
-                    distributed.hpp TEST distributed_rays FROM
-                    "if (path.depth > tracer.settings.max_depth) return false;" TO
-                    "if (path.depth > tracer.settings.max_depth + 1) return "
-                    "false;" CASES "distributed rays: every path*")
+# The depth counts one turn too many.
+ljus_break_it(NAME distributed-rays-depth HEADER render/distributed.hpp
+    TEST distributed_rays
+    FROM "if (path.depth > tracer.settings.max_depth) return false;"
+    TO   "if (path.depth > tracer.settings.max_depth + 1) return false;"
+    CASES "distributed rays: every path*")
 
-#Nothing moves.
-                ljus_break_it(
-                    NAME distributed - rays -
-                    frozen HEADER geometry /
-                        moving.hpp TEST distributed_rays FROM
-                        "moved(moving.shape, time * moving.way)" TO
-                        "detail::moved(moving.shape, T(0) * time * moving.way)" CASES
-                        "distributed rays: a moving strip*")
+# Nothing moves.
+ljus_break_it(NAME distributed-rays-frozen HEADER geometry/moving.hpp
+    TEST distributed_rays
+    FROM "translated(moving.shape, time * moving.way)"
+    TO   "translated(moving.shape, T(0) * time * moving.way)"
+    CASES "distributed rays: a moving strip*")
 
-#The tree knows what moves where it starts, and loses it on its way.
-                    ljus_break_it(NAME distributed - rays -
-                                  bounds HEADER geometry /
-                                      moving.hpp TEST distributed_rays FROM
-                                      "box_union(first, last)" TO "first" CASES
-                                      "distributed rays: at each time*")
+# The tree knows what moves where it starts, and loses it on its way.
+ljus_break_it(NAME distributed-rays-bounds HEADER geometry/moving.hpp
+    TEST distributed_rays
+    FROM "box_union(first, last)"
+    TO   "first"
+    CASES "distributed rays: at each time*")
 
-#Shadow rays run through the scene as it was when the shutter opened.
-                        ljus_break_it(NAME distributed - rays - shadow -
-                                      time HEADER path /
-                                          direct_light.hpp TEST distributed_rays FROM
-                                          "visibility(scene, point, sampled->point, "
-                                          "vertex.time);" TO
-                                          "visibility(scene, point, sampled->point);")
+# Shadow rays run through the scene as it was when the shutter opened.
+ljus_break_it(NAME distributed-rays-shadow-time HEADER path/direct_light.hpp
+    TEST distributed_rays
+    FROM "visibility(scene, point, sampled->point, vertex.time);"
+    TO   "visibility(scene, point, sampled->point);")
 
-#Pixels, not planes : sharp on a sphere around the lens.
-                            ljus_break_it(NAME lens - camera -
-                                          sphere HEADER scene /
-                                              lens_camera.hpp TEST lens_camera FROM
-                                              "camera.focus / glm::dot(way, "
-                                              "middle.forward) * way" TO
-                                              "camera.focus * way" CASES
-                                              "lens: all rays*")
+# Pixels, not planes: sharp on a sphere around the lens.
+ljus_break_it(NAME lens-camera-sphere HEADER scene/lens_camera.hpp TEST lens_camera
+    FROM "camera.focus / glm::dot(way, middle.forward) * way"
+    TO   "camera.focus * way"
+    CASES "lens: all rays*")
 
-#Points of the square in place of the disc : blur is square, and too wide.
-                                ljus_break_it(NAME lens - camera -
-                                              square HEADER scene /
-                                                  lens_camera.hpp TEST lens_camera FROM
-                                                  "sample_concentric_disc(u)" TO
-                                                  "(T(2) * u - T(1))" CASES
-                                                  "lens: the opening*")
+# Points of the square in place of the disc: blur is square, and too wide.
+ljus_break_it(NAME lens-camera-square HEADER scene/lens_camera.hpp TEST lens_camera
+    FROM "sample_concentric_disc(u)"
+    TO   "(T(2) * u - T(1))"
+    CASES "lens: the opening*")
 
-#The circle of confusion as if the film stood at infinity.
-                                    ljus_break_it(
-                                        NAME lens - camera -
-                                        confusion HEADER scene /
-                                            lens_camera.hpp TEST lens_camera FROM
-                                            "/ (depth * camera.focus);" TO
-                                            "/ (camera.focus * camera.focus);" CASES
-                                            "lens: the circle*")
+# The circle of confusion as if the film stood at infinity.
+ljus_break_it(NAME lens-camera-confusion HEADER scene/lens_camera.hpp TEST lens_camera
+    FROM "/ (depth * camera.focus);"
+    TO   "/ (camera.focus * camera.focus);"
+    CASES "lens: the circle*")
 
-#The same order in all draws : the time of a ray tells its place on the lens.
-                                        ljus_break_it(
-                                            NAME stratified - stream -
-                                            order HEADER math /
-                                                stratified_stream.hpp TEST lens_camera
-                                                    FROM
-                                                "static_cast<std::uint32_t>(stream."
-                                                "pattern.points), key);" TO
-                                                "static_cast<std::uint32_t>(stream."
-                                                "pattern.points), stream.key);" CASES
-                                                "stratified stream: *")
+# The same order in all draws: the time of a ray tells its place on the lens.
+ljus_break_it(NAME stratified-stream-order HEADER math/stratified_stream.hpp
+    TEST lens_camera
+    FROM "static_cast<std::uint32_t>(stream.pattern.points), key);"
+    TO   "static_cast<std::uint32_t>(stream.pattern.points), stream.key);"
+    CASES "stratified stream: *")
 
-#Cells that are not divided by their number.
-                                            ljus_break_it(
-                                                NAME stratified - stream -
-                                                random HEADER math /
-                                                    stratified_stream.hpp TEST
-                                                        lens_camera FROM
-                                                    "spread(stream.pattern, cell, "
-                                                    "~key, next_2d<T>(stream.rest));" TO
-                                                    "next_2d<T>(stream.rest); "
-                                                    "(void)cell;" CASES
-                                                    "stratified stream: in each*")
+# Cells that are not divided by their number.
+ljus_break_it(NAME stratified-stream-random HEADER math/stratified_stream.hpp
+    TEST lens_camera
+    FROM "spread(stream.pattern, cell, ~key, next_2d<T>(stream.rest));"
+    TO   "next_2d<T>(stream.rest); (void)cell;"
+    CASES "stratified stream: in each*")

@@ -1,108 +1,74 @@
-#The blob's field ends at R; without that, blobs attract each other from any distance.
-ljus_break_it(NAME metaballs - support HEADER geometry /
-                                   metaballs.hpp TEST metaballs FROM
-                                   "if (s > C(0)) sum += C(blob.weight) * s * s;" TO
-                                   "sum += C(blob.weight) * s * s;" CASES
-                                   "metaballs: the field of one*")
+# The blob's field ends at R; without that, blobs attract each other from any distance.
+ljus_break_it(NAME metaballs-support HEADER geometry/metaballs.hpp TEST metaballs
+    FROM "if (s > C(0)) sum += C(blob.weight) * s * s;"
+    TO   "sum += C(blob.weight) * s * s;"
+    CASES "metaballs: the field of one*")
 
-    ljus_break_it(NAME metaballs -
-                  gradient HEADER geometry /
-                      metaballs.hpp TEST metaballs FROM
-                      "sum -= C(4) * C(blob.weight) * s * q / C(blob.radius);" TO
-                      "sum -= C(2) * C(blob.weight) * s * q / C(blob.radius);" CASES
-                      "metaballs: the gradient agrees*")
+ljus_break_it(NAME metaballs-gradient HEADER geometry/metaballs.hpp TEST metaballs
+    FROM "sum -= C(4) * C(blob.weight) * s * q / C(blob.radius);"
+    TO   "sum -= C(2) * C(blob.weight) * s * q / C(blob.radius);"
+    CASES "metaballs: the gradient agrees*")
 
-#A bound of the slope that is too low lets steps jump over the surface.
-        ljus_break_it(NAME metaballs -
-                      lipschitz HEADER geometry / detail /
-                          metaball_line.hpp TEST metaballs FROM
-                          "steepest_blob = T(8) / (T(3) * std::numbers::sqrt3_v<T>);" TO
-                          "steepest_blob = T(1);" CASES
-                          "metaballs: the gradient agrees*" COMPILED)
+# A bound of the slope that is too low lets steps jump over the surface.
+ljus_break_it(NAME metaballs-lipschitz HEADER geometry/detail/metaball_line.hpp TEST metaballs
+    FROM "steepest_blob = T(8) / (T(3) * std::numbers::sqrt3_v<T>);"
+    TO   "steepest_blob = T(1);"
+    CASES "metaballs: the gradient agrees*"
+    COMPILED)
 
-#The middle coefficient of s ^ 2 is not the square of the middle one of s.
-            ljus_break_it(NAME metaballs - blossom HEADER geometry / detail /
-                                               metaball_quartic.hpp TEST metaballs FROM
-                                               "(s0 * s2 + C(2) * s1 * s1) / C(3)" TO
-                                               "s1 * s1" CASES
-                                               "metaballs: one blob is a sphere*")
+# The middle coefficient of s^2 is not the square of the middle one of s.
+ljus_break_it(NAME metaballs-blossom HEADER geometry/detail/metaball_quartic.hpp TEST metaballs
+    FROM "(s0 * s2 + C(2) * s1 * s1) / C(3)"
+    TO   "s1 * s1"
+    CASES "metaballs: one blob is a sphere*")
 
-#From within, the hit is where the ray leaves.
-                ljus_break_it(NAME metaballs -
-                              inside HEADER geometry / detail /
-                                  metaball_quartic.hpp TEST metaballs FROM
-                                  "const bool inside = line.value(a) >= C(0);" TO
-                                  "const bool inside = false;" CASES
-                                  "metaballs: the first hit*")
+# From within, the hit is where the ray leaves.
+ljus_break_it(NAME metaballs-inside HEADER geometry/detail/metaball_quartic.hpp TEST metaballs
+    FROM "const bool inside = line.value(a) >= C(0);"
+    TO   "const bool inside = false;"
+    CASES "metaballs: the first hit*")
 
-                    ljus_break_it(NAME metaballs -
-                                  range HEADER geometry / detail /
-                                      metaball_quartic.hpp TEST metaballs FROM
-                                      "const C end = glm::min(t_max, line.leave);" TO
-                                      "const C end = line.leave;" CASES
-                                      "metaballs: the first hit*")
+ljus_break_it(NAME metaballs-range HEADER geometry/detail/metaball_quartic.hpp TEST metaballs
+    FROM "const C end = glm::min(t_max, line.leave);"
+    TO   "const C end = line.leave;"
+    CASES "metaballs: the first hit*")
 
-#A seventeenth blob that forgets the sixteen before it.
-                        ljus_break_it(NAME metaballs -
-                                      heap HEADER geometry / detail /
-                                          metaball_line.hpp TEST metaballs FROM
-                                          "if (many.empty()) many.assign(few.begin(), "
-                                          "few.end());" TO "" CASES
-                                          "metaballs: more than 16*")
+# A seventeenth blob that forgets the sixteen before it.
+ljus_break_it(NAME metaballs-heap HEADER geometry/detail/metaball_line.hpp TEST metaballs
+    FROM "if (many.empty()) many.assign(few.begin(), few.end());"
+    TO   ""
+    CASES "metaballs: more than 16*")
 
-                            ljus_break_it(
-                                NAME metaballs -
-                                    carving HEADER geometry /
-                                        metaballs.hpp TEST metaballs FROM
-                                        "for (const detail::BlobT<T>& blob : balls.blobs)
-                                        positive += blob.weight > T(0) ? 1 : 0;
-                                "
-                                TO "positive = 1;" CASES
-                                "metaballs: the bounding sphere*")
+ljus_break_it(NAME metaballs-carving HEADER geometry/metaballs.hpp TEST metaballs
+    FROM "for (const BlobT<T>& blob : balls.blobs) positive += blob.weight > T(0) ? 1 : 0;"
+    TO   "positive = 1;"
+    CASES "metaballs: the bounding sphere*")
 
-#The point stays where t was rounded to.
-                                ljus_break_it(NAME metaballs -
-                                              refined HEADER geometry /
-                                                  isosurface.hpp TEST metaballs FROM
-                                                  "x -= step * g;" TO
-                                                  "x += step * g;" CASES
-                                                  "metaballs: a hit lies*")
+# The point stays where t was rounded to.
+ljus_break_it(NAME metaballs-refined HEADER geometry/isosurface.hpp TEST metaballs
+    FROM "x -= step * g;"
+    TO   "x += step * g;"
+    CASES "metaballs: a hit lies*")
 
-                                    ljus_break_it(
-                                        NAME metaballs -
-                                        normal HEADER geometry /
-                                            isosurface.hpp TEST metaballs FROM
-                                            "Vec3T<T>(-glm::normalize(g))" TO
-                                            "Vec3T<T>(glm::normalize(g))" CASES
-                                            "metaballs: a hit lies*")
+ljus_break_it(NAME metaballs-normal HEADER geometry/isosurface.hpp TEST metaballs
+    FROM "Vec3T<T>(-glm::normalize(g))"
+    TO   "Vec3T<T>(glm::normalize(g))"
+    CASES "metaballs: a hit lies*")
 
-#A part whose slope has both signs may hold two crossings.
-                                        ljus_break_it(NAME metaballs -
-                                                      monotone HEADER geometry /
-                                                          detail /
-                                                          field_on_ray.hpp TEST
-                                                              metaballs_exact FROM
-                                                          "if (slope.low > T(0) || "
-                                                          "slope.high < T(0)) {" TO
-                                                          "{" CASES
-                                                          "metaballs exact: interval*")
+# A part whose slope has both signs may hold two crossings.
+ljus_break_it(NAME metaballs-monotone HEADER geometry/detail/field_on_ray.hpp TEST metaballs_exact
+    FROM "if (slope.low > T(0) || slope.high < T(0)) {"
+    TO   "{"
+    CASES "metaballs exact: interval*")
 
-#Steps of twice the safe length.
-                                            ljus_break_it(
-                                                NAME metaballs -
-                                                overstep HEADER geometry / detail /
-                                                    field_on_ray.hpp TEST metaballs FROM
-                                                    "t += distance / steepest;" TO
-                                                    "t += T(4) * distance / "
-                                                    "steepest;" CASES "metaballs: *")
+# Steps of twice the safe length.
+ljus_break_it(NAME metaballs-overstep HEADER geometry/detail/field_on_ray.hpp TEST metaballs
+    FROM "t += distance / steepest;"
+    TO   "t += T(4) * distance / steepest;"
+    CASES "metaballs: *")
 
-#What cannot be sampled must not become a light.
-                                                ljus_break_it(
-                                                    NAME metaballs -
-                                                    light HEADER scene /
-                                                        scene.hpp TEST metaballs FROM
-                                                        "require(is_black(radiance), "
-                                                        "\"the radiance" TO
-                                                        "require(true, \"the "
-                                                        "radiance" CASES
-                                                        "metaballs: no light*")
+# What cannot be sampled must not become a light.
+ljus_break_it(NAME metaballs-light HEADER scene/scene.hpp TEST metaballs
+    FROM "require(is_black(radiance), \"the radiance"
+    TO   "require(true, \"the radiance"
+    CASES "metaballs: no light*")

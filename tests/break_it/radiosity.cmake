@@ -48,8 +48,8 @@ ljus_break_it(NAME patches-upper HEADER radiosity/patch_grid.hpp TEST patches
 
 # Nothing ever stands between two patches.
 ljus_break_it(NAME form-factors-visible HEADER radiosity/patch_rays.hpp TEST patches
-    FROM "if (!occluded(scene, spawn_ray_to(a, b))) detail::visible += weight;"
-    TO   "detail::visible += weight;"
+    FROM "if (!occluded(scene, spawn_ray_to(a, b))) visible += weight;"
+    TO   "visible += weight;"
     CASES "form_factors: what stands between")
 
 # Directions uniform over the hemisphere: the cosine is forgotten.

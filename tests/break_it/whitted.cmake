@@ -1,46 +1,35 @@
-#The second branch at glass is grown from the first : twice the reflection.
-ljus_break_it(NAME whitted - branch HEADER render / whitted.hpp TEST whitted FROM
-                                                    "grow(*other);" TO
-                                                    "grow(path);" CASES
-                                                    "whitted: a ball of glass over*")
+# The second branch at glass is grown from the first: twice the reflection.
+ljus_break_it(NAME whitted-branch HEADER render/whitted.hpp TEST whitted
+    FROM "grow(*other);"
+    TO   "grow(path);"
+    CASES "whitted: a ball of glass over*")
 
-#The depth counts one turn too many.
-    ljus_break_it(
-        NAME whitted -
-        depth HEADER render /
-            whitted.hpp TEST whitted FROM
-            "if (path.depth > tracer.settings.max_depth) return false;" TO
-            "if (path.depth > tracer.settings.max_depth + 1) return false;" CASES
-            "whitted: one ball of glass*")
+# The depth counts one turn too many.
+ljus_break_it(NAME whitted-depth HEADER render/whitted.hpp TEST whitted
+    FROM "if (path.depth > tracer.settings.max_depth) return false;"
+    TO   "if (path.depth > tracer.settings.max_depth + 1) return false;"
+    CASES "whitted: one ball of glass*")
 
-#Matt surfaces send their light on as well : L D D E.
-        ljus_break_it(NAME whitted -
-                      diffuse HEADER render / whitted.hpp TEST whitted FROM
-                                              "Lobes::specular, stream);" TO
-                                              "Lobes::all, stream);" CASES
-                                              "whitted: every path*")
+# Matt surfaces send their light on as well: L D D E.
+ljus_break_it(NAME whitted-diffuse HEADER render/whitted.hpp TEST whitted
+    FROM "Lobes::specular, stream);"
+    TO   "Lobes::all, stream);"
+    CASES "whitted: every path*")
 
-#A lamp made of a sphere lights from any point of its cone's rim.
-            ljus_break_it(NAME whitted -
-                          middle HEADER render / whitted.hpp TEST whitted FROM
-                                                 "return Vec2T<T>{T(0)};" TO
-                                                 "return Vec2T<T>{T(1)};" CASES
-                                                 "whitted: a lamp with a size*")
+# A lamp made of a sphere lights from any point of its cone's rim.
+ljus_break_it(NAME whitted-middle HEADER render/whitted.hpp TEST whitted
+    FROM "return Vec2T<T>{T(0)};"
+    TO   "return Vec2T<T>{T(1)};"
+    CASES "whitted: a lamp with a size*")
 
-#The light that a surface finds is not multiplied by what the way to the eye lets      \
-    through.
-                ljus_break_it(NAME whitted -
-                              share HEADER render / whitted.hpp TEST whitted FROM
-                                                    "sum += throughput * light;" TO
-                                                    "sum += light;" CASES
-                                                    "whitted: a mirror over*")
+# The light that a surface finds is not multiplied by what the way to the eye lets through.
+ljus_break_it(NAME whitted-share HEADER render/whitted.hpp TEST whitted
+    FROM "sum += throughput * light;"
+    TO   "sum += light;"
+    CASES "whitted: a mirror over*")
 
-#Shadow rays see through everything.
-                    ljus_break_it(NAME whitted -
-                                  shadow HEADER path /
-                                      direct_light.hpp TEST whitted FROM
-                                      "if (is_black(visible)) return RgbT<T>{T(0)};" TO
-                                      "if (!is_black(detail::visible) || "
-                                      "is_black(detail::visible)) return "
-                                      "std::abs(wi.z) * f * sampled->weight;" CASES
-                                      "whitted: a mirror over*")
+# Shadow rays see through everything.
+ljus_break_it(NAME whitted-shadow HEADER path/direct_light.hpp TEST whitted
+    FROM "if (is_black(visible)) return RgbT<T>{T(0)};"
+    TO   "if (!is_black(visible) || is_black(visible)) return std::abs(wi.z) * f * sampled->weight;"
+    CASES "whitted: a mirror over*")

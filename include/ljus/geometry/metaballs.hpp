@@ -26,8 +26,8 @@ namespace ljus {
 // [metaballs]
 template <std::floating_point T>
 struct MetaballsT {
-    std::vector<detail::BlobT<T>> blobs{}; ///< At least one.
-    T level = T(0.25); ///< L, above 0, below the sum of positive weights.
+    std::vector<BlobT<T>> blobs{}; ///< At least one.
+    T level = T(0.25);             ///< L, above 0, below the sum of positive weights.
 };
 using Metaballs = MetaballsT<float>; ///< MetaballsT in float.
 // [metaballs]
@@ -40,7 +40,7 @@ template <std::floating_point T>
 [[nodiscard]] WideT<T> field(const MetaballsT<T>& balls, const Vec3T<WideT<T>>& x) {
     using C = WideT<T>;
     C sum = -C(balls.level);
-    for (const detail::BlobT<T>& blob : balls.blobs) {
+    for (const BlobT<T>& blob : balls.blobs) {
         const Vec3T<C> q = (x - Vec3T<C>(blob.center)) / C(blob.radius);
         const C s = C(1) - glm::dot(q, q);
         if (s > C(0)) sum += C(blob.weight) * s * s;
@@ -57,7 +57,7 @@ template <std::floating_point T>
                                        const Vec3T<WideT<T>>& x) {
     using C = WideT<T>;
     Vec3T<C> sum{0};
-    for (const detail::BlobT<T>& blob : balls.blobs) {
+    for (const BlobT<T>& blob : balls.blobs) {
         const Vec3T<C> q = (x - Vec3T<C>(blob.center)) / C(blob.radius);
         const C s = C(1) - glm::dot(q, q);
         if (s > C(0)) sum -= C(4) * C(blob.weight) * s * q / C(blob.radius);
@@ -72,7 +72,7 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] WideT<T> lipschitz(const MetaballsT<T>& balls) {
     WideT<T> sum = 0;
-    for (const detail::BlobT<T>& blob : balls.blobs)
+    for (const BlobT<T>& blob : balls.blobs)
         sum += std::abs(WideT<T>(blob.weight)) / WideT<T>(blob.radius);
     return sum * detail::steepest_blob<WideT<T>>;
 }
@@ -97,7 +97,7 @@ template <typename Solver = QuarticPieces, std::floating_point T>
                                          const Solver& solver = {}) {
     using C = WideT<T>;
     detail::StrandsT<C> strands;
-    for (const detail::BlobT<T>& blob : balls.blobs)
+    for (const BlobT<T>& blob : balls.blobs)
         if (const auto met = detail::strand(ray, blob)) strands.add(*met);
     const auto line = detail::line_of(strands, C(balls.level));
     const auto t = detail::first_meeting(solver, line, C(ray.t_min), C(ray.t_max));
@@ -116,8 +116,7 @@ template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T>
 surface_point(const MetaballsT<T>& balls, const RayT<T>& ray, const FlatHitT<T>& hit) {
     WideT<T> size = balls.level;
-    for (const detail::BlobT<T>& blob : balls.blobs)
-        size += std::abs(WideT<T>(blob.weight));
+    for (const BlobT<T>& blob : balls.blobs) size += std::abs(WideT<T>(blob.weight));
     return detail::refined([&](const auto& x) { return field(balls, x); },
                            [&](const auto& x) { return gradient(balls, x); }, ray,
                            hit.t, 64 * std::numeric_limits<WideT<T>>::epsilon() * size);
@@ -146,12 +145,11 @@ template <std::floating_point T>
 [[nodiscard]] SphereT<T> bounding_sphere(const MetaballsT<T>& balls) {
     using C = WideT<T>;
     C positive = 0;
-    for (const detail::BlobT<T>& blob : balls.blobs)
-        positive += blob.weight > T(0) ? 1 : 0;
+    for (const BlobT<T>& blob : balls.blobs) positive += blob.weight > T(0) ? 1 : 0;
     constexpr C far = std::numeric_limits<C>::infinity();
     Vec3T<C> low{far}, high{-far};
     const auto each = [&](const auto& visit) {
-        for (const detail::BlobT<T>& blob : balls.blobs) {
+        for (const BlobT<T>& blob : balls.blobs) {
             if (!(blob.weight > T(0))) continue;
             const C reach = detail::reach_of(blob, C(balls.level) / positive);
             if (reach >= C(0)) visit(Vec3T<C>(blob.center), reach);
@@ -180,7 +178,7 @@ template <std::floating_point T>
 void check(const MetaballsT<T>& balls) {
     require_positive("metaballs.level", balls.level);
     T most = T(0);
-    for (const detail::BlobT<T>& blob : balls.blobs) {
+    for (const BlobT<T>& blob : balls.blobs) {
         require_finite("metaballs.blobs.center", blob.center);
         require_positive("metaballs.blobs.radius", blob.radius);
         require(std::isfinite(blob.weight), "metaballs.blobs.weight", blob.weight,

@@ -16,37 +16,36 @@ namespace ljus {
 /// \name Moved shapes
 /// \{
 
-namespace detail {
-
 /// A shape in another place.
 /// \param shape  The shape.
 /// \param by     In scene units.
 /// \return The same shape there.
 template <std::floating_point T>
-[[nodiscard]] constexpr SphereT<T> moved(SphereT<T> shape,
-                                         const Vec3T<T>& by) noexcept {
+[[nodiscard]] constexpr SphereT<T> translated(SphereT<T> shape,
+                                              const Vec3T<T>& by) noexcept {
     shape.center += by;
     return shape;
 }
+
 template <std::floating_point T>
-[[nodiscard]] constexpr QuadT<T> moved(QuadT<T> shape, const Vec3T<T>& by) noexcept {
+[[nodiscard]] constexpr QuadT<T> translated(QuadT<T> shape,
+                                            const Vec3T<T>& by) noexcept {
     shape.corner += by;
     return shape;
 }
+
 template <std::floating_point T>
-[[nodiscard]] constexpr TriangleT<T> moved(const TriangleT<T>& shape,
-                                           const Vec3T<T>& by) noexcept {
+[[nodiscard]] constexpr TriangleT<T> translated(const TriangleT<T>& shape,
+                                                const Vec3T<T>& by) noexcept {
     return {.v1 = shape.v1 + by, .v2 = shape.v2 + by, .v3 = shape.v3 + by};
 }
-
-} // namespace detail
 
 /// \}
 
 /// A shape that is moved at little cost, so that it can be at each ray's own time.
 template <typename S>
 concept Movable = Shape<S> && requires(const S& shape, const Vec3T<ScalarOf<S>>& by) {
-    { detail::moved(shape, by) } -> std::same_as<S>;
+    { translated(shape, by) } -> std::same_as<S>;
 };
 
 /// A shape on its way in a straight line. Time runs from 0, when the shutter opens, to
@@ -82,7 +81,7 @@ inline constexpr bool is_moving<Moving<S>> = true;
 // [at_time]
 template <typename S, std::floating_point T>
 [[nodiscard]] S at_time(const Moving<S>& moving, T time) noexcept {
-    return detail::moved(moving.shape, time * moving.way);
+    return translated(moving.shape, time * moving.way);
 }
 // [at_time]
 

@@ -30,7 +30,7 @@ namespace ljus {
 /// | center_sample(shape)                  | the centre of a lamp  | u = v = 1/2        |
 /// | texture_coordinates()                 | images by (u, v)      | those of the hit   |
 /// | is_flat                               | photons aimed at area | at its sphere      |
-/// | moved(shape, by)                      | Moving                | does not compile   |
+/// | translated(shape, by)                 | Moving                | does not compile   |
 /// | patch_grid(shape, size), facet_of()   | radiosity             | left out, and said |
 /// \{
 

@@ -36,12 +36,16 @@ template <std::floating_point T>
             .one_minus_cos = detail::one_minus_cosine(sin2)};
 }
 
+} // namespace detail
+
 /// A point of a shape, and the density with which an observer's direction fell on it.
 template <std::floating_point T>
 struct SeenPointT {
     SurfacePointT<T> point{}; ///< The point.
     T pdf = T(0);             ///< Per steradian of the observer.
 };
+
+namespace detail {
 
 /// The density per steradian of a point that was chosen uniformly over the area.
 /// \param from   The observer.
@@ -70,6 +74,8 @@ template <std::floating_point T>
     return glm::distance(sphere.center, from) > sphere.radius + doubt;
 }
 
+} // namespace detail
+
 /// A point of any shape, uniform over its area.
 /// \param shape  The shape.
 /// \param from   The observer.
@@ -81,7 +87,7 @@ template <Shape S, std::floating_point T>
                                            const Vec2T<T>& u) noexcept {
     if constexpr (HasArea<S>) {
         const SurfacePointT<T> point = sample_area(shape, u);
-        return {.point = point, .pdf = pdf_from_area(from, point, area(shape))};
+        return {.point = point, .pdf = detail::pdf_from_area(from, point, area(shape))};
     } else
         return {};
 }
@@ -95,7 +101,7 @@ template <Shape S, std::floating_point T>
 [[nodiscard]] T pdf_towards(const S& shape, const Vec3T<T>& from,
                             const SurfacePointT<T>& point) noexcept {
     if constexpr (HasArea<S>)
-        return pdf_from_area(from, point, area(shape));
+        return detail::pdf_from_area(from, point, area(shape));
     else
         return T(0);
 }
@@ -111,11 +117,12 @@ template <std::floating_point T>
 [[nodiscard]] SeenPointT<T> sample_towards(const SphereT<T>& sphere,
                                            const Vec3T<T>& from,
                                            const Vec2T<T>& u) noexcept {
-    if (!sees_cone(sphere, from)) {
+    if (!detail::sees_cone(sphere, from)) {
         const SurfacePointT<T> point = sample_area(sphere, u);
-        return {.point = point, .pdf = pdf_from_area(from, point, area(sphere))};
+        return {.point = point,
+                .pdf = detail::pdf_from_area(from, point, area(sphere))};
     }
-    const ConeT<T> cone = cone_towards(sphere, from);
+    const detail::ConeT<T> cone = detail::cone_towards(sphere, from);
     const Vec3T<T> local = sample_uniform_cone(u, cone.one_minus_cos);
 
     // From the centre, the point lies at the angle that the chord leaves.
@@ -137,11 +144,10 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] T pdf_towards(const SphereT<T>& sphere, const Vec3T<T>& from,
                             const SurfacePointT<T>& point) noexcept {
-    if (!sees_cone(sphere, from)) return pdf_from_area(from, point, area(sphere));
-    return pdf_uniform_cone(cone_towards(sphere, from).one_minus_cos);
+    if (!detail::sees_cone(sphere, from))
+        return detail::pdf_from_area(from, point, area(sphere));
+    return pdf_uniform_cone(detail::cone_towards(sphere, from).one_minus_cos);
 }
-
-} // namespace detail
 
 /// \}
 

@@ -17,7 +17,7 @@ namespace ljus {
 /// Several ClassLogs that listen to the same path.
 template <std::floating_point T>
 struct ClassesLog {
-    std::vector<ExpressionLog<T>> logs{}; ///< One a class.
+    std::vector<detail::ExpressionLog<T>> logs{}; ///< One a class.
 
     /// A path begins, at the eye.
     void begin() noexcept {

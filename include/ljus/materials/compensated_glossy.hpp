@@ -30,6 +30,8 @@ using CompensatedGlossy = CompensatedGlossyT<float>; ///< Of a colour, in float.
 using FullRoughMetal =
     CompensatedGlossyT<float, ConductorIndexT<float>>; ///< Of metal, in float.
 
+namespace detail {
+
 /// The mean of facet_reflectance() over the angles, \f$ 2 \int F(\mu)\,\mu\,d\mu \f$.
 /// \param facet  A colour straight on, or a metal's index.
 /// \return In [0, 1] for each channel.
@@ -42,6 +44,8 @@ template <std::floating_point T, typename Facet>
     return sum / T(steps);
 }
 
+} // namespace detail
+
 /// Makes gloss keep its light.
 /// \param first  The gloss.
 /// \return The material; with roughness 0 the same mirror.
@@ -52,7 +56,7 @@ template <std::floating_point T, typename F>
     check(first);
     return {.first = first,
             .loss = detail::bake_energy_loss(first.roughness * first.roughness),
-            .mean = mean_reflectance<T>(first.reflectance)};
+            .mean = detail::mean_reflectance<T>(first.reflectance)};
 }
 
 /// What there is: as of the gloss.
@@ -78,9 +82,11 @@ template <std::floating_point T, typename F>
     const T out = detail::lost_at(loss, std::abs(wo.z)),
             in = detail::lost_at(loss, std::abs(wi.z));
     const T again = out * in / loss.mean * std::numbers::inv_pi_v<T>;
-    return first + again * multiple_scattering(gloss.mean, loss.mean);
+    return first + again * detail::multiple_scattering(gloss.mean, loss.mean);
 }
 // [full evaluate]
+
+namespace detail {
 
 /// How often sample() takes the first reflection: as much as it carries of the light.
 /// \param gloss  The surface.
@@ -96,6 +102,8 @@ template <std::floating_point T, typename F>
     return again > T(0) ? first / (first + again) : T(1);
 }
 
+} // namespace detail
+
 /// The density of sample().
 /// \param gloss  The surface.
 /// \param wo     Towards where the light goes.
@@ -106,7 +114,7 @@ template <std::floating_point T, typename F>
 [[nodiscard]] T pdf(const CompensatedGlossyT<T, F>& gloss, const Vec3T<T>& wo,
                     const Vec3T<T>& wi, Lobes which = Lobes::all) noexcept {
     const T first = pdf(gloss.first, wo, wi, which);
-    const T chance = chance_of_first(gloss, wo);
+    const T chance = detail::chance_of_first(gloss, wo);
     if (!has(which & lobes(gloss), Lobes::glossy) || !same_side(wo, wi) ||
         chance >= T(1))
         return first;
@@ -127,7 +135,7 @@ template <std::floating_point T, typename F>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const CompensatedGlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& u,
        Transport transport, Lobes which = Lobes::all) noexcept {
-    const T chance = chance_of_first(gloss, wo);
+    const T chance = detail::chance_of_first(gloss, wo);
     if (chance >= T(1) || !has(which & lobes(gloss), Lobes::glossy))
         return sample(gloss.first, wo, u, transport, which);
     if (!(wo.z > T(0) || wo.z < T(0))) return std::nullopt;

@@ -30,6 +30,8 @@ struct EonT {
 };
 using Eon = EonT<float>; ///< EonT in float.
 
+namespace detail {
+
 /// What Fujii's second model loses of light at an angle, over A r:
 /// \f$ (1 - E(\mu)) / (A r) = k_1 - G(\mu)/\pi \f$.
 /// \param sine    Of the angle to the normal, in [0, 1].
@@ -83,6 +85,8 @@ template <std::floating_point T>
 }
 // [eon]
 
+} // namespace detail
+
 /// The share of a constant sky that the surface returns, in closed form.
 /// \param surface  The surface.
 /// \param wo       Towards where the light goes.
@@ -91,10 +95,11 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> eon_albedo(const EonT<T>& surface, const Vec3T<T>& wo) noexcept {
     const T r = surface.roughness;
-    const T ar = r / (T(1) + fon_constant<T> * r);
-    const T loss = ar * eon_loss(std::hypot(wo.x, wo.y), std::abs(wo.z));
+    const T ar = r / (T(1) + detail::fon_constant<T> * r);
+    const T loss = ar * detail::eon_loss(std::hypot(wo.x, wo.y), std::abs(wo.z));
     return surface.albedo * (T(1) - loss) +
-           multiple_scattering(surface.albedo, ar * eon_mean_loss<T>) * loss;
+           detail::multiple_scattering(surface.albedo, ar * detail::eon_mean_loss<T>) *
+               loss;
 }
 
 /// What there is: a diffuse part, even if it is black.
@@ -112,7 +117,7 @@ template <std::floating_point T>
 [[nodiscard]] RgbT<T> evaluate(const EonT<T>& surface, const Vec3T<T>& wo,
                                const Vec3T<T>& wi) noexcept {
     if (!same_side(wo, wi)) return RgbT<T>{T(0)};
-    return std::numbers::inv_pi_v<T> * eon_weight(surface, wo, wi);
+    return std::numbers::inv_pi_v<T> * detail::eon_weight(surface, wo, wi);
 }
 
 /// The density of sample().
@@ -126,8 +131,8 @@ template <std::floating_point T>
 [[nodiscard]] T pdf(const EonT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& wi,
                     Lobes which = Lobes::all) noexcept {
     if (!has(which, Lobes::diffuse) || !same_side(wo, wi)) return T(0);
-    return pdf_eon_lobe(eon_lobe(surface.roughness, wo),
-                        Vec3T<T>{wi.x, wi.y, std::abs(wi.z)});
+    return detail::pdf_eon_lobe(detail::eon_lobe(surface.roughness, wo),
+                                Vec3T<T>{wi.x, wi.y, std::abs(wi.z)});
 }
 
 /// A direction of about the density of f cos.
@@ -146,13 +151,13 @@ sample(const EonT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
        Transport /*transport*/, Lobes which = Lobes::all) noexcept {
     if (!has(which, Lobes::diffuse) || is_black(surface.albedo)) return std::nullopt;
     if (!(wo.z > T(0) || wo.z < T(0))) return std::nullopt;
-    const EonLobeT<T> lobe = eon_lobe(surface.roughness, wo);
-    Vec3T<T> wi = sample_eon_lobe(lobe, u);
+    const detail::EonLobeT<T> lobe = detail::eon_lobe(surface.roughness, wo);
+    Vec3T<T> wi = detail::sample_eon_lobe(lobe, u);
     if (!(wi.z > T(0))) return std::nullopt; // on the horizon, by rounding
-    const T density = pdf_eon_lobe(lobe, wi);
+    const T density = detail::pdf_eon_lobe(lobe, wi);
     wi.z = std::copysign(wi.z, wo.z);
-    const RgbT<T> f_cos =
-        std::numbers::inv_pi_v<T> * std::abs(wi.z) * eon_weight(surface, wo, wi);
+    const RgbT<T> f_cos = std::numbers::inv_pi_v<T> * std::abs(wi.z) *
+                          detail::eon_weight(surface, wo, wi);
     return diffuse_sample(wi, f_cos / density, density);
 }
 

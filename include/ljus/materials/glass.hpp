@@ -34,6 +34,8 @@ struct GlassT {
 };
 using Glass = GlassT<float>; ///< GlassT in float.
 
+namespace detail {
+
 /// What light meets that comes to the boundary: how much is reflected, and where the
 /// rest goes.
 template <std::floating_point T>
@@ -64,6 +66,8 @@ template <std::floating_point T>
             .eta_scale = transport == Transport::radiance ? eta * eta : T(1)};
 }
 
+} // namespace detail
+
 /// One of the two branches: reflection with probability F, refraction with 1 - F. Each
 /// is chosen as often as it carries light, so that both have the weight 1; radiance
 /// that comes from index n_t is then scaled by (n_i/n_t)^2.
@@ -81,7 +85,7 @@ sample(const GlassT<T>& glass, const Vec3T<T>& wo, const Vec3T<T>& u,
        Transport transport, Lobes which = Lobes::all) noexcept {
     if (!has(which, Lobes::specular)) return std::nullopt;
     if (!(wo.z > T(0) || wo.z < T(0))) return std::nullopt;
-    const GlassBoundaryT<T> met = boundary(glass, wo, transport);
+    const detail::GlassBoundaryT<T> met = detail::boundary(glass, wo, transport);
     if (!met.refracted || u.z < met.reflectance)
         return specular_sample(reflect(wo), RgbT<T>{T(1)});
     return specular_sample(*met.refracted, RgbT<T>{T(1)}, met.eta_scale);
@@ -96,7 +100,7 @@ sample(const GlassT<T>& glass, const Vec3T<T>& wo, const Vec3T<T>& u,
 template <std::floating_point T>
 [[nodiscard]] std::optional<std::array<BsdfSampleT<T>, 2>>
 both_ways(const GlassT<T>& glass, const Vec3T<T>& wo, Transport transport) noexcept {
-    const GlassBoundaryT<T> met = boundary(glass, wo, transport);
+    const detail::GlassBoundaryT<T> met = detail::boundary(glass, wo, transport);
     if (!met.refracted) return std::nullopt;
     const T f = met.reflectance;
     return std::array{
@@ -142,6 +146,8 @@ struct ThinGlassT {
 };
 using ThinGlass = ThinGlassT<float>; ///< ThinGlassT in float.
 
+namespace detail {
+
 /// What a pane reflects and lets through.
 template <std::floating_point T>
 struct PaneSharesT {
@@ -183,6 +189,8 @@ template <std::floating_point T>
 }
 // [pane]
 
+} // namespace detail
+
 /// What goes straight on through a pane. A material with this function is a thin sheet.
 /// \param pane  The pane.
 /// \param wo    Towards where the light goes.
@@ -191,7 +199,7 @@ template <std::floating_point T>
 [[nodiscard]] RgbT<T> pass_through(const ThinGlassT<T>& pane,
                                    const Vec3T<T>& /*position*/,
                                    const Vec3T<T>& wo) noexcept {
-    return pane_shares(pane, std::min(std::abs(wo.z), T(1))).transmitted;
+    return detail::pane_shares(pane, std::min(std::abs(wo.z), T(1))).transmitted;
 }
 
 /// The mirror direction, with PaneSharesT::reflected as weight. What goes straight on
@@ -209,7 +217,7 @@ sample(const ThinGlassT<T>& pane, const Vec3T<T>& wo, const Vec3T<T>&,
     if (!has(which, Lobes::specular) || !(wo.z > T(0) || wo.z < T(0)))
         return std::nullopt;
     const T cos_theta = std::min(std::abs(wo.z), T(1));
-    return specular_sample(reflect(wo), pane_shares(pane, cos_theta).reflected);
+    return specular_sample(reflect(wo), detail::pane_shares(pane, cos_theta).reflected);
 }
 
 /// Refuses an index or a tint that no pane can have.

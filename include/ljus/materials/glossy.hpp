@@ -18,6 +18,8 @@ namespace ljus {
 /// \brief Section 3.2.4, rough mirrors: one microfacet model, from a mirror to satin.
 /// \{
 
+namespace detail {
+
 /// The reflectance of a facet that is given by its colour straight on: Schlick's.
 /// \param color      At normal incidence, in [0, 1].
 /// \param cos_theta  Cosine between ray and facet, in [0, 1].
@@ -42,6 +44,8 @@ template <std::floating_point T>
 /// small beside alpha.
 template <std::floating_point T>
 inline constexpr T min_roughness = T(0.01);
+
+} // namespace detail
 
 /// A surface of small mirrors, on both sides. Light that hits a second facet is lost:
 /// of white, at roughness 1, more than half.
@@ -84,13 +88,13 @@ template <std::floating_point T, typename F>
     const T alpha = gloss.roughness * gloss.roughness;
     const Vec3T<T> out{wo.x, wo.y, std::abs(wo.z)};
     const Vec3T<T> in{wi.x, wi.y, std::abs(wi.z)};
-    const Vec3T<T> h = half_vector(out, in);
+    const Vec3T<T> h = detail::half_vector(out, in);
     const T cos_facet = std::min(glm::dot(out, h), T(1));
     const T r_out = ggx_lambda(alpha, out), r_in = ggx_lambda(alpha, in);
     const T shadowed = out.z * r_in + in.z * r_out;
     const T f = ggx_distribution(alpha, h) / (T(2) * shadowed);
     if (!(f <= std::numeric_limits<T>::max())) return RgbT<T>{T(0)};
-    return f * facet_reflectance(gloss.reflectance, cos_facet);
+    return f * detail::facet_reflectance(gloss.reflectance, cos_facet);
 }
 // [glossy]
 
@@ -110,7 +114,7 @@ template <std::floating_point T, typename F>
     const T alpha = gloss.roughness * gloss.roughness;
     const Vec3T<T> out{wo.x, wo.y, std::abs(wo.z)};
     const Vec3T<T> in{wi.x, wi.y, std::abs(wi.z)};
-    return ggx_distribution(alpha, half_vector(out, in)) /
+    return ggx_distribution(alpha, detail::half_vector(out, in)) /
            (T(2) * (out.z + ggx_lambda(alpha, out)));
 }
 
@@ -132,7 +136,8 @@ sample(const GlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& u,
     const Vec3T<T> out{wo.x, wo.y, std::abs(wo.z)};
     if (gloss.roughness == T(0))
         return specular_sample(
-            reflect(wo), facet_reflectance(gloss.reflectance, std::min(out.z, T(1))));
+            reflect(wo),
+            detail::facet_reflectance(gloss.reflectance, std::min(out.z, T(1))));
 
     const T alpha = gloss.roughness * gloss.roughness;
     const Vec3T<T> h = sample_visible_normal(alpha, out, Vec2T<T>{u.x, u.y});
@@ -141,9 +146,10 @@ sample(const GlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& u,
     const T r_out = ggx_lambda(alpha, out);
     const T g2_over_g1 =
         (out.z + r_out) / (r_out + out.z / in.z * ggx_lambda(alpha, in));
-    const T cos_facet = std::min(glm::dot(out, half_vector(out, in)), T(1));
+    const T cos_facet = std::min(glm::dot(out, detail::half_vector(out, in)), T(1));
     in.z = std::copysign(in.z, wo.z);
-    const RgbT<T> weight = g2_over_g1 * facet_reflectance(gloss.reflectance, cos_facet);
+    const RgbT<T> weight =
+        g2_over_g1 * detail::facet_reflectance(gloss.reflectance, cos_facet);
     if (is_black(weight)) return std::nullopt;
     return diffuse_sample(in, weight, pdf(gloss, wo, in));
 }
@@ -158,8 +164,8 @@ void check(const GlossyT<T, F>& gloss) {
     else
         detail::require_conductor("glossy.reflectance", gloss.reflectance);
     const T r = gloss.roughness;
-    require(r == T(0) || (r >= min_roughness<T> && r <= T(1)), "glossy.roughness", r,
-            "0, which is a mirror, or within [0.01, 1]");
+    require(r == T(0) || (r >= detail::min_roughness<T> && r <= T(1)),
+            "glossy.roughness", r, "0, which is a mirror, or within [0.01, 1]");
 }
 
 /// \}

@@ -20,6 +20,8 @@ namespace ljus {
 /// unit length; alpha > 0.
 /// \{
 
+namespace detail {
+
 /// The middle of two directions, of unit length: the normal of the facet that mirrors
 /// one into the other. The sum is scaled first, so that its squares do not underflow.
 /// \param wo, wi  With z > 0 both.
@@ -29,6 +31,8 @@ template <std::floating_point T>
     const Vec3T<T> sum = wo + wi;
     return glm::normalize(sum / max_component(glm::abs(sum)));
 }
+
+} // namespace detail
 
 /// How many facets look along h: their area, per area of the surface and steradian.
 ///

@@ -13,6 +13,8 @@ namespace ljus {
 /// \brief Section 3.2.4: reflected, refracted and indirect rays.
 /// \{
 
+namespace detail {
+
 /// The absorption after a scattering: of the material's inside, if the path went in;
 /// none, if it came out; else what it was.
 /// \param medium    Before, per scene unit.
@@ -47,6 +49,8 @@ void follow(PathStateT<T>& path, const VertexT<T>& vertex, const M& material,
     path.ray = spawn_ray(vertex.point, wi, vertex.time);
 }
 
+} // namespace detail
+
 /// Continues a path in a direction that the material samples.
 /// \param path       Gets its new ray, throughput and medium.
 /// \param vertex     Where it is.
@@ -63,7 +67,7 @@ template <std::floating_point T, Material M, typename Stream>
     const auto scattered =
         scatter(vertex, material, next_3d<T>(stream), transport, which);
     if (!scattered) return false;
-    follow(path, vertex, material, scattered->sample, scattered->wi);
+    detail::follow(path, vertex, material, scattered->sample, scattered->wi);
     return true;
 }
 
@@ -85,9 +89,10 @@ split_path(PathStateT<T>& path, const VertexT<T>& vertex, const M& material) {
         PathStateT<T> other = path;
         // A path splits once per depth: its place in the tree is a bit for each.
         other.branch += std::uint64_t(1) << (16 + path.depth % 32);
-        follow(other, vertex, material, refracted,
-               to_world(vertex.frame, refracted.wi));
-        follow(path, vertex, material, reflected, to_world(vertex.frame, reflected.wi));
+        detail::follow(other, vertex, material, refracted,
+                       to_world(vertex.frame, refracted.wi));
+        detail::follow(path, vertex, material, reflected,
+                       to_world(vertex.frame, reflected.wi));
         return other;
     } else {
         return std::nullopt;

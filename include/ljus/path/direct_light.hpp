@@ -38,7 +38,7 @@ template <SceneLike S, std::floating_point T, Material M, typename Weigh>
     if (!sampled) return RgbT<T>{T(0)};
     const Vec3T<T> wi = to_local(vertex.frame, sampled->wi);
     const RgbT<T> f = evaluate(material, vertex.wo, wi);
-    if (is_black(f) || !agrees(vertex, wi, sampled->wi)) return RgbT<T>{T(0)};
+    if (is_black(f) || !detail::agrees(vertex, wi, sampled->wi)) return RgbT<T>{T(0)};
 
     ++counts.shadow_rays;
     const RgbT<T> visible = visibility(scene, point, sampled->point, vertex.time);
@@ -47,6 +47,8 @@ template <SceneLike S, std::floating_point T, Material M, typename Weigh>
     return std::abs(wi.z) * weigh(*sampled, wi) * f * sampled->weight *
            transmittance(vertex.medium, distance) * visible;
 }
+
+namespace detail {
 
 /// The light of all lights at a surface, by shadow rays to each.
 /// \param scene     The scene.
@@ -74,6 +76,8 @@ template <SceneLike S, std::floating_point T, Material M>
         }
     return sum / T(rays);
 }
+
+} // namespace detail
 
 /// \}
 

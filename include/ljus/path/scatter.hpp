@@ -23,6 +23,8 @@ namespace ljus {
 /// | sampled, of any other part       | the path ends                                |
 /// \{
 
+namespace detail {
+
 /// Whether a direction lies on the same side of a surface by both its normals.
 /// \param vertex  A point of the surface.
 /// \param local   The direction in the surface's frame.
@@ -55,6 +57,8 @@ struct ScatteredT {
     Vec3T<T> wi{T(0)};       ///< The direction in the world.
 };
 
+} // namespace detail
+
 /// Samples a direction, with both normals of the surface kept in mind.
 ///
 /// A photon's flux is multiplied by the factor of the adjoint,
@@ -71,19 +75,19 @@ struct ScatteredT {
 /// \cite veach1997
 // [scatter]
 template <std::floating_point T, Material M>
-[[nodiscard]] std::optional<ScatteredT<T>>
+[[nodiscard]] std::optional<detail::ScatteredT<T>>
 scatter(const VertexT<T>& vertex, const M& material, const Vec3T<T>& u,
         Transport transport, Lobes which = Lobes::all) noexcept {
     const Vec3T<T>& wo = vertex.wo;
     const auto& here = material_at(material, vertex.point.position, vertex.uv);
     const auto next = sample(here, wo, u, transport, which);
     if (!next) return std::nullopt;
-    ScatteredT<T> scattered{*next, to_world(vertex.frame, next->wi)};
+    detail::ScatteredT<T> scattered{*next, to_world(vertex.frame, next->wi)};
     if (!vertex.smooth) return scattered;
 
     const Vec3T<T>& geometric = vertex.point.normal;
     const Vec3T<T> back = to_world(vertex.frame, wo);
-    if (agrees(vertex, next->wi, scattered.wi)) {
+    if (detail::agrees(vertex, next->wi, scattered.wi)) {
         if (transport == Transport::radiance) return scattered;
         const T factor = (wo.z * glm::dot(scattered.wi, geometric)) /
                          (glm::dot(back, geometric) * next->wi.z);
@@ -95,7 +99,7 @@ scatter(const VertexT<T>& vertex, const M& material, const Vec3T<T>& u,
     const FrameT<T> flat = frame_around(geometric);
     const auto again = sample(here, to_local(flat, back), u, transport, which);
     if (!again || !again->specular) return std::nullopt;
-    return ScatteredT<T>{*again, to_world(flat, again->wi)};
+    return detail::ScatteredT<T>{*again, to_world(flat, again->wi)};
 }
 // [scatter]
 

@@ -143,7 +143,7 @@ template <std::floating_point T>
 [[nodiscard]] T emitted_share(const LightT<T>& light, const SurfacePointT<T>& point,
                               const Vec3T<T>& direction) noexcept {
     if (light.kind == LightKind::spot)
-        return spot_share(light, direction) * std::numbers::inv_pi_v<T> /
+        return detail::spot_share(light, direction) * std::numbers::inv_pi_v<T> /
                (light.inner + light.outer);
     if (!light.object) return pdf_uniform_sphere(direction);
     const T cosine = glm::dot(direction, point.normal);
@@ -177,12 +177,13 @@ template <SceneLike S, typename Stream>
 aim(const S& scene, const LightChoice& choice, const std::vector<ObjectId>& targets,
     Stream& stream) {
     using T = typename S::Scalar;
-    const ChosenLightT<T> chosen = choose_light(choice, next_1d<T>(stream));
+    const detail::ChosenLightT<T> chosen =
+        detail::choose_light(choice, next_1d<T>(stream));
     const LightT<T>& light = scene.lights[chosen.light];
     const Vec2T<T> u_point = next_2d<T>(stream);
     const T u_target = next_1d<T>(stream);
     const Vec2T<T> u_direction = next_2d<T>(stream);
-    const T time = path_time(scene, stream);
+    const T time = detail::path_time(scene, stream);
     EmittedPhotonT<T> photon{.light = static_cast<std::uint16_t>(chosen.light)};
 
     if (light.kind == LightKind::sun) {
@@ -218,8 +219,7 @@ aim(const S& scene, const LightChoice& choice, const std::vector<ObjectId>& targ
     T pdf = pdf_uniform_cone(at.cone.one_minus_cos);
     if (at.at_area) {
         const auto seen = scene.visit_shape(aimed->target, [&](const auto& shape) {
-            return detail::sample_towards(at_time(shape, time), point.position,
-                                          u_direction);
+            return sample_towards(at_time(shape, time), point.position, u_direction);
         });
         direction = glm::normalize(seen.point.position - point.position);
         pdf = seen.pdf;

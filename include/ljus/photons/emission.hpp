@@ -103,11 +103,12 @@ template <SceneLike S, typename Stream>
 [[nodiscard]] EmittedPhotonT<typename S::Scalar>
 emit(const S& scene, const LightChoice& choice, Stream& stream) {
     using T = typename S::Scalar;
-    const ChosenLightT<T> chosen = choose_light(choice, next_1d<T>(stream));
+    const detail::ChosenLightT<T> chosen =
+        detail::choose_light(choice, next_1d<T>(stream));
     const LightT<T>& light = scene.lights[chosen.light];
     const Vec2T<T> u_point = next_2d<T>(stream);
     const Vec2T<T> u_direction = next_2d<T>(stream);
-    const T time = path_time(scene, stream);
+    const T time = detail::path_time(scene, stream);
     RayT<T> ray = light_ray(scene, light, u_point, u_direction, time);
     ray.time = time;
     return {.ray = ray,

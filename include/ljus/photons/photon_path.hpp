@@ -107,7 +107,7 @@ void store_photon(const PathStateT<T>& path, const VertexT<T>& vertex,
     const bool caustics = map == MapType::caustics;
     const bool owned = (kind == PhotonKind::caustic) == caustics;
     if (!owned || !has(lobes(material), Lobes::non_specular)) return;
-    const T landing = landing_factor(vertex, path.ray.direction);
+    const T landing = detail::landing_factor(vertex, path.ray.direction);
     if (!(landing > T(0))) return;
     out.push_back({vertex.point.position, path.ray.direction, landing * path.throughput,
                    light, kind, small_normal(vertex.point.normal)});

@@ -103,7 +103,7 @@ trace_photons(const S& scene, MapType map, const PhotonPassSettings& pass) {
             choice.cumulative.back(), "above 0: a sun needs objects to shine on");
     require_memory<T>(pass, 0);
 
-    const IndexedT<S> indexed(scene);
+    const detail::IndexedT<S> indexed(scene);
     TracedPhotonsT<T> result{.emitted = pass.photons};
     const bool caustics = map == MapType::caustics;
     const auto targets = caustics ? specular_objects(scene) : std::vector<ObjectId>{};

@@ -95,7 +95,7 @@ make_form_factors(const S& scene, const Patches& all,
             "at least 1");
     require(settings.shadow_rays >= 1, "shadow_rays",
             static_cast<long long>(settings.shadow_rays), "at least 1");
-    const IndexedT<S> indexed(scene);
+    const detail::IndexedT<S> indexed(scene);
     const std::size_t n = all.patches.size();
     FormFactors factors{.area = std::vector<double>(n),
                         .exchange = std::vector<double>(n * n)};

@@ -78,7 +78,7 @@ struct LightMapSettings {
 template <SceneLike S>
 struct LightMapView {
     using Stream = RandomStream; ///< It draws nothing.
-    IndexedT<S> scene;           ///< Which scene; it must outlive the view.
+    detail::IndexedT<S> scene;   ///< Which scene; it must outlive the view.
     LightMap map;                ///< Its light.
     LightMapSettings look{};     ///< How it is drawn.
     std::vector<std::vector<std::array<std::uint32_t, 2>>> grid_of; ///< As in Patches.
@@ -97,7 +97,7 @@ template <SceneLike S>
     require(map.objects == scene.size(), "the number of objects of the light map",
             static_cast<long long>(map.objects),
             std::to_string(scene.size()) + ", as in the scene");
-    LightMapView<S> view{IndexedT<S>(scene), std::move(map), look, {}, {}};
+    LightMapView<S> view{detail::IndexedT<S>(scene), std::move(map), look, {}, {}};
     for (const auto& list : scene.objects)
         view.grid_of.emplace_back(list.size(), std::array{no_grid, no_grid});
     std::size_t next = 0;

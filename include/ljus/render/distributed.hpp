@@ -29,7 +29,7 @@ struct DistributedSettings {
 template <SceneLike S>
 struct DistributedTracer {
     using Stream = StratifiedStream; ///< What render() gives it to draw from.
-    IndexedT<S> scene;               ///< What is rendered.
+    detail::IndexedT<S> scene;       ///< What is rendered.
     DistributedSettings settings;    ///< How.
 };
 
@@ -45,7 +45,7 @@ template <SceneLike S>
 make_distributed(const S& scene, const DistributedSettings& settings = {}) {
     require(settings.max_depth >= 0, "max_depth",
             static_cast<long long>(settings.max_depth), "at least 0");
-    return {IndexedT<S>(scene), settings};
+    return {detail::IndexedT<S>(scene), settings};
 }
 /// Not of a temporary: the scene would be gone before it is rendered.
 template <SceneLike S>
@@ -93,7 +93,7 @@ template <SceneLike S, std::floating_point T, typename Stream, typename Log = No
                                Stream& stream, Counts& counts, Log&& log = {}) {
     const auto& scene = tracer.scene;
     RgbT<T> sum{T(0)};
-    auto path = camera_path(scene, ray, stream);
+    auto path = detail::camera_path(scene, ray, stream);
     log.begin();
     while (const auto vertex = next_vertex(scene, path, stream)) {
         const auto add = [&](const char* owner, const char* letters,
@@ -115,7 +115,7 @@ template <SceneLike S, std::floating_point T, typename Stream, typename Log = No
                                  stream);
         };
         if (!visit_material_at(scene, *vertex, at_material)) break;
-        log_vertex(log, path);
+        detail::log_vertex(log, path);
         if (is_black(path.throughput)) break;
         ++counts.bounce_rays;
     }

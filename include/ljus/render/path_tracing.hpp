@@ -38,7 +38,7 @@ struct PathTracingSettings {
 template <SceneLike S>
 struct PathTracer {
     using Stream = RandomStream;  ///< What render() gives it to draw from.
-    IndexedT<S> scene;            ///< What is rendered.
+    detail::IndexedT<S> scene;    ///< What is rendered.
     PathTracingSettings settings; ///< How.
     LightChoice lights;           ///< Its lights, by power.
 };
@@ -58,7 +58,7 @@ template <SceneLike S>
             settings.roulette_threshold, "at least 0");
     require(settings.roulette_max > 0 && settings.roulette_max <= 1, "roulette_max",
             settings.roulette_max, "in (0, 1]");
-    return {IndexedT<S>(scene), settings, light_choice(scene.lights)};
+    return {detail::IndexedT<S>(scene), settings, light_choice(scene.lights)};
 }
 /// Not of a temporary: the scene would be gone before it is rendered.
 template <SceneLike S>
@@ -112,10 +112,9 @@ template <SceneLike S, std::floating_point T>
 [[nodiscard]] T pdf_of_light(const PathTracer<S>& tracer, const PathStateT<T>& path,
                              const VertexT<T>& vertex) {
     const T pdf = tracer.scene.visit_shape(vertex.id, [&](const auto& shape) {
-        return detail::pdf_towards(at_time(shape, vertex.time), path.previous,
-                                   vertex.point);
+        return pdf_towards(at_time(shape, vertex.time), path.previous, vertex.point);
     });
-    return pdf * probability_of<T>(tracer.lights, vertex.object.light);
+    return pdf * detail::probability_of<T>(tracer.lights, vertex.object.light);
 }
 
 /// The light of a lamp that a path has met, with the weight that the shadow ray from
@@ -154,7 +153,7 @@ template <SceneLike S, std::floating_point T, Material M>
                                        const PathStateT<T>& path,
                                        const VertexT<T>& vertex, const M& material,
                                        RandomStream& stream, Counts& counts) {
-    const auto chosen = choose_light(tracer.lights, next_1d<T>(stream));
+    const auto chosen = detail::choose_light(tracer.lights, next_1d<T>(stream));
     const auto weigh = [&](const LightSampleT<T>& light, const Vec3T<T>& wi) {
         const MisHeuristic heuristic = tracer.settings.heuristic;
         if (heuristic == MisHeuristic::shadow_rays) return T(1);
@@ -194,7 +193,7 @@ template <SceneLike S, std::floating_point T, typename Log = NoLog>
         sum += term;
     };
 
-    auto path = camera_path(scene, ray, stream);
+    auto path = detail::camera_path(scene, ray, stream);
     log.begin();
     while (const auto vertex = next_vertex(scene, path, stream)) {
         if (vertex->emits()) add("emission", "L", emitted(tracer, path, *vertex));
@@ -212,7 +211,7 @@ template <SceneLike S, std::floating_point T, typename Log = NoLog>
         // From the last surface a path goes on to the lamp that its shadow ray left a
         // part of, and to nothing else.
         if (path.depth == settings.max_depth && path.specular) break;
-        log_vertex(log, path);
+        detail::log_vertex(log, path);
         if (is_black(path.throughput)) break;
         if (path.depth >= settings.roulette_depth &&
             !survives(path.throughput, path.eta_scale, next_1d<T>(stream),

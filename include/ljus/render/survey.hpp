@@ -71,7 +71,7 @@ template <SceneLike S>
 [[nodiscard]] SceneNeeds needs(const S& scene) {
     SceneNeeds found{.objects = scene.size(),
                      .lights = scene.lights.size(),
-                     .films = has_thin_surfaces(scene)};
+                     .films = detail::has_thin_surfaces(scene)};
     for (const auto& objects : scene.objects)
         for (const auto& object : objects) {
             const Lobes parts = scene.visit_material(
@@ -138,7 +138,7 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
     plan.thin_film = item("thin film", found.films,
                           found.films ? "paths pass through the listed films"
                                       : "no material is one");
-    const bool tree = needs_tree(found.objects);
+    const bool tree = detail::needs_tree(found.objects);
     plan.tree = item("tree", tree,
                      std::to_string(found.objects) +
                          (tree ? " objects, a tree finds the first on a ray"

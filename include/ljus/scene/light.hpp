@@ -73,6 +73,8 @@ struct LightT {
 };
 using Light = LightT<float>; ///< LightT in float.
 
+namespace detail {
+
 /// The share of its intensity that a spot light sends into a direction.
 /// \param light  The spot light.
 /// \param wo     Unit direction away from it.
@@ -85,6 +87,8 @@ template <std::floating_point T>
     if (w <= light.inner) return T(1);
     return w < light.outer ? (light.outer - w) / (light.outer - light.inner) : T(0);
 }
+
+} // namespace detail
 
 /// 1 - cos of the angle of a spot light's photon from the axis, with the density of its
 /// intensity: even up to `inner`, then falling to 0 at `outer`.
@@ -101,6 +105,8 @@ template <std::floating_point T>
 }
 // [sample_spot]
 
+namespace detail {
+
 /// The flux of a diffuse emitter: its radiance over the hemisphere and its area.
 /// \param radiance  W/(m^2 sr), the same in every direction.
 /// \param area      In squared scene units.
@@ -109,6 +115,8 @@ template <std::floating_point T>
 [[nodiscard]] constexpr RgbT<T> diffuse_flux(const RgbT<T>& radiance, T area) noexcept {
     return std::numbers::pi_v<T> * area * radiance;
 }
+
+} // namespace detail
 
 /// What arrives at a point from one sampled point of a light, if nothing is between.
 template <std::floating_point T>
@@ -149,16 +157,16 @@ sample_light(const S& scene, const LightT<T>& light, const Vec3T<T>& from,
         const T distance2 = glm::dot(way, way);
         if (!(distance2 > T(0))) return std::nullopt;
         const Vec3T<T> wi = way / std::sqrt(distance2);
-        const T share = light.kind == LightKind::spot ? spot_share(light, -wi) : T(1);
+        const T share =
+            light.kind == LightKind::spot ? detail::spot_share(light, -wi) : T(1);
         if (!(share > T(0))) return std::nullopt;
         return LightSampleT<T>{.point{.position = light.position, .normal = -wi},
                                .wi = wi,
                                .weight = share * light.emission / distance2};
     }
-    detail::SeenPointT<T> seen =
-        scene.visit_shape(*light.object, [&](const auto& shape) {
-            return detail::sample_towards(at_time(shape, time), from, u);
-        });
+    SeenPointT<T> seen = scene.visit_shape(*light.object, [&](const auto& shape) {
+        return sample_towards(at_time(shape, time), from, u);
+    });
     if (scene.object(*light.object).inside_out) seen.point.normal = -seen.point.normal;
 
     const Vec3T<T> wi = glm::normalize(seen.point.position - from);

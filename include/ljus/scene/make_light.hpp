@@ -13,6 +13,8 @@ namespace ljus {
 /// \addtogroup light
 /// \{
 
+namespace detail {
+
 /// Refuses a light whose flux is beyond the range of T, though its parts are not.
 /// \param flux  W.
 /// \throws std::invalid_argument  with the value.
@@ -120,6 +122,8 @@ struct LightSourceT {
     LightSourceT(const SunLightT<T>& light) : made(make_light(light)) {}   ///< A sun.
     /// \}
 };
+
+} // namespace detail
 
 /// \}
 

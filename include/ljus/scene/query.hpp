@@ -21,6 +21,8 @@ struct SceneHitT {
     ObjectId object{}; ///< Which object.
 };
 
+namespace detail {
+
 /// Where a ray meets a shape of any type, in the arithmetic that is asked for, if the
 /// shape has a choice.
 /// \tparam Compute  As for intersect().
@@ -53,6 +55,8 @@ template <typename Compute, std::floating_point T, typename S>
         return hit_of<Compute>(ray, shape).has_value();
 }
 
+} // namespace detail
+
 /// The first object that a ray meets, by asking every shape in turn: the exact twin of
 /// the tree in an IndexedScene.
 /// \tparam Compute  The arithmetic, as for intersect().
@@ -67,7 +71,7 @@ template <typename Compute = void, typename G, typename M, std::floating_point T
     std::uint32_t type = 0;
     const auto ask_all = [&](const auto& shapes) {
         for (std::uint32_t i = 0; i < shapes.size(); ++i) {
-            const auto found = hit_of<Compute>(ray, shapes[i]);
+            const auto found = detail::hit_of<Compute>(ray, shapes[i]);
             if (!found || (closest && !(found->t < ray.t_max))) continue;
             ray.t_max = found->t;
             closest = SceneHitT<T>{*found, {type, i}};
@@ -87,7 +91,7 @@ template <typename Compute = void, typename G, typename M, std::floating_point T
 [[nodiscard]] bool occluded(const Scene<G, M>& scene, const RayT<T>& ray) {
     const auto any = [&](const auto& shapes) {
         for (const auto& shape : shapes)
-            if (is_met<Compute>(ray, shape)) return true;
+            if (detail::is_met<Compute>(ray, shape)) return true;
         return false;
     };
     return std::apply([&](const auto&... shapes) { return (any(shapes) || ...); },
@@ -101,7 +105,9 @@ concept SceneLike = requires(const S& scene, const RayT<typename S::Scalar>& ray
     scene.lights;
     scene.materials;
     { scene.size() } -> std::same_as<std::size_t>;
-    { scene.object(object) } -> std::same_as<const ObjectT<typename S::Scalar>&>;
+    {
+        scene.object(object)
+        } -> std::same_as<const detail::ObjectT<typename S::Scalar>&>;
     {
         closest_hit(scene, ray)
         } -> std::same_as<std::optional<SceneHitT<typename S::Scalar>>>;

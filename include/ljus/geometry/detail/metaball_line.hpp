@@ -23,8 +23,6 @@ namespace ljus {
 /// \ref ch_metaballs.
 /// \{
 
-namespace detail {
-
 /// One source of a field: \f$ w (1 - r^2/R^2)^2 \f$ within R, and 0 beyond.
 template <std::floating_point T>
 struct BlobT {
@@ -32,7 +30,10 @@ struct BlobT {
     T radius = T(1);       ///< R, above 0: where its field ends, in scene units.
     T weight = T(1);       ///< w; negative carves.
 };
+
 using Blob = BlobT<float>; ///< BlobT in float.
+
+namespace detail {
 
 /// The largest slope of \f$ (1 - q^2)^2 \f$, at \f$ q = 1/\sqrt 3 \f$.
 template <std::floating_point T>

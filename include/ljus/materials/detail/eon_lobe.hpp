@@ -13,6 +13,8 @@ namespace ljus {
 /// \addtogroup eon
 /// \{
 
+namespace detail {
+
 /// A cosine lobe, sheared towards where the light goes, and cut at the horizon: M takes
 /// directions of a clamped cosine to directions of about the density of f cos.
 ///
@@ -100,6 +102,8 @@ template <std::floating_point T>
             lobe.along.y * unit.x + lobe.along.x * unit.y, unit.z};
 }
 // [eon lobe sample]
+
+} // namespace detail
 
 /// \}
 

@@ -23,6 +23,8 @@ namespace ljus {
 /// be exchanged. EON and full gloss are such surfaces.
 /// \{
 
+namespace detail {
+
 /// What light that is lost once will bring back, over all its further ways.
 /// \param reflectance  Of a facet, the mean over the angles, in [0, 1].
 /// \param loss         1 minus the mean of E, in [0, 1).
@@ -33,6 +35,8 @@ template <std::floating_point T>
     return reflectance * reflectance * (T(1) - loss) /
            (RgbT<T>{T(1)} - reflectance * loss);
 }
+
+} // namespace detail
 
 /// \}
 
