@@ -233,7 +233,7 @@ template <typename Material>
 Rgb lamps_and_caustics(const Judge& judge, const VertexT<float>& at,
                        const Material& material, StratifiedStream& stream,
                        Counts& counts) {
-    const Rgb lamps = soft_light(judge.scene, at, material, stream, counts);
+    const Rgb lamps = detail::soft_light(judge.scene, at, material, stream, counts);
     return lamps + estimate_radiance(judge.caustics, at, material, at.wo, judge.gather,
                                      light_kinds, counts.map_photons);
 }

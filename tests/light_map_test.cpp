@@ -59,8 +59,9 @@ TEST_CASE("light_map: vertices are numbered, each by all of its cells") {
     const auto check_all = [](const PatchGrid& grid) {
         std::vector<int> cells(grid.vertices(), 0);
         for (std::uint32_t cell = 0; cell < grid.size(); ++cell)
-            for (const std::uint32_t vertex : cell_vertices(grid, place_of(grid, cell)))
-                if (vertex != no_grid) {
+            for (const std::uint32_t vertex :
+                 detail::cell_vertices(grid, place_of(grid, cell)))
+                if (vertex != detail::no_grid) {
                     REQUIRE(vertex < cells.size());
                     ++cells[vertex];
                 }
@@ -114,7 +115,7 @@ TEST_CASE("light_map: blended light is continuous, and as even as the patches") 
                                ? facet_of(QuadT<double>{})
                                : Facet{{glm::dvec3(0), {1, 0, 0}, {0, 1, 0}}, 3};
         for (std::uint32_t cell = 0; cell < grid.size(); ++cell) {
-            const Facet part = cell_facet(grid, unit, cell);
+            const Facet part = detail::cell_facet(grid, unit, cell);
             glm::dvec3 middle(0);
             for (int i = 0; i < part.count; ++i)
                 middle += part.corners[std::size_t(i)] / double(part.count);

@@ -215,8 +215,9 @@ TEST_CASE("parallel: blocks cover all things, none twice") {
     for (const long long total : {0LL, 1LL, 9LL, 10LL, 11LL, 100LL})
         for (const long long size : {1LL, 3LL, 10LL, 1000LL}) {
             long long next = 0;
-            for (long long b = 0; b < ljus::block_count(total, size); ++b) {
-                const ljus::BlockRange range = ljus::block_range(b, size, total);
+            for (long long b = 0; b < ljus::detail::block_count(total, size); ++b) {
+                const ljus::detail::BlockRange range =
+                    ljus::detail::block_range(b, size, total);
                 CHECK(range.first == next);
                 CHECK(range.last > range.first);
                 CHECK(range.last - range.first <= size);
@@ -225,8 +226,8 @@ TEST_CASE("parallel: blocks cover all things, none twice") {
             CHECK(next == total);
         }
     const long long most = std::numeric_limits<long long>::max();
-    CHECK(ljus::block_count(most, 2) == most / 2 + 1);
-    CHECK(ljus::block_range(0, most, most).last == most);
+    CHECK(ljus::detail::block_count(most, 2) == most / 2 + 1);
+    CHECK(ljus::detail::block_range(0, most, most).last == most);
 }
 
 // What a loop costs depends on what else the machine does: shown, not required.

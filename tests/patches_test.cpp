@@ -48,23 +48,24 @@ TEST_CASE("patches: each place of a shape belongs to one cell") {
             for (std::uint32_t cell = 0; cell < grid.size(); ++cell) {
                 for (int i = 0; i < 20; ++i) {
                     const auto point =
-                        sample_cell(grid, shape, cell, next_2d<double>(stream));
+                        detail::sample_cell(grid, shape, cell, next_2d<double>(stream));
                     // A ray that comes back to the point tells the cell.
                     const Vec3T<double> outer = inward ? -point.normal : point.normal;
                     const RayT<double> ray{.origin = point.position + 0.1 * outer,
                                            .direction = -outer};
                     const auto t = intersect(ray, shape);
                     REQUIRE(t);
-                    const auto at = place_on(grid.kind, as_hit(*t), outer);
+                    const auto at = detail::place_on(grid.kind, as_hit(*t), outer);
                     CHECK(cell_of(grid, at) == cell);
                 }
                 if constexpr (Flat<std::remove_cvref_t<decltype(shape)>>) {
-                    const Facet facet = cell_facet(grid, facet_of(shape), cell);
-                    CHECK(glm::length(area_vector(facet)) ==
+                    const Facet facet = detail::cell_facet(grid, facet_of(shape), cell);
+                    CHECK(glm::length(detail::area_vector(facet)) ==
                           doctest::Approx(double(area(shape)) / grid.size())
                               .epsilon(1e-12));
-                    CHECK((glm::dot(area_vector(facet), area_vector(facet_of(shape))) <
-                           0) == inward);
+                    CHECK((glm::dot(detail::area_vector(facet),
+                                    detail::area_vector(facet_of(shape))) < 0) ==
+                          inward);
                 }
             }
         }

@@ -110,7 +110,7 @@ TEST_CASE("radiosity: energy is kept by few rays as well, for they are symmetric
     for (std::size_t i = 0; i < rough.size(); ++i) {
         std::span row(rough.exchange.data() + i * rough.size(), rough.size());
         std::fill(row.begin(), row.end(), 0.0);
-        shoot_rays(indexed, all->patches, std::uint32_t(i), 20, 1, row);
+        detail::shoot_rays(indexed, all->patches, std::uint32_t(i), 20, 1, row);
         CHECK(std::abs(rough.row_sum(i) - 1) < 1e-12);
     }
     auto wrong = *all;

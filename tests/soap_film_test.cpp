@@ -272,7 +272,8 @@ TEST_CASE("thin sheets: who owns which path") {
     std::set<std::string> found;
     for (int y = 4; y < 24; y += 4)
         for (int x = 4; x < 24; x += 4)
-            for (const auto& part : take_apart(mapper, camera, picture, x, y).sums)
+            for (const auto& part :
+                 detail::take_apart(mapper, camera, picture, x, y).sums)
                 found.insert(part.path + " " + part.owner);
     // Through the bubble by shadow rays, and by its reflection as a caustic; a mirror
     // in it is seen through it. No path has a letter for what goes straight on.
@@ -296,7 +297,7 @@ TEST_CASE("thin sheets: who owns which path") {
         if (photon.kind == PhotonKind::direct) direct += double(photon.flux.y);
     emitted = general.audit.emitted.y;
     CHECK(direct / emitted > 0.7); // the rest was reflected by the bubble
-    CHECK(direct / emitted < 0.999);
+    CHECK(direct / detail::emitted < 0.999);
     const auto caustics =
         trace_photons(without, MapType::caustics, {.photons = 20000, .threads = 1});
     for (const auto& photon : caustics.photons)

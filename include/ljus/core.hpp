@@ -45,8 +45,8 @@ LJUS_CORE_EXTERN template Bvh8Nodes make_bvh8(const BvhNodesT<float>&, std::uint
 
 // Photons.
 LJUS_CORE_EXTERN template LightChoice light_choice(const std::vector<LightT<float>>&);
-LJUS_CORE_EXTERN template long long join_blocks(std::vector<PhotonBlockT<float>>&,
-                                                TracedPhotonsT<float>&);
+LJUS_CORE_EXTERN template long long
+join_blocks(std::vector<detail::PhotonBlockT<float>>&, TracedPhotonsT<float>&);
 LJUS_CORE_EXTERN template PhotonMap make_photon_map(const std::vector<Photon>&, int);
 LJUS_CORE_EXTERN template RgbT<double> flux_in_disc(const KdTree8&,
                                                     const PhotonRecordsT<float>&,

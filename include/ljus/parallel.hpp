@@ -47,6 +47,8 @@ struct ParallelSettings {
     Progress progress = {}; ///< Called after a block, by one thread at a time.
 };
 
+namespace detail {
+
 /// The number of blocks that cover `total` things.
 /// \param total  At least 0.
 /// \param size   Things in a block, at least 1; the last block may have fewer.
@@ -70,8 +72,6 @@ struct BlockRange {
     const long long first = block * size;
     return {first, total - first < size ? total : first + size};
 }
-
-namespace detail {
 
 // A body of any type, as one that a compiled loop can call: the loop below is the same
 // for all of them, and not compiled again for each.

@@ -21,6 +21,8 @@ namespace ljus {
 /// \cite heckbert1990.
 /// \{
 
+namespace detail {
+
 /// The light of one kind of path within a pixel.
 struct PathSum {
     std::string path;    ///< Heckbert's letters, as "EDSL".
@@ -29,15 +31,19 @@ struct PathSum {
     long long terms = 0; ///< How many terms it is the sum of.
 };
 
+} // namespace detail
+
 /// A pixel, taken apart.
 template <std::floating_point T>
 struct ExplainedPixelT {
-    RgbT<T> radiance{T(0)};            ///< As render() has it, to the last bit.
-    std::vector<PathSum> sums{};       ///< The brightest first; they add up to it.
-    std::vector<PathLog> first_rays{}; ///< The first few, vertex by vertex.
-    int samples = 0;                   ///< How many rays there were.
-    int rejected = 0;                  ///< Those left out because they were not finite.
+    RgbT<T> radiance{T(0)};              ///< As render() has it, to the last bit.
+    std::vector<detail::PathSum> sums{}; ///< The brightest first; they add up to it.
+    std::vector<PathLog> first_rays{};   ///< The first few, vertex by vertex.
+    int samples = 0;                     ///< How many rays there were.
+    int rejected = 0; ///< Those left out because they were not finite.
 };
+
+namespace detail {
 
 /// Takes a pixel apart: renders it again, with a log.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
@@ -99,8 +105,6 @@ requires Renderer<R, T>
     return pixel;
 }
 
-namespace detail {
-
 // "EDSL" as "E D S L".
 inline std::string spaced(const std::string& letters) {
     std::string text;
@@ -121,8 +125,6 @@ inline std::string padded(std::string text, std::size_t width) {
     if (text.size() < width) text.append(width - text.size(), ' ');
     return text;
 }
-
-} // namespace detail
 
 /// A pixel, taken apart, as a text.
 /// \param pixel  Of take_apart().
@@ -179,6 +181,8 @@ template <std::floating_point T>
     return text;
 }
 
+} // namespace detail
+
 /// Explains one pixel of a picture.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    The camera.
@@ -193,7 +197,7 @@ template <typename R, template <std::floating_point> typename AnyCamera,
 requires Renderer<R, T>
 [[nodiscard]] std::string explain(const R& renderer, const AnyCamera<T>& camera,
                                   const RenderSettings& picture, int x, int y) {
-    return describe(take_apart(renderer, camera, picture, x, y));
+    return detail::describe(detail::take_apart(renderer, camera, picture, x, y));
 }
 
 /// Explains one pixel of a scene, as the path tracer finds it by default.

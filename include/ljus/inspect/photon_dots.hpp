@@ -101,6 +101,8 @@ photon_in_sight(const S& scene, const CameraT<T>& camera, const PhotonT<T>& phot
 }
 // [photon_in_sight]
 
+namespace detail {
+
 /// Adds a dot to a picture.
 /// \param image  The picture.
 /// \param place  The dot's middle, in pixels from the upper left corner.
@@ -122,6 +124,8 @@ void add_dot(ImageT<T>& image, const Vec2T<T>& place, const RgbT<T>& color,
             pixel(image, x, y) += T(look.brightness) * cone * color;
         }
 }
+
+} // namespace detail
 
 /// Draws photons over a picture of their scene.
 /// \param image    The picture, as scene_drawing() makes it.
@@ -147,7 +151,7 @@ long long add_photon_dots(ImageT<T>& image, const S& scene, const CameraT<T>& ca
         const auto place =
             photon_in_sight(scene, camera, photon, image.width, image.height);
         if (!place) continue;
-        add_dot(image, *place, tip, look);
+        detail::add_dot(image, *place, tip, look);
         ++seen;
     }
     return seen;

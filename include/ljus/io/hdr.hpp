@@ -23,6 +23,8 @@ namespace ljus {
 /// channel.
 /// \{
 
+namespace detail {
+
 /// The four bytes of a colour: round(256 c / 2^e) and e + 128, where 2^e is the least
 /// power of two above the largest channel \cite ward1991.
 /// \param c  Every channel at least 0 and below 1.69e38.
@@ -54,6 +56,8 @@ from_rgbe(const std::array<unsigned char, 4>& rgbe) noexcept {
     return {rgbe[0] * unit, rgbe[1] * unit, rgbe[2] * unit};
 }
 
+} // namespace detail
+
 /// Saves an image as a Radiance file, without run-length coding.
 /// \param image  Linear colours, every channel finite, at least 0 and below 1.69e38.
 /// \param path   The file; an older one is replaced at the very end (save_file()).
@@ -78,7 +82,7 @@ void save_hdr(const ImageT<T>& image, const std::string& path) {
                         path +
                         "' it must be at least 0 and below 1.69e38 (a .pfm file holds "
                         "anything).");
-            for (const unsigned char byte : to_rgbe(c)) bytes.push_back(byte);
+            for (const unsigned char byte : detail::to_rgbe(c)) bytes.push_back(byte);
         }
     save_file(path, bytes);
 }
@@ -171,7 +175,7 @@ template <std::floating_point T = float>
     for (int y = 0; y < height; ++y) {
         detail::read_rgbe_row(reader, row, static_cast<std::size_t>(width));
         for (const auto& rgbe : row)
-            image.pixels.push_back(RgbT<T>(from_rgbe(rgbe) / exposure));
+            image.pixels.push_back(RgbT<T>(detail::from_rgbe(rgbe) / exposure));
     }
     if (reader.left() != 0)
         reader.fail("it has " + std::to_string(reader.left()) +

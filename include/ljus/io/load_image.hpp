@@ -56,6 +56,8 @@ namespace ljus {
 /// \brief Optional (stb_image): PNG, JPEG, BMP, TGA, GIF, PNM.
 /// \{
 
+namespace detail {
+
 /// The largest file that load_image() takes, in bytes.
 inline constexpr std::size_t max_image_file = std::size_t(1) << 28;
 
@@ -102,13 +104,15 @@ template <std::floating_point T = float>
 #endif
 }
 
+} // namespace detail
+
 /// Loads a picture, for a texture.
 /// \param path  The file.
 /// \return Linear colours in [0, 1].
 /// \throws std::runtime_error  with path and reason.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_image(const std::string& path) {
-    return decode_image<T>(load_file(path, max_image_file), path);
+    return detail::decode_image<T>(load_file(path, detail::max_image_file), path);
 }
 
 /// \}

@@ -31,8 +31,8 @@ namespace ljus {
 /// All faces of one material.
 template <std::floating_point T>
 struct ObjPartT {
-    MeshT<T> mesh;        ///< Its triangles.
-    ObjMaterial material; ///< What the file says that it is made of.
+    MeshT<T> mesh;                ///< Its triangles.
+    detail::ObjMaterial material; ///< What the file says that it is made of.
 };
 
 /// What a mesh file holds.
@@ -141,7 +141,7 @@ template <std::floating_point T = float>
 template <std::floating_point T = float>
 [[nodiscard]] LoadedObjT<T> load_obj(const std::string& path,
                                      const ObjSettings& settings = {}) {
-    const Bytes bytes = load_file(path, max_obj_file);
+    const Bytes bytes = load_file(path, detail::max_obj_file);
     return read_obj<T>(std::string(bytes.begin(), bytes.end()), path, settings);
 }
 
@@ -154,7 +154,7 @@ template <std::floating_point T = float>
 template <typename Scene, std::floating_point T>
 void add_obj(Scene& scene, const LoadedObjT<T>& loaded) {
     for (const ObjPartT<T>& part : loaded.parts) {
-        const ObjMaterial& is = part.material;
+        const detail::ObjMaterial& is = part.material;
         const GlassT<T> glass{.index = static_cast<T>(is.index)};
         const MirrorT<T> mirror{.reflectance = RgbT<T>(is.specular)};
         MaterialId id = [&] {

@@ -37,6 +37,8 @@ struct AimedPhotonT {
     ObjectId target;          ///< It counts only if this is what it meets first.
 };
 
+namespace detail {
+
 /// How a point of a light aims at an object.
 template <std::floating_point T>
 struct AimT {
@@ -78,6 +80,8 @@ template <SceneLike S, std::floating_point T>
 }
 // [aim_at]
 
+} // namespace detail
+
 /// A photon of a point light, aimed at one ball: the plain twin of aim(). The light
 /// sends \f$1/4\pi\f$ of its flux into each steradian, and the ball is seen in a cone of
 /// \f$2\pi(1 - \cos\theta)\f$ of them, which the photons share.
@@ -98,6 +102,8 @@ template <std::floating_point T>
             .flux = light.flux * (cone.one_minus_cos / T(2))};
 }
 // [aim_at_ball]
+
+namespace detail {
 
 /// A target that was chosen.
 template <std::floating_point T>
@@ -150,6 +156,8 @@ template <std::floating_point T>
     return cosine > T(0) ? cosine * std::numbers::inv_pi_v<T> : T(0);
 }
 
+} // namespace detail
+
 /// A photon aimed at one of several objects: at the cone in which the light's point
 /// sees the object's bounding sphere, uniformly; a wide cone is chosen more often, so
 /// that the density is the same, one over the sum of the cones, in all of them. A flat
@@ -195,24 +203,24 @@ aim(const S& scene, const LightChoice& choice, const std::vector<ObjectId>& targ
             const T radius = bound_of(id).radius;
             return std::numbers::pi_v<T> * radius * radius;
         };
-        const auto aimed = choose_target(targets, disc_of, u_target);
+        const auto aimed = detail::choose_target(targets, disc_of, u_target);
         if (!aimed) return std::nullopt;
         const SphereT<T> bound = bound_of(aimed->target);
-        photon.ray = sun_ray(light, bound.center, bound.radius, u_point);
+        photon.ray = detail::sun_ray(light, bound.center, bound.radius, u_point);
         photon.ray.time = time;
         photon.flux = light.emission * (aimed->sum / chosen.probability);
         return AimedPhotonT<T>{photon, aimed->target};
     }
 
     SurfacePointT<T> point{.position = light.position};
-    if (light.object) point = light_point(scene, light, u_point, time);
+    if (light.object) point = detail::light_point(scene, light, u_point, time);
     const auto size_of = [&](ObjectId id) {
-        return aim_at(scene, light, point, id).size;
+        return detail::aim_at(scene, light, point, id).size;
     };
-    const auto aimed = choose_target(targets, size_of, u_target);
+    const auto aimed = detail::choose_target(targets, size_of, u_target);
     if (!aimed) return std::nullopt;
 
-    const AimT<T> at = aim_at(scene, light, point, aimed->target);
+    const detail::AimT<T> at = detail::aim_at(scene, light, point, aimed->target);
     Vec3T<T> direction =
         to_world(frame_around(at.cone.axis),
                  sample_uniform_cone(u_direction, at.cone.one_minus_cos));
@@ -226,7 +234,7 @@ aim(const S& scene, const LightChoice& choice, const std::vector<ObjectId>& targ
     }
     pdf *= at.size / aimed->sum; // of the choice
     if (!(pdf < std::numeric_limits<T>::infinity())) return std::nullopt; // edge-on
-    const T emitted = emitted_share(light, point, direction);
+    const T emitted = detail::emitted_share(light, point, direction);
     if (!(emitted > T(0))) return std::nullopt;
     photon.flux = light.flux * (emitted / (pdf * chosen.probability));
     photon.ray = light.object

@@ -21,6 +21,8 @@ struct EmittedPhotonT {
     std::uint16_t light = 0; ///< The number of its light.
 };
 
+namespace detail {
+
 /// A point of an emissive object, uniform over its area, the normal where it shines to.
 /// \param scene  The scene.
 /// \param light  One of its lights that is an object.
@@ -86,6 +88,8 @@ template <SceneLike S, std::floating_point T>
 }
 // [light_ray]
 
+} // namespace detail
+
 /// A photon of a light chosen by power, see light_ray().
 ///
 /// Each photon of a white light then carries the same flux, the scene's whole flux over
@@ -109,7 +113,7 @@ emit(const S& scene, const LightChoice& choice, Stream& stream) {
     const Vec2T<T> u_point = next_2d<T>(stream);
     const Vec2T<T> u_direction = next_2d<T>(stream);
     const T time = detail::path_time(scene, stream);
-    RayT<T> ray = light_ray(scene, light, u_point, u_direction, time);
+    RayT<T> ray = detail::light_ray(scene, light, u_point, u_direction, time);
     ray.time = time;
     return {.ray = ray,
             .flux = light.flux / chosen.probability,

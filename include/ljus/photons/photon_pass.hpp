@@ -65,6 +65,8 @@ struct TracedPhotonsT {
     std::string remark{}; ///< Why it gave up, if it did: one sentence.
 };
 
+namespace detail {
+
 /// The photons of some paths, next to each other in the order of emission.
 template <std::floating_point T>
 struct PhotonBlockT {
@@ -137,6 +139,8 @@ void require_memory(const PhotonPassSettings& pass, double mean) {
                   percent(audit.escaped), percent(audit.absorbed + audit.roulette));
     return text;
 }
+
+} // namespace detail
 
 /// \}
 

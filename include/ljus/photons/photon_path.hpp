@@ -46,6 +46,8 @@ template <std::floating_point T>
 }
 // [roulette]
 
+namespace detail {
+
 /// Stores shadow photons on the matt surfaces behind the first one that a photon meets.
 ///
 /// A surface has two sides, and what a side does not get is the light whose cosine with
@@ -186,6 +188,8 @@ void trace_photon(const S& scene, MapType map, const EmittedPhotonT<T>& photon,
     audit.cut += RgbT<double>(path.throughput);
 }
 // [trace]
+
+} // namespace detail
 
 /// \}
 

@@ -18,6 +18,8 @@ namespace ljus {
 /// \brief Section 3.2.2: photons bounce "until Russian roulette decides otherwise".
 /// \{
 
+namespace detail {
+
 /// Sends and traces the paths of one block.
 /// \param scene    The scene.
 /// \param map      For which map.
@@ -77,6 +79,8 @@ long long join_blocks(std::vector<PhotonBlockT<T>>& blocks, TracedPhotonsT<T>& r
     return unsent;
 }
 
+} // namespace detail
+
 /// Emits and traces the photons of one map, by several threads.
 ///
 /// Some 2000 paths tell how many photons are stored in the mean; a pass that would need
@@ -101,7 +105,7 @@ trace_photons(const S& scene, MapType map, const PhotonPassSettings& pass) {
     const LightChoice choice = light_choice(scene.lights);
     require(choice.cumulative.back() > 0, "the power of all lights",
             choice.cumulative.back(), "above 0: a sun needs objects to shine on");
-    require_memory<T>(pass, 0);
+    detail::require_memory<T>(pass, 0);
 
     const detail::IndexedT<S> indexed(scene);
     TracedPhotonsT<T> result{.emitted = pass.photons};
@@ -109,18 +113,20 @@ trace_photons(const S& scene, MapType map, const PhotonPassSettings& pass) {
     const auto targets = caustics ? specular_objects(scene) : std::vector<ObjectId>{};
     if (caustics && targets.empty()) return result;
 
-    std::vector<PhotonBlockT<T>> blocks;
-    const long long count = block_count(pass.photons, photon_block);
+    std::vector<detail::PhotonBlockT<T>> blocks;
+    const long long count = detail::block_count(pass.photons, detail::photon_block);
     long long done = 0;  // blocks
     bool nothing = true; // has been stored so far
-    for (const long long paths : {pilot_paths, pass.give_up, pass.photons}) {
-        const long long last = std::min(block_count(paths, photon_block), count);
+    for (const long long paths : {detail::pilot_paths, pass.give_up, pass.photons}) {
+        const long long last =
+            std::min(detail::block_count(paths, detail::photon_block), count);
         if (last <= done) continue;
         blocks.resize(static_cast<std::size_t>(last));
         const auto body = [&](long long i) {
-            const BlockRange range = block_range(done + i, photon_block, pass.photons);
-            trace_block(indexed, map, choice, targets, pass, range,
-                        blocks[static_cast<std::size_t>(done + i)]);
+            const detail::BlockRange range =
+                detail::block_range(done + i, detail::photon_block, pass.photons);
+            detail::trace_block(indexed, map, choice, targets, pass, range,
+                                blocks[static_cast<std::size_t>(done + i)]);
         };
         const auto progress = [&](long long now, long long) {
             return pass.progress(done + now, count);
@@ -128,18 +134,20 @@ trace_photons(const S& scene, MapType map, const PhotonPassSettings& pass) {
         result.complete = parallel_blocks(
             last - done, body, {.threads = pass.threads, .progress = progress});
         done = last;
-        result.emitted = std::min(last * photon_block, pass.photons);
+        result.emitted = std::min(last * detail::photon_block, pass.photons);
         std::size_t stored = 0;
         for (const auto& block : blocks) stored += block.photons.size();
         nothing = stored == 0;
         if (!result.complete) break;
-        require_memory<T>(pass, double(stored) / double(std::max(result.emitted, 1LL)));
+        detail::require_memory<T>(pass, double(stored) /
+                                            double(std::max(result.emitted, 1LL)));
         if (nothing && result.emitted >= pass.give_up) break;
     }
-    const long long unsent = join_blocks(blocks, result);
+    const long long unsent = detail::join_blocks(blocks, result);
     if (nothing && result.complete && result.emitted < pass.photons) {
         result.audit *= double(pass.photons) / double(result.emitted);
-        result.remark = why_nothing(pass, map, result.emitted, unsent, result.audit);
+        result.remark =
+            detail::why_nothing(pass, map, result.emitted, unsent, result.audit);
     }
     return result;
 }

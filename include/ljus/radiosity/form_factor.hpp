@@ -40,6 +40,8 @@ template <std::floating_point T>
 }
 /// \}
 
+namespace detail {
+
 /// The other side of a facet.
 [[nodiscard]] constexpr Facet turned(const Facet& facet) noexcept {
     Facet other{.count = facet.count};
@@ -91,6 +93,8 @@ template <std::floating_point T>
     return part.count < 3 ? Facet{} : part;
 }
 
+} // namespace detail
+
 /// The form factor from a point of a surface to a facet: the share of what the point
 /// sends out, or of what could come to it, that the facet takes.
 ///
@@ -109,7 +113,7 @@ template <std::floating_point T>
 [[nodiscard]] inline double form_factor_at(const glm::dvec3& point,
                                            const glm::dvec3& normal,
                                            const Facet& facet) noexcept {
-    const Facet seen = clipped(facet, point, normal);
+    const Facet seen = detail::clipped(facet, point, normal);
     double sum = 0;
     for (int i = 0; i < seen.count; ++i) {
         const glm::dvec3 a = seen.corners[static_cast<std::size_t>(i)] - point;

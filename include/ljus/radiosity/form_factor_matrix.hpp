@@ -49,6 +49,8 @@ struct FormFactorSettings {
     Progress progress = {}; ///< Called with (done, total); false stops.
 };
 
+namespace detail {
+
 /// Scales form factors until each row's sum is 1, as in a room that no light leaves;
 /// symmetry is kept \cite sinkhorn1967. Then the rays' noise neither makes light nor
 /// swallows it, which matters when the albedo is near 1.
@@ -75,6 +77,8 @@ inline bool close_rows(FormFactors& factors) {
             factors.exchange[i * n + j] *= scale[i] * scale[j];
     return worst <= 1e-10;
 }
+
+} // namespace detail
 
 /// Finds the form factors between all patches: the closed form between flat ones, times
 /// the visible share; else by rays from both, weighted so that their noise is least.
@@ -108,16 +112,17 @@ make_form_factors(const S& scene, const Patches& all,
         double* const row = factors.exchange.data() + i * n;
         const auto number = static_cast<std::uint32_t>(i);
         if (!closed_form(i)) {
-            shoot_rays(indexed, all, number, settings.rays, settings.seed, {row, n});
+            detail::shoot_rays(indexed, all, number, settings.rays, settings.seed,
+                               {row, n});
             return;
         }
         for (std::size_t j = i + 1; j < n; ++j) {
             if (!closed_form(j)) continue;
             row[j] = exchange_area(all.patches[i].facet, all.patches[j].facet);
             if (row[j] > 0 && !all.convex)
-                row[j] *=
-                    visible_share(indexed, all, number, static_cast<std::uint32_t>(j),
-                                  settings.shadow_rays, settings.seed);
+                row[j] *= detail::visible_share(indexed, all, number,
+                                                static_cast<std::uint32_t>(j),
+                                                settings.shadow_rays, settings.seed);
         }
     };
     if (!parallel_blocks(static_cast<long long>(n), fill,
@@ -136,7 +141,7 @@ make_form_factors(const S& scene, const Patches& all,
             back = there;
         }
     if (settings.closed)
-        require(close_rows(factors), "closed", 1LL,
+        require(detail::close_rows(factors), "closed", 1LL,
                 "false in a room with a patch that sees no other");
     return factors;
 }

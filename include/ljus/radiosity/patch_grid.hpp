@@ -124,6 +124,8 @@ struct CellPlace {
     return row * (2 * grid.columns - row) + 2 * column + (upper ? 1 : 0);
 }
 
+namespace detail {
+
 /// The place of a hit on its shape.
 /// \param kind          Of the grid.
 /// \param hit           u and v of a flat shape.
@@ -183,6 +185,8 @@ template <typename S, std::floating_point T>
                             : Facet{{at(0, 0), at(1, 0), at(0, 1)}, 3};
     return grid.inward ? turned(facet) : facet;
 }
+
+} // namespace detail
 
 /// \}
 

@@ -19,6 +19,8 @@ namespace ljus {
 /// \ref ch_radiosity.
 /// \{
 
+namespace detail {
+
 /// A point of a patch, uniform over its area.
 /// \param scene   The scene.
 /// \param all     Its patches.
@@ -136,6 +138,8 @@ template <SceneLike S>
     }
     return total > 0 ? visible / total : 0;
 }
+
+} // namespace detail
 
 /// \}
 

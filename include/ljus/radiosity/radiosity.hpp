@@ -44,7 +44,7 @@ struct Radiosity {
 [[nodiscard]] inline EnergyBalance
 energy_balance(const Patches& patches, const FormFactors& factors,
                const std::vector<RgbT<double>>& radiosity) {
-    const auto irradiance = multiply(factors, radiosity);
+    const auto irradiance = detail::multiply(factors, radiosity);
     EnergyBalance sum;
     for (std::size_t i = 0; i < radiosity.size(); ++i) {
         const Patch& patch = patches.patches[i];
@@ -68,7 +68,7 @@ template <SceneLike S>
                                       const std::vector<RgbT<double>>& radiosity) {
     return {.objects = scene.size(),
             .grids = patches.grids,
-            .irradiance = multiply(factors, radiosity)};
+            .irradiance = detail::multiply(factors, radiosity)};
 }
 
 /// Radiosity of a scene, from the patches to the light map.

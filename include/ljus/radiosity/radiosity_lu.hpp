@@ -44,8 +44,6 @@ inline void eliminate(std::vector<double>& a, std::vector<RgbT<double>>& b) {
     }
 }
 
-} // namespace detail
-
 /// Solves by elimination: all channels at once if every patch is grey, else one by one.
 /// \param factors  The form factors.
 /// \param patches  Albedo and emission.
@@ -76,6 +74,8 @@ solve_lu(const FormFactors& factors, const std::vector<Patch>& patches) {
     }
     return radiosity;
 }
+
+} // namespace detail
 
 /// \}
 

@@ -39,6 +39,8 @@ struct RadiositySolution {
     bool converged = true;                 ///< Whether the tolerance was reached.
 };
 
+namespace detail {
+
 /// The irradiance of all patches.
 /// \param factors    The form factors.
 /// \param radiosity  Of each patch, W/m^2.
@@ -61,8 +63,6 @@ multiply(const FormFactors& factors, const std::vector<RgbT<double>>& radiosity,
     return irradiance;
 }
 
-namespace detail {
-
 // The flux of a residual as a share of the emitted flux, in the channel where it is
 // the largest.
 [[nodiscard]] inline double unsent_share(const FormFactors& factors,
@@ -76,8 +76,6 @@ namespace detail {
         if (emitted[c] > 0) share = std::max(share, sum[c] / emitted[c]);
     return share;
 }
-
-} // namespace detail
 
 /// Sends the waiting light of one patch to all others. Gauss-Seidel and shooting are
 /// this step, in different orders.
@@ -117,6 +115,8 @@ inline void relax(const FormFactors& factors, const std::vector<Patch>& patches,
     return best;
 }
 
+} // namespace detail
+
 /// Solves the equations of radiosity.
 ///
 /// All ways but `lu` begin in the dark: B = 0, and all light waits to be sent. What
@@ -146,8 +146,9 @@ solve_radiosity(const FormFactors& factors, const std::vector<Patch>& patches,
     require(most < 1 - 1e-12, "the largest share of its light that a patch gets back",
             most, "below 1: take smaller albedos, more rays, or `closed` factors");
     if (settings.solver == RadiositySolver::lu) {
-        solution.radiosity = solve_lu(factors, patches);
-        const auto irradiance = multiply(factors, solution.radiosity, settings.threads);
+        solution.radiosity = detail::solve_lu(factors, patches);
+        const auto irradiance =
+            detail::multiply(factors, solution.radiosity, settings.threads);
         for (std::size_t i = 0; i < n; ++i)
             unsent[i] += patches[i].albedo * irradiance[i] - solution.radiosity[i];
         solution.residual.push_back(detail::unsent_share(factors, unsent, flux));
@@ -155,7 +156,7 @@ solve_radiosity(const FormFactors& factors, const std::vector<Patch>& patches,
     }
     const auto jacobi = [&] {
         for (std::size_t i = 0; i < n; ++i) solution.radiosity[i] += unsent[i];
-        const auto arrives = multiply(factors, unsent, settings.threads);
+        const auto arrives = detail::multiply(factors, unsent, settings.threads);
         for (std::size_t i = 0; i < n; ++i) unsent[i] = patches[i].albedo * arrives[i];
     };
     const auto rest = [&] { return detail::unsent_share(factors, unsent, flux); };
@@ -169,11 +170,11 @@ solve_radiosity(const FormFactors& factors, const std::vector<Patch>& patches,
             jacobi();
         else
             for (std::size_t step = 0; step < n; ++step)
-                relax(factors, patches,
-                      settings.solver == RadiositySolver::shooting
-                          ? brightest(factors, unsent)
-                          : step,
-                      solution.radiosity, unsent);
+                detail::relax(factors, patches,
+                              settings.solver == RadiositySolver::shooting
+                                  ? detail::brightest(factors, unsent)
+                                  : step,
+                              solution.radiosity, unsent);
         solution.residual.push_back(rest());
     }
     return solution;

@@ -52,6 +52,8 @@ template <SceneLike S>
 DistributedTracer<S> make_distributed(const S&& scene,
                                       const DistributedSettings& = {}) = delete;
 
+namespace detail {
+
 /// The light of all lights at a surface, by one shadow ray to a random point of each.
 /// In gloss a lamp is seen by the reflected ray, so that none is sent to it: each path
 /// has one owner.
@@ -75,6 +77,8 @@ template <SceneLike S, std::floating_point T, Material M, typename Stream>
     }
     return sum;
 }
+
+} // namespace detail
 
 /// The radiance that one camera ray finds, at a random time, by one ray at each mirror,
 /// glass or gloss and one to each light.
@@ -107,7 +111,7 @@ template <SceneLike S, std::floating_point T, typename Stream, typename Log = No
             const Lobes parts = lobes(material);
             if (has(parts, Lobes::non_specular))
                 add("shadow ray", "DL",
-                    soft_light(scene, *vertex, material, stream, counts));
+                    detail::soft_light(scene, *vertex, material, stream, counts));
             if (path.depth > tracer.settings.max_depth) return false;
             const Lobes which =
                 has(parts, Lobes::glossy) ? Lobes::all : Lobes::specular;

@@ -91,6 +91,8 @@ template <std::floating_point T>
 }
 // [heuristics]
 
+namespace detail {
+
 /// The weight of one of two strategies, as the settings have it.
 /// \param heuristic  balance or power.
 /// \param pdf        Of the strategy that made the sample.
@@ -168,6 +170,8 @@ template <SceneLike S, std::floating_point T, Material M>
 }
 // [sampled]
 
+} // namespace detail
+
 /// The radiance that one random path finds.
 ///
 /// At each diffuse surface a light, chosen by power, is asked by a shadow ray; the path
@@ -196,14 +200,16 @@ template <SceneLike S, std::floating_point T, typename Log = NoLog>
     auto path = detail::camera_path(scene, ray, stream);
     log.begin();
     while (const auto vertex = next_vertex(scene, path, stream)) {
-        if (vertex->emits()) add("emission", "L", emitted(tracer, path, *vertex));
+        if (vertex->emits())
+            add("emission", "L", detail::emitted(tracer, path, *vertex));
         if (path.depth > settings.max_depth) break;
 
         const auto at_material = [&](const auto& material) {
             if (has(lobes(material), Lobes::non_specular) && settings.sample_lights &&
                 !scene.lights.empty())
                 add("shadow ray", "DL",
-                    sample_one_light(tracer, path, *vertex, material, stream, counts));
+                    detail::sample_one_light(tracer, path, *vertex, material, stream,
+                                             counts));
             return continue_path(path, *vertex, material, Transport::radiance,
                                  Lobes::all, stream);
         };

@@ -142,6 +142,8 @@ void light_at(const PhotonMapper<S>& mapper, const VertexT<T>& vertex,
 }
 // [light_at]
 
+namespace detail {
+
 /// A camera path goes both ways at glass so many times, at most.
 inline constexpr std::size_t max_splits = 8;
 
@@ -149,6 +151,8 @@ inline constexpr std::size_t max_splits = 8;
 /// throughput says. It is faint: by its throughput alone it would survive rarely, and
 /// then be as bright as if it were the only one. Any number keeps the mean.
 inline constexpr int split_survival = 16;
+
+} // namespace detail
 
 /// The radiance that one camera path finds with the help of the photon maps.
 ///
@@ -195,7 +199,7 @@ template <SceneLike S, std::floating_point T, typename Log = NoLog>
                     light_at(mapper, *vertex, material, gather, stream, counts, add);
                 if (path.depth == settings.max_depth) return false;
                 if (settings.split_glass && !path.met_diffuse &&
-                    branches.size() < max_splits)
+                    branches.size() < detail::max_splits)
                     if (const auto other = split_path(path, *vertex, material)) {
                         branches.push_back(*other);
                         return true;
@@ -209,7 +213,7 @@ template <SceneLike S, std::floating_point T, typename Log = NoLog>
             detail::log_vertex(log, path);
             if (is_black(path.throughput)) return;
             const T eta_scale = !branches.empty() && !path.met_diffuse
-                                    ? path.eta_scale / T(split_survival)
+                                    ? path.eta_scale / T(detail::split_survival)
                                     : path.eta_scale;
             if (path.depth >= settings.roulette_depth &&
                 !survives(path.throughput, eta_scale, next_1d<T>(stream)))

@@ -51,6 +51,8 @@ constexpr void start_ray(RandomStream& stream, std::uint64_t seed, std::uint64_t
                                static_cast<std::uint64_t>(ray));
 }
 
+namespace detail {
+
 /// The radiance of one primary ray, as the pixel loop asks for it.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    A CameraT, or anything with a camera_ray().
@@ -81,6 +83,8 @@ template <typename R, template <std::floating_point> typename AnyCamera,
     return radiance(renderer, ray, stream, counts, log);
 }
 
+} // namespace detail
+
 /// Renders a picture, row by row, by several threads.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    A CameraT, or anything with a camera_ray().
@@ -107,8 +111,8 @@ requires Renderer<R, T>
         for (int x = first; x < std::min(first + 16, picture.width); ++x) {
             RgbT<double> sum{0}; // a float would lose the last of 100 000 samples
             for (int i = 0; i < picture.samples; ++i) {
-                const RgbT<T> sample =
-                    sample_pixel(renderer, camera, picture, pattern, x, y, i, cost);
+                const RgbT<T> sample = detail::sample_pixel(renderer, camera, picture,
+                                                            pattern, x, y, i, cost);
                 if (is_finite(sample))
                     sum += RgbT<double>(sample);
                 else

@@ -82,6 +82,8 @@ template <SceneLike S>
     return found;
 }
 
+namespace detail {
+
 /// Says which passes a scene requires.
 /// \param found     What the scene is made of.
 /// \param settings  What the user asks for.
@@ -90,7 +92,11 @@ template <SceneLike S>
 [[nodiscard]] LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
                                               const PhotonMappingSettings& settings);
 
+} // namespace detail
+
 #ifndef LJUS_CORE // else it is there already
+namespace detail {
+
 // [survey]
 LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
                                 const PhotonMappingSettings& settings) {
@@ -146,6 +152,9 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
     return plan;
 }
 // [survey]
+
+} // namespace detail
+
 #endif
 
 /// Says which passes a scene requires.
@@ -154,7 +163,7 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
 /// \return As make_plan().
 template <SceneLike S>
 [[nodiscard]] Plan survey(const S& scene, const PhotonMappingSettings& settings) {
-    return make_plan(needs(scene), settings);
+    return detail::make_plan(needs(scene), settings);
 }
 
 /// \}

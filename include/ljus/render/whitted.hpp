@@ -71,6 +71,8 @@ template <std::floating_point T>
 }
 /// \}
 
+namespace detail {
+
 /// The light that a diffuse surface sends back: of each light by one shadow ray, which
 /// is not sent where the surface faces away, and of the ambient light without any.
 /// \param tracer    The scene and the settings.
@@ -147,6 +149,8 @@ void trace_branch(const WhittedTracer<S>& tracer, PathStateT<T> path, Stream& st
 }
 // [trace_branch]
 
+} // namespace detail
+
 /// The radiance that the tree of one primary ray finds.
 ///
 /// Nothing is left to chance: glass sends a ray both ways, each light has one point.
@@ -164,8 +168,8 @@ template <SceneLike S, std::floating_point T, typename Stream, typename Log = No
                                Stream& stream, Counts& counts, Log&& log = {}) {
     RgbT<T> sum{T(0)};
     log.begin();
-    trace_branch(tracer, detail::camera_path(tracer.scene, ray, stream), stream, counts,
-                 log, sum);
+    detail::trace_branch(tracer, detail::camera_path(tracer.scene, ray, stream), stream,
+                         counts, log, sum);
     return sum;
 }
 

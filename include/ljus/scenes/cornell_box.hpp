@@ -52,6 +52,8 @@ template <std::floating_point T = float>
                             .vfov_degrees = T(33)});
 }
 
+namespace detail {
+
 /// Adds the lamp below the ceiling, a square of side 0.5.
 /// \param scene  A scene with quads and Lambert's surfaces.
 template <SceneLike S, std::floating_point T = typename S::Scalar>
@@ -62,6 +64,8 @@ void add_cornell_lamp(S& scene) {
               scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0)}}),
               RgbT<T>{T(17), T(13), T(8)});
 }
+
+} // namespace detail
 
 /// The box with its lamp and its balls.
 /// \return The scene and its camera.
@@ -74,7 +78,7 @@ template <std::floating_point T = float>
               scene.add(MirrorT<T>{.reflectance = RgbT<T>{T(0.95)}}));
     scene.add(SphereT<T>{.center{T(0.42), T(0.38), T(0.3)}, .radius = T(0.38)},
               scene.add(GlassT<T>{.index = T(1.5)}));
-    add_cornell_lamp(scene);
+    detail::add_cornell_lamp(scene);
     room.camera = cornell_camera<T>();
     return room;
 }
@@ -92,7 +96,7 @@ template <std::floating_point T = float>
               scene.add(LambertianT<T>{.albedo{T(0.2), T(0.35), T(0.7)}}));
     scene.add(SphereT<T>{.center{T(0.42), T(0.38), T(0.3)}, .radius = T(0.38)},
               scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0.7)}}));
-    add_cornell_lamp(scene);
+    detail::add_cornell_lamp(scene);
     room.camera = cornell_camera<T>();
     return room;
 }

@@ -226,13 +226,9 @@ constexpr auto materials_of(const std::tuple<Row...>&) {
         std::type_identity<decltype(std::declval<Row>().read(std::declval<In>()))>{});
 }
 
-} // namespace detail
-
 /// Whatever a scene file may name.
 template <std::floating_point T>
 using FileMaterialsT = decltype(detail::materials_of<T>(detail::material_rows<T>()));
-
-namespace detail {
 
 template <typename Scene, std::floating_point T = typename Scene::Scalar>
 MaterialId read_material(const JsonField& field, Scene& scene) {
