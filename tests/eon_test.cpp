@@ -18,6 +18,19 @@ using namespace ljus_test;
 
 namespace {
 
+/// The share of a constant sky that the surface returns, in closed form.
+template <std::floating_point T>
+ljus::RgbT<T> eon_albedo(const ljus::EonT<T>& surface,
+                         const ljus::Vec3T<T>& wo) noexcept {
+    const T r = surface.roughness;
+    const T ar = r / (T(1) + ljus::detail::fon_constant<T> * r);
+    const T loss = ar * ljus::detail::eon_loss(std::hypot(wo.x, wo.y), std::abs(wo.z));
+    return surface.albedo * (T(1) - loss) +
+           ljus::detail::multiple_scattering(surface.albedo,
+                                             ar * ljus::detail::eon_mean_loss<T>) *
+               loss;
+}
+
 using L = long double;
 constexpr L pi = std::numbers::pi_v<L>;
 

@@ -7,6 +7,8 @@
 
 #include <vector>
 
+#include "support/form_factor_facing.hpp"
+
 using ljus::Facet;
 
 namespace {
@@ -79,14 +81,15 @@ std::vector<Facet> tetrahedron(std::array<V, 4> p) {
 } // namespace
 
 TEST_CASE("form_factor: unit squares, as every table has them") {
-    CHECK(std::abs(ljus::form_factor_facing(1, 1, 1) - 0.1998248957) < 1e-10);
+    CHECK(std::abs(ljus_test::form_factor_facing(1, 1, 1) - 0.1998248957) < 1e-10);
     CHECK(std::abs(ljus::form_factor_corner(1, 1, 1) - 0.2000437761) < 1e-10);
     // A floor and the five other faces of a cube.
-    CHECK(ljus::form_factor_facing(1, 1, 1) + 4 * ljus::form_factor_corner(1, 1, 1) ==
+    CHECK(ljus_test::form_factor_facing(1, 1, 1) +
+              4 * ljus::form_factor_corner(1, 1, 1) ==
           doctest::Approx(1).epsilon(1e-14));
     // Very near to each other all of the light arrives, very far almost none.
-    CHECK(ljus::form_factor_facing(1e6, 1e6, 1) > 1 - 1e-5);
-    CHECK(ljus::form_factor_facing(1, 1, 100) * std::numbers::pi * 1e4 ==
+    CHECK(ljus_test::form_factor_facing(1e6, 1e6, 1) > 1 - 1e-5);
+    CHECK(ljus_test::form_factor_facing(1, 1, 100) * std::numbers::pi * 1e4 ==
           doctest::Approx(1).epsilon(1e-3));
 }
 
@@ -98,7 +101,7 @@ TEST_CASE("exchange_area: rectangles that face each other or stand on each other
                 const Facet roof = rectangle({0, 0, c}, {0, b, 0}, {a, 0, 0});
                 const Facet wall = rectangle({}, {0, b, 0}, {0, 0, c});
                 CHECK(exchange_area(floor, roof) ==
-                      doctest::Approx(a * b * ljus::form_factor_facing(a, b, c))
+                      doctest::Approx(a * b * ljus_test::form_factor_facing(a, b, c))
                           .epsilon(1e-11));
                 CHECK(exchange_area(floor, wall) ==
                       doctest::Approx(a * b * ljus::form_factor_corner(b, a, c))

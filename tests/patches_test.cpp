@@ -7,6 +7,7 @@
 #include "ljus/radiosity/form_factor_matrix.hpp"
 #include "ljus/scenes/cornell_box.hpp"
 #include "ljus/scenes/furnaces.hpp"
+#include "support/form_factor_facing.hpp"
 #include "support/refusal.hpp"
 
 using namespace ljus;
@@ -153,7 +154,8 @@ TEST_CASE("form_factors: the closed form in a box") {
             facing += factors->row(i)[16 + j];
             corner += factors->row(i)[32 + j];
         }
-    CHECK(facing == doctest::Approx(form_factor_facing(1, 1, 1)).epsilon(1e-12));
+    CHECK(facing ==
+          doctest::Approx(ljus_test::form_factor_facing(1, 1, 1)).epsilon(1e-12));
     CHECK(corner == doctest::Approx(form_factor_corner(1, 1, 1)).epsilon(1e-12));
     for (std::size_t i = 0; i < n; ++i) {
         CHECK(std::abs(factors->row_sum(i) - 1) < 1e-12);
@@ -215,8 +217,8 @@ TEST_CASE("form_factors: rays find the numbers of the tables") {
     for (std::size_t i = 0; i < 6; ++i)
         for (std::size_t j = 0; j < i; ++j) {
             const bool facing = i / 2 == j / 2;
-            const double right =
-                facing ? form_factor_facing(1, 1, 1) : form_factor_corner(1, 1, 1);
+            const double right = facing ? ljus_test::form_factor_facing(1, 1, 1)
+                                        : form_factor_corner(1, 1, 1);
             CHECK(std::abs((*found)(i, j) - right) < 3 * sigma); // the seed is fixed
         }
 }
@@ -259,7 +261,7 @@ TEST_CASE("form_factors: what stands between") {
         const auto rays =
             make_form_factors(stage, all, {.analytic = false, .rays = 20000});
         CHECK((*rays)(0, 1) == doctest::Approx((*factors)(0, 1)).epsilon(0.03));
-        return (*factors)(0, 1) / form_factor_facing(1, 1, 1);
+        return (*factors)(0, 1) / ljus_test::form_factor_facing(1, 1, 1);
     };
     CHECK(share(0) == doctest::Approx(1).epsilon(1e-12));
     CHECK(share(1) == 0);

@@ -37,7 +37,22 @@ Exact exact_value(const Powers& p, const Exact& x) {
     return sum;
 }
 
-/// The tolerance that roots_in() documents.
+/// All roots of a polynomial in powers that lie in an interval; the tolerance is
+/// 8 (N + 1) eps times the sum of |c_i| m^i, m the larger of |low| and |high|: what
+/// rounding may have done.
+template <std::floating_point T, std::size_t M>
+detail::RootsT<T, M - 1> roots_in(const std::array<T, M>& p, T low, T high) noexcept {
+    const T m = glm::max(std::abs(low), std::abs(high));
+    T size = T(0);
+    for (std::size_t i = M; i-- > 0;) size = size * m + std::abs(p[i]);
+    const T tolerance = T(8 * M) * std::numeric_limits<T>::epsilon() * size;
+    auto result = detail::roots(detail::on_interval(p, low, high), tolerance);
+    for (std::size_t i = 0; i < result.count; ++i)
+        result.at[i] = glm::min(high, low + result.at[i] * (high - low));
+    return result;
+}
+
+/// The tolerance of roots_in(), worked out anew.
 double tolerance(const Powers& p, double low, double high) {
     const double m = std::max(std::abs(low), std::abs(high));
     double size = 0;
@@ -163,7 +178,7 @@ TEST_CASE("polynomial: no root is lost, none is invented, and they come in order
             for (std::size_t k = 1; k < 5; ++k) slope[k - 1] = double(k) * known.p[k];
             const double step = 4096 * std::numeric_limits<double>::epsilon();
 
-            const auto roots = detail::roots_in(known.p, known.low, known.high);
+            const auto roots = roots_in(known.p, known.low, known.high);
             CHECK(std::is_sorted(roots.begin(), roots.end()));
             found += int(roots.count);
             for (const double x : roots) {
@@ -210,18 +225,16 @@ TEST_CASE("polynomial: no root is lost, none is invented, and they come in order
 }
 
 TEST_CASE("polynomial: known roots") {
-    const auto r =
-        detail::roots_in(std::array{24.0, -50.0, 35.0, -10.0, 1.0}, 0.0, 5.0);
+    const auto r = roots_in(std::array{24.0, -50.0, 35.0, -10.0, 1.0}, 0.0, 5.0);
     REQUIRE(r.count == 4);
     for (std::size_t i = 0; i < 4; ++i)
         CHECK(r.at[i] == doctest::Approx(double(i + 1)).epsilon(1e-12));
-    CHECK(detail::roots_in(std::array{24.0, -50.0, 35.0, -10.0, 1.0}, 1.5, 3.5).count ==
-          2);
-    CHECK(detail::roots_in(std::array{1.0, 0.0, 1.0}, -9.0, 9.0).count == 0);
-    CHECK(detail::roots_in(std::array{-2.0, 0.0, 1.0}, 0.0, 2.0).at[0] ==
+    CHECK(roots_in(std::array{24.0, -50.0, 35.0, -10.0, 1.0}, 1.5, 3.5).count == 2);
+    CHECK(roots_in(std::array{1.0, 0.0, 1.0}, -9.0, 9.0).count == 0);
+    CHECK(roots_in(std::array{-2.0, 0.0, 1.0}, 0.0, 2.0).at[0] ==
           doctest::Approx(std::sqrt(2.0)).epsilon(1e-15));
-    CHECK(detail::roots_in(std::array{-1.0, 2.0}, 0.0, 1.0).at[0] == 0.5);
-    CHECK(detail::roots_in(std::array{0.0f, 1.0f}, -1.0f, 1.0f).at[0] == 0.0f);
+    CHECK(roots_in(std::array{-1.0, 2.0}, 0.0, 1.0).at[0] == 0.5);
+    CHECK(roots_in(std::array{0.0f, 1.0f}, -1.0f, 1.0f).at[0] == 0.0f);
 }
 
 TEST_CASE("polynomial: the constant 0 has a root, a constant has none, a NaN no end") {

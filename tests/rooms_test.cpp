@@ -10,7 +10,6 @@
 #include "ljus/render/render.hpp"
 #include "ljus/scenes/cornell_box.hpp"
 #include "ljus/scenes/furnaces.hpp"
-#include "ljus/scenes/material_rows.hpp"
 #include "ljus/scenes/report_rooms.hpp"
 
 using namespace ljus;
@@ -239,20 +238,6 @@ TEST_CASE(
     CHECK(share.diffuse == 0.0f);
 }
 
-TEST_CASE("rooms: the balls of a row stand on the floor, clear of each other") {
-    for (int i = 0; i < 4; ++i) {
-        CHECK(ball_of_row(i).center.z - ball_of_row(i).radius == -5.0f);
-        if (i > 0)
-            CHECK(ball_of_row(i - 1).center.y - ball_of_row(i).center.y >
-                  2 * ball_of_row(i).radius);
-    }
-    const auto row = oren_nayar_row();
-    const auto& rough = std::get<1>(row.scene.materials);
-    REQUIRE(rough.size() == 4);
-    for (std::size_t i = 1; i < 4; ++i) CHECK(rough[i].sigma > rough[i - 1].sigma);
-    CHECK(rough[3].sigma < 0.8f);
-}
-
 TEST_CASE("rooms: the Cornell box faces inwards") {
     Scene<Shapes<Quad>, Materials<Lambertian>> scene;
     add_cornell_walls(scene);
@@ -269,12 +254,6 @@ TEST_CASE("rooms: both renderers find the same light") {
     }
     SUBCASE("four glass balls") {
         check_both_renderers_agree(four_glass_room(), 16, 0.1f);
-    }
-    SUBCASE("row of materials") {
-        check_both_renderers_agree(material_row(), 16, 0.1f);
-    }
-    SUBCASE("row of roughnesses") {
-        check_both_renderers_agree(oren_nayar_row(), 16, 0.1f);
     }
     SUBCASE("Cornell box") {
         check_both_renderers_agree(cornell_box(), 16, 0.02f);

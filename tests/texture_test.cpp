@@ -111,7 +111,7 @@ TEST_CASE(
     CHECK(material_at(matt, there, Vec2{0}).albedo == Rgb{0.8f});
     const Textured<Mirror, Checker> mirror{{}, board};
     CHECK(material_at(mirror, here, Vec2{0}).reflectance == Rgb{0.5f});
-    CHECK(is_specular(mirror));
+    CHECK(lobes(mirror) == Lobes::specular);
     const Textured<Glossy, Checker> gloss{{.reflectance = Rgb{1}}, board};
     CHECK(material_at(gloss, here, Vec2{0}).reflectance == Rgb{0.5f});
     const Textured<ThinGlass, Checker> pane{{}, board};

@@ -245,26 +245,6 @@ bool parallel_blocks(long long count, Body&& body,
     return detail::run_blocks(count, {any, call}, options);
 }
 
-/// The sum of `body(block)` over all blocks, added in the order of the blocks.
-/// \param count    The number of blocks, at least 0.
-/// \param body     Called as body(long long); returns the sum of its block.
-/// \param threads  As in ParallelSettings.
-/// \return The sum, the same for any number of threads; R() for no block.
-/// \throws As parallel_blocks().
-template <std::invocable<long long> Body>
-[[nodiscard]] auto parallel_sum(long long count, Body&& body, int threads = 0) {
-    using R = std::remove_cvref_t<std::invoke_result_t<Body&, long long>>;
-    static_assert(!std::same_as<R, bool>, "A sum of bool: return an int instead.");
-    std::vector<R> sums(count > 0 ? static_cast<std::size_t>(count) : 0);
-    parallel_blocks(
-        count,
-        [&](long long block) { sums[static_cast<std::size_t>(block)] = body(block); },
-        {.threads = threads});
-    R sum{};
-    for (const R& block_sum : sums) sum = sum + block_sum;
-    return sum;
-}
-
 /// \}
 
 } // namespace ljus

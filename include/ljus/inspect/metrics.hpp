@@ -184,44 +184,6 @@ template <std::floating_point T, std::floating_point U>
     return rel_mse(block_means(image, size), block_means(reference, size), epsilon);
 }
 
-/// The mean absolute relative error, mean |x - r| / (|r| + epsilon).
-///
-/// Robust against fireflies, which enter by their size, not its square.
-/// *Trap*: it is smallest for a picture that is too dark, by the median's argument.
-/// \param image      The picture.
-/// \param reference  The truth, of the same size.
-/// \param epsilon    Radiance, above 0.
-/// \return Without unit, a fraction (0.1 is 10 %).
-/// \throws std::invalid_argument  as rel_mse().
-template <std::floating_point T, std::floating_point U>
-[[nodiscard]] double mape(const ImageT<T>& image, const ImageT<U>& reference,
-                          double epsilon = default_epsilon) {
-    detail::require_epsilon(epsilon);
-    return detail::mean(
-        detail::pixel_errors(image, reference, [epsilon](double x, double r) {
-            return std::abs(x - r) / (std::abs(r) + epsilon);
-        }));
-}
-
-/// The symmetric mean absolute relative error, mean |x - r| / (|x| + |r| + epsilon).
-///
-/// *Trap*: it is bounded, so that it hides fireflies; and some authors put a factor of
-/// 2 in front, which is not here.
-/// \param image  The picture.
-/// \param reference  The truth, of the same size.
-/// \param epsilon  Radiance, above 0.
-/// \return Without unit, in [0, 1).
-/// \throws std::invalid_argument  as rel_mse().
-template <std::floating_point T, std::floating_point U>
-[[nodiscard]] double smape(const ImageT<T>& image, const ImageT<U>& reference,
-                           double epsilon = default_epsilon) {
-    detail::require_epsilon(epsilon);
-    return detail::mean(
-        detail::pixel_errors(image, reference, [epsilon](double x, double r) {
-            return std::abs(x - r) / (std::abs(x) + std::abs(r) + epsilon);
-        }));
-}
-
 /// \}
 
 } // namespace ljus

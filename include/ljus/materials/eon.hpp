@@ -87,21 +87,6 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The share of a constant sky that the surface returns, in closed form.
-/// \param surface  The surface.
-/// \param wo       Towards where the light goes.
-/// \return In [0, 1]; 1 for white.
-/// \cite eon2025
-template <std::floating_point T>
-[[nodiscard]] RgbT<T> eon_albedo(const EonT<T>& surface, const Vec3T<T>& wo) noexcept {
-    const T r = surface.roughness;
-    const T ar = r / (T(1) + detail::fon_constant<T> * r);
-    const T loss = ar * detail::eon_loss(std::hypot(wo.x, wo.y), std::abs(wo.z));
-    return surface.albedo * (T(1) - loss) +
-           detail::multiple_scattering(surface.albedo, ar * detail::eon_mean_loss<T>) *
-               loss;
-}
-
 /// What there is: a diffuse part, even if it is black.
 template <std::floating_point T>
 [[nodiscard]] constexpr Lobes lobes(const EonT<T>&) noexcept {

@@ -225,25 +225,6 @@ template <std::floating_point T, std::size_t M>
     return {p};
 }
 
-/// All roots of a polynomial in powers that lie in an interval.
-/// \param p     c[0] to c[N]; leading coefficients may be tiny or 0.
-/// \param low   The interval's lower end, finite.
-/// \param high  Its upper end, finite and above it.
-/// \return As roots() has it, with the tolerance 8 (N + 1) eps times the sum of
-///         |c_i| m^i, m the larger of |low| and |high|: what rounding may have done.
-template <std::floating_point T, std::size_t M>
-[[nodiscard]] RootsT<T, M - 1> roots_in(const std::array<T, M>& p, T low,
-                                        T high) noexcept {
-    const T m = glm::max(std::abs(low), std::abs(high));
-    T size = T(0);
-    for (std::size_t i = M; i-- > 0;) size = size * m + std::abs(p[i]);
-    const T tolerance = T(8 * M) * std::numeric_limits<T>::epsilon() * size;
-    auto result = roots(on_interval(p, low, high), tolerance);
-    for (std::size_t i = 0; i < result.count; ++i)
-        result.at[i] = glm::min(high, low + result.at[i] * (high - low));
-    return result;
-}
-
 } // namespace detail
 
 /// \}

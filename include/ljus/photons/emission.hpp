@@ -55,6 +55,8 @@ template <std::floating_point T>
             .direction = sun.direction};
 }
 
+} // namespace detail
+
 /// The way of a photon that leaves a light, with the density of what the light sends:
 /// uniform over an object's area and with cos / pi in direction; uniform over the
 /// sphere from a point; as the intensity from a spot; and from a sun side by side, over
@@ -88,8 +90,6 @@ template <SceneLike S, std::floating_point T>
 }
 // [light_ray]
 
-} // namespace detail
-
 /// A photon of a light chosen by power, see light_ray().
 ///
 /// Each photon of a white light then carries the same flux, the scene's whole flux over
@@ -113,7 +113,7 @@ emit(const S& scene, const LightChoice& choice, Stream& stream) {
     const Vec2T<T> u_point = next_2d<T>(stream);
     const Vec2T<T> u_direction = next_2d<T>(stream);
     const T time = detail::path_time(scene, stream);
-    RayT<T> ray = detail::light_ray(scene, light, u_point, u_direction, time);
+    RayT<T> ray = light_ray(scene, light, u_point, u_direction, time);
     ray.time = time;
     return {.ray = ray,
             .flux = light.flux / chosen.probability,

@@ -128,22 +128,6 @@ namespace detail {
 }
 // [form_factor_at]
 
-/// The form factor between two equal rectangles that face each other.
-/// \param a         Their one side.
-/// \param b         Their other side.
-/// \param distance  Between them, above 0.
-/// \return The same in both directions: 0.1998249 for unit squares at distance 1.
-/// \cite howell2010
-[[nodiscard]] inline double form_factor_facing(double a, double b,
-                                               double distance) noexcept {
-    const double x = a / distance, y = b / distance;
-    const double x1 = std::sqrt(1 + x * x), y1 = std::sqrt(1 + y * y);
-    const double corners = std::log(x1 * x1 * y1 * y1 / (1 + x * x + y * y)) / 2;
-    const double sides = x * y1 * std::atan(x / y1) + y * x1 * std::atan(y / x1) -
-                         x * std::atan(x) - y * std::atan(y);
-    return 2 * std::numbers::inv_pi / (x * y) * (corners + sides);
-}
-
 /// The form factor from a floor to a wall that stands on one of its edges.
 /// \param edge    Length of the common edge, above 0.
 /// \param floor   The floor's other side.
