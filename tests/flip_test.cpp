@@ -47,8 +47,8 @@ TEST_CASE("flip: 0 for the same picture, whatever it shows and from wherever") {
 }
 
 TEST_CASE("flip: the distance of a screen, and the largest difference of all") {
-    CHECK(pixels_per_degree() == Approx(67.0206432766).epsilon(1e-11));
-    CHECK(pixels_per_degree(1.4) == Approx(2 * pixels_per_degree()));
+    CHECK(detail::pixels_per_degree() == Approx(67.0206432766).epsilon(1e-11));
+    CHECK(detail::pixels_per_degree(1.4) == Approx(2 * detail::pixels_per_degree()));
     // Other programs hold 41.2760963 as a constant.
     const double most =
         detail::hyab(detail::hunt_lab({0, 1, 0}), detail::hunt_lab({0, 0, 1}));

@@ -38,7 +38,8 @@ std::uint32_t owen_by_definition(std::uint32_t bits, std::uint64_t seed) {
 
 /// A coordinate of the first points, plain or scrambled.
 std::uint32_t coordinate(std::uint32_t i, std::uint32_t d, std::uint64_t seed) {
-    return seed == 0 ? sobol(i, d) : detail::owen_scrambled(sobol(i, d), seed + d);
+    return seed == 0 ? detail::sobol(i, d)
+                     : detail::owen_scrambled(detail::sobol(i, d), seed + d);
 }
 
 /// The least t for which 2^m points in two dimensions are a (t,m,2)-net: each cell of
@@ -102,8 +103,8 @@ TEST_CASE("low_discrepancy: the first points, by hand") {
     const std::uint32_t first[][2] = {{0, 0}, {2, 2}, {1, 3}, {3, 1}};
     for (std::uint32_t i = 0; i < 4; ++i)
         for (std::uint32_t d = 0; d < 2; ++d)
-            CHECK(sobol(i, d) == first[i][d] * quarter);
-    CHECK(sobol(1, 15) == 1u << 31);
+            CHECK(detail::sobol(i, d) == first[i][d] * quarter);
+    CHECK(detail::sobol(1, 15) == 1u << 31);
     CHECK(detail::reversed_bits(1) == 1u << 31);
     CHECK(detail::reversed_bits(0x12345678u) == 0x1e6a2c48u);
 }
@@ -166,7 +167,7 @@ TEST_CASE("low_discrepancy: one point is uniform over the seeds, by cells and in
             std::vector<int> cells(256), pairs(256), low(256);
             for (std::uint64_t seed = 0; seed < seeds; ++seed) {
                 const auto scrambled = [&](std::uint32_t d) {
-                    const std::uint32_t bits = sobol(index, d);
+                    const std::uint32_t bits = detail::sobol(index, d);
                     const std::uint64_t key = mix_bits(seed) + d;
                     return definition ? owen_by_definition(bits, key)
                                       : detail::owen_scrambled(bits, key);

@@ -222,7 +222,7 @@ TEST_CASE("parallel: a number of threads without sense is refused with its value
                          std::invalid_argument);
     CHECK_THROWS_AS(ljus::parallel_blocks(1, [](long long) {}, {.threads = 1025}),
                     std::invalid_argument);
-    CHECK(ljus::max_threads() >= 1);
+    CHECK(ljus::detail::max_threads() >= 1);
 }
 
 TEST_CASE("parallel: blocks cover all things, none twice") {

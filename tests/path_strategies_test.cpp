@@ -76,7 +76,7 @@ TEST_CASE("multiple importance: the shares of two strategies are the whole") {
                 CHECK(detail::mis_weight(share, a, infinity) == 0.0f);
                 CHECK(detail::mis_weight(share, a, 0.0f) == 1.0f);
             }
-    CHECK(balance(1.0, 3.0) == 0.25);
+    CHECK(balance_heuristic(1.0, 3.0) == 0.25);
     CHECK(power_heuristic(1.0, 3.0) == doctest::Approx(0.1));
     CHECK(power_heuristic(3.0, 1.0) == doctest::Approx(0.9));
 }
@@ -94,10 +94,10 @@ TEST_CASE("multiple importance: all ways to share a lamp's light have one mean")
             return mean_radiance(make_path_tracer(scene, settings), 60000, seed,
                                  to_plate);
         };
-        const Mean both = detail::seen({}, 1);
-        const Mean power = detail::seen({.heuristic = MisHeuristic::power}, 2);
-        const Mean light = detail::seen({.heuristic = MisHeuristic::shadow_rays}, 3);
-        const Mean gloss = detail::seen({.sample_lights = false}, 4);
+        const Mean both = seen({}, 1);
+        const Mean power = seen({.heuristic = MisHeuristic::power}, 2);
+        const Mean light = seen({.heuristic = MisHeuristic::shadow_rays}, 3);
+        const Mean gloss = seen({.sample_lights = false}, 4);
         CAPTURE(c.roughness);
         CAPTURE(both.mean);
         CAPTURE(both.error() / both.mean);
@@ -138,12 +138,12 @@ TEST_CASE("multiple importance: in a box furnace no surface brings more than twi
         }
         return all;
     };
-    const Seen both = detail::seen({.max_depth = 12, .roulette_depth = 100});
+    const Seen both = seen({.max_depth = 12, .roulette_depth = 100});
     CAPTURE(both.mean.mean);
     CAPTURE(both.most);
     CHECK(std::abs(apart(both.mean, 2 - std::exp2(-12))) < 3.5);
     CHECK(both.most < 1 + 2 * 1.0001);
-    const Seen shadow = detail::seen({.max_depth = 12,
+    const Seen shadow = seen({.max_depth = 12,
                                       .roulette_depth = 100,
                                       .heuristic = MisHeuristic::shadow_rays});
     CAPTURE(shadow.most);

@@ -268,7 +268,7 @@ TEST_CASE("rooms: a furnace emits L / (1 - a) in every direction") {
     };
     const Rgb emission{0.5f, 1, 2};
     const Rgb albedo{0.2f, 0.5f, 0.8f};
-    const Rgb exact = furnace_radiance(emission, albedo);
+    const Rgb exact = detail::furnace_radiance(emission, albedo);
     CHECK(exact.x == doctest::Approx(0.625));
     CHECK(exact.z == doctest::Approx(10));
     SUBCASE("sphere, path tracing") {

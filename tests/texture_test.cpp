@@ -240,7 +240,7 @@ TEST_CASE("texture: what is saved as PNG is loaded again; what is not is named")
     save_png(four(), path);
     CHECK(load_image(path).pixels == four().pixels);
     Image grey = make_image<float>(3, 1, Rgb{0.2f});
-    const Image back = detail::decode_image(encode_png(grey), "grey.png");
+    const Image back = detail::decode_image(detail::encode_png(grey), "grey.png");
     CHECK(back.width == 3);
     CHECK(back.pixels[1].x == doctest::Approx(0.2).epsilon(0.01));
 
@@ -254,7 +254,7 @@ TEST_CASE("texture: what is saved as PNG is loaded again; what is not is named")
     };
     CHECK(said([&] { (void)load_image(folder.file("none.png")); }) ==
           "cannot read '" + folder.file("none.png") + "': No such file or directory.");
-    Bytes bytes = encode_png(four());
+    Bytes bytes = detail::encode_png(four());
     bytes.resize(bytes.size() / 2);
     CHECK(said([&] {
               (void)detail::decode_image(bytes, "half.png");

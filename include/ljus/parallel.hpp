@@ -31,6 +31,8 @@ namespace ljus {
 /// The largest number of threads that one may ask for.
 inline constexpr int max_threads_allowed = 1024;
 
+namespace detail {
+
 /// The number of threads that `threads = 0` stands for: that of the processors, or what
 /// OMP_NUM_THREADS says; 1 without OpenMP.
 [[nodiscard]] inline int max_threads() noexcept {
@@ -40,6 +42,8 @@ inline constexpr int max_threads_allowed = 1024;
     return 1;
 #endif
 }
+
+} // namespace detail
 
 /// How a parallel loop runs.
 struct ParallelSettings {

@@ -19,6 +19,8 @@ namespace ljus {
 /// Chapter: \ref ch_light_transport.
 /// \{
 
+namespace detail {
+
 /// How large a pixel is to the viewer.
 /// \param distance  From the eye to the screen, in metres.
 /// \param width     Of the screen, in metres.
@@ -29,8 +31,6 @@ namespace ljus {
                                                  double pixels = 3840) noexcept {
     return distance * pixels / width * std::numbers::pi / 180;
 }
-
-namespace detail {
 
 /// What two colours differ by, if nothing else is near them.
 ///
@@ -72,7 +72,7 @@ namespace detail {
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] ImageT<double> flip_map(const ImageT<T>& image,
                                       const ImageT<U>& reference,
-                                      double ppd = pixels_per_degree()) {
+                                      double ppd = detail::pixels_per_degree()) {
     detail::require_same_size(image, reference);
     require(ppd >= 1 && ppd <= 1000, "pixels per degree", ppd, "from 1 to 1000");
     const ImageT<double> a = detail::opponent_image(image),
@@ -94,6 +94,8 @@ template <std::floating_point T, std::floating_point U>
 }
 // [flip_map]
 
+namespace detail {
+
 /// The mean of a grey image.
 /// \param map  From flip_map() or hdr_flip_map().
 /// \return The mean of its first channel.
@@ -103,6 +105,8 @@ template <std::floating_point T, std::floating_point U>
     for (const RgbT<double>& value : map.pixels) values.push_back(value.x);
     return detail::pairwise_sum(values) / static_cast<double>(values.size());
 }
+
+} // namespace detail
 
 /// The mean of flip_map().
 /// *Trap*: it is made for pictures that are looked at one after the other on the same
@@ -115,8 +119,8 @@ template <std::floating_point T, std::floating_point U>
 /// \throws std::invalid_argument  as flip_map().
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] double flip(const ImageT<T>& image, const ImageT<U>& reference,
-                          double ppd = pixels_per_degree()) {
-    return mean_of(flip_map(image, reference, ppd));
+                          double ppd = detail::pixels_per_degree()) {
+    return detail::mean_of(flip_map(image, reference, ppd));
 }
 
 /// \}

@@ -79,7 +79,7 @@ template <std::floating_point T>
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] ImageT<double> hdr_flip_map(const ImageT<T>& image,
                                           const ImageT<U>& reference,
-                                          double ppd = pixels_per_degree()) {
+                                          double ppd = detail::pixels_per_degree()) {
     detail::require_same_size(image, reference);
     const detail::Exposures exposures = detail::exposures_of(reference);
     ImageT<double> worst = make_image<double>(image.width, image.height);
@@ -110,8 +110,8 @@ template <std::floating_point T, std::floating_point U>
 /// \throws std::invalid_argument  as flip_map().
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] double hdr_flip(const ImageT<T>& image, const ImageT<U>& reference,
-                              double ppd = pixels_per_degree()) {
-    return mean_of(hdr_flip_map(image, reference, ppd));
+                              double ppd = detail::pixels_per_degree()) {
+    return detail::mean_of(hdr_flip_map(image, reference, ppd));
 }
 
 /// \}

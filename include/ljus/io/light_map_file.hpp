@@ -99,7 +99,7 @@ inline void save_light_map(const std::string& path, const LightMap& map) {
             grid.columns > 65535 || grid.rows > 65535 || (how % 4 == 1 && !square) ||
             (how % 4 == 2 && (grid.columns < 2 || grid.rows < 3)))
             refuse("its grid " + std::to_string(i) + " is none");
-        grid.kind = static_cast<GridKind>(how % 4);
+        grid.kind = static_cast<detail::GridKind>(how % 4);
         grid.back = (how & 4u) != 0;
         grid.inward = (how & 8u) != 0;
         grid.first = static_cast<std::uint32_t>(patches);

@@ -28,6 +28,8 @@ namespace ljus {
 ///     scene.add(teapot.parts[0].mesh, scene.add(Glass{}));  // or one's own
 /// \{
 
+namespace detail {
+
 /// All faces of one material.
 template <std::floating_point T>
 struct ObjPartT {
@@ -35,11 +37,14 @@ struct ObjPartT {
     detail::ObjMaterial material; ///< What the file says that it is made of.
 };
 
+} // namespace detail
+
 /// What a mesh file holds.
 template <std::floating_point T>
 struct LoadedObjT {
-    std::vector<ObjPartT<T>> parts{}; ///< One a material, in order of first use.
-    ObjReport report{};               ///< What is wrong with it.
+    std::vector<detail::ObjPartT<T>>
+        parts{};        ///< One a material, in order of first use.
+    ObjReport report{}; ///< What is wrong with it.
     /// Those that could be read of the parts' materials, by their paths.
     std::map<std::string, ImageT<T>> pictures{};
 };
@@ -153,7 +158,7 @@ template <std::floating_point T = float>
 /// \param loaded  What load_obj() returned.
 template <typename Scene, std::floating_point T>
 void add_obj(Scene& scene, const LoadedObjT<T>& loaded) {
-    for (const ObjPartT<T>& part : loaded.parts) {
+    for (const detail::ObjPartT<T>& part : loaded.parts) {
         const detail::ObjMaterial& is = part.material;
         const GlassT<T> glass{.index = static_cast<T>(is.index)};
         const MirrorT<T> mirror{.reflectance = RgbT<T>(is.specular)};
@@ -183,7 +188,7 @@ void add_obj(Scene& scene, const LoadedObjT<T>& loaded) {
 template <typename Scene, std::floating_point T>
 void add_obj(Scene& scene, const LoadedObjT<T>& loaded, MaterialId material,
              const RgbT<T>& radiance = RgbT<T>{0}) {
-    for (const ObjPartT<T>& part : loaded.parts)
+    for (const detail::ObjPartT<T>& part : loaded.parts)
         scene.add(part.mesh, material, radiance);
 }
 

@@ -90,9 +90,10 @@ template <std::floating_point T, typename F>
     const Vec3T<T> in{wi.x, wi.y, std::abs(wi.z)};
     const Vec3T<T> h = detail::half_vector(out, in);
     const T cos_facet = std::min(glm::dot(out, h), T(1));
-    const T r_out = ggx_lambda(alpha, out), r_in = ggx_lambda(alpha, in);
+    const T r_out = detail::ggx_lambda(alpha, out),
+            r_in = detail::ggx_lambda(alpha, in);
     const T shadowed = out.z * r_in + in.z * r_out;
-    const T f = ggx_distribution(alpha, h) / (T(2) * shadowed);
+    const T f = detail::ggx_distribution(alpha, h) / (T(2) * shadowed);
     if (!(f <= std::numeric_limits<T>::max())) return RgbT<T>{T(0)};
     return f * detail::facet_reflectance(gloss.reflectance, cos_facet);
 }
@@ -114,8 +115,8 @@ template <std::floating_point T, typename F>
     const T alpha = gloss.roughness * gloss.roughness;
     const Vec3T<T> out{wo.x, wo.y, std::abs(wo.z)};
     const Vec3T<T> in{wi.x, wi.y, std::abs(wi.z)};
-    return ggx_distribution(alpha, detail::half_vector(out, in)) /
-           (T(2) * (out.z + ggx_lambda(alpha, out)));
+    return detail::ggx_distribution(alpha, detail::half_vector(out, in)) /
+           (T(2) * (out.z + detail::ggx_lambda(alpha, out)));
 }
 
 /// A facet that is seen from `wo`, and the mirror direction of it. The weight is
@@ -140,12 +141,12 @@ sample(const GlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& u,
             detail::facet_reflectance(gloss.reflectance, std::min(out.z, T(1))));
 
     const T alpha = gloss.roughness * gloss.roughness;
-    const Vec3T<T> h = sample_visible_normal(alpha, out, Vec2T<T>{u.x, u.y});
+    const Vec3T<T> h = detail::sample_visible_normal(alpha, out, Vec2T<T>{u.x, u.y});
     Vec3T<T> in = glm::normalize(reflect(-out, h));
     if (!(in.z > T(0))) return std::nullopt; // into the surface: lost
-    const T r_out = ggx_lambda(alpha, out);
+    const T r_out = detail::ggx_lambda(alpha, out);
     const T g2_over_g1 =
-        (out.z + r_out) / (r_out + out.z / in.z * ggx_lambda(alpha, in));
+        (out.z + r_out) / (r_out + out.z / in.z * detail::ggx_lambda(alpha, in));
     const T cos_facet = std::min(glm::dot(out, detail::half_vector(out, in)), T(1));
     in.z = std::copysign(in.z, wo.z);
     const RgbT<T> weight =

@@ -68,8 +68,6 @@ using SobolTable = std::array<std::array<std::uint32_t, 32>, sobol_dimensions>;
 /// The table.
 inline constexpr SobolTable sobol_table = make_sobol_table();
 
-} // namespace detail
-
 /// One coordinate of one of Sobol's points \cite sobol1967.
 /// \param index      Which point.
 /// \param dimension  Which coordinate, below sobol_dimensions.
@@ -83,8 +81,6 @@ inline constexpr SobolTable sobol_table = make_sobol_table();
         if (index & 1u) bits ^= detail::sobol_table[dimension][i];
     return bits;
 }
-
-namespace detail {
 
 /// The bits in the opposite order.
 /// \param x  Any number.
@@ -180,7 +176,7 @@ template <std::floating_point T = float>
     if (d >= detail::sobol_dimensions) return next_1d<T>(stream.rest);
     ++stream.dimension;
     const std::uint32_t bits =
-        detail::owen_scrambled(sobol(stream.index, d), stream.seed + d);
+        detail::owen_scrambled(detail::sobol(stream.index, d), stream.seed + d);
     if constexpr (sizeof(T) == 4)
         return static_cast<T>(bits >> 8) * T(0x1p-24);
     else

@@ -32,8 +32,6 @@ template <std::floating_point T>
     return glm::normalize(sum / max_component(glm::abs(sum)));
 }
 
-} // namespace detail
-
 /// How many facets look along h: their area, per area of the surface and steradian.
 ///
 /// \f[ D(h) = \frac{1}{\pi \alpha^2 \left( h_z^2 + (h_x^2 + h_y^2)/\alpha^2 \right)^2},
@@ -102,6 +100,8 @@ template <std::floating_point T>
     return glm::normalize(Vec3T<T>{alpha * x, alpha * y, z});
 }
 // [visible normals]
+
+} // namespace detail
 
 /// \}
 

@@ -146,6 +146,8 @@ light_path_expression(std::string_view expression) {
     return result;
 }
 
+namespace detail {
+
 /// Whether a path belongs to a class.
 /// \param paths  The class.
 /// \param path   As "EDSSL".
@@ -159,6 +161,8 @@ light_path_expression(std::string_view expression) {
     return (states & paths.last) != 0;
 }
 // [contains]
+
+} // namespace detail
 
 /// \}
 

@@ -73,14 +73,14 @@ template <SceneLike S, std::floating_point T>
                                 const Vec2T<T>& u_point, const Vec2T<T>& u_direction,
                                 T time = T(0)) {
     if (light.object) {
-        const SurfacePointT<T> point = light_point(scene, light, u_point, time);
+        const SurfacePointT<T> point = detail::light_point(scene, light, u_point, time);
         const FrameT<T> frame = frame_around(point.normal);
         return spawn_ray(point, to_world(frame, sample_cosine_hemisphere(u_direction)));
     }
     if (light.kind == LightKind::sun)
-        return sun_ray(light, light.position, light.radius, u_point);
+        return detail::sun_ray(light, light.position, light.radius, u_point);
     if (light.kind == LightKind::spot) {
-        const T share = sample_spot(light, u_direction.x) / light.outer;
+        const T share = detail::sample_spot(light, u_direction.x) / light.outer;
         const Vec3T<T> local =
             sample_uniform_cone(Vec2T<T>{share, u_direction.y}, light.outer);
         return {.origin = light.position,

@@ -140,7 +140,7 @@ blended_light(const PatchGrid& grid, const glm::dvec2& at,
     glm::dvec2 t;
     const CellPlace place = place_of(grid, cell_of(grid, at, &t));
     const auto v = detail::cell_vertices(grid, place);
-    if (grid.kind != GridKind::triangle)
+    if (grid.kind != detail::GridKind::triangle)
         return (1 - t.y) * ((1 - t.x) * vertices[v[0]] + t.x * vertices[v[1]]) +
                t.y * ((1 - t.x) * vertices[v[2]] + t.x * vertices[v[3]]);
     if (place.upper) t = 1.0 - t;

@@ -19,7 +19,7 @@ namespace ljus {
 /// How the light of a lamp that both a shadow ray and the path itself can find is divided
 /// between the two: the weights of multiple importance sampling.
 enum class MisHeuristic : std::uint8_t {
-    balance,    ///< In proportion to each one's pdf: balance().
+    balance,    ///< In proportion to each one's pdf: balance_heuristic().
     power,      ///< In proportion to the square of the pdf: power_heuristic().
     shadow_rays ///< All to the shadow ray: next-event estimation alone.
 };
@@ -72,7 +72,7 @@ PathTracer<S> make_path_tracer(const S&& scene,
 /// \return In [0, 1].
 // [heuristics]
 template <std::floating_point T>
-[[nodiscard]] constexpr T balance(T pdf, T other) noexcept {
+[[nodiscard]] constexpr T balance_heuristic(T pdf, T other) noexcept {
     // Not pdf / (pdf + other), which is NaN for two infinities.
     return pdf > other ? T(1) / (T(1) + other / pdf)
                        : pdf / other / (T(1) + pdf / other);
@@ -101,7 +101,7 @@ namespace detail {
 template <std::floating_point T>
 [[nodiscard]] constexpr T mis_weight(MisHeuristic heuristic, T pdf, T other) noexcept {
     return heuristic == MisHeuristic::power ? power_heuristic(pdf, other)
-                                            : balance(pdf, other);
+                                            : balance_heuristic(pdf, other);
 }
 
 /// The density with which the tracer's shadow rays from the vertex before choose the

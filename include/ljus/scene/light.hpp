@@ -88,8 +88,6 @@ template <std::floating_point T>
     return w < light.outer ? (light.outer - w) / (light.outer - light.inner) : T(0);
 }
 
-} // namespace detail
-
 /// 1 - cos of the angle of a spot light's photon from the axis, with the density of its
 /// intensity: even up to `inner`, then falling to 0 at `outer`.
 /// \param light  The spot light.
@@ -104,8 +102,6 @@ template <std::floating_point T>
     return light.outer - std::sqrt(beyond);
 }
 // [sample_spot]
-
-namespace detail {
 
 /// The flux of a diffuse emitter: its radiance over the hemisphere and its area.
 /// \param radiance  W/(m^2 sr), the same in every direction.
