@@ -564,11 +564,11 @@ TEST_CASE("caustics: variance falls with 1/(N r^2), squared bias grows with r^4"
     for (const long long count : {250LL, 2000LL})
         by_count.emplace_back(
             std::log(double(count)),
-            std::log(variance(detail::spread(count, {0.2f}, 300)[0])));
+            std::log(variance(spread(count, {0.2f}, 300)[0])));
     // Small discs: of a large one the photons that lie in it for certain are a part.
     const std::vector<float> small{0.05f, 0.1f, 0.2f}, large{0.35f, 0.5f, 0.7f};
-    const auto in_small = detail::spread(1000, small, 300);
-    const auto in_large = detail::spread(100000, large, 16);
+    const auto in_small = spread(1000, small, 300);
+    const auto in_large = spread(100000, large, 16);
     for (std::size_t i = 0; i < 3; ++i) {
         by_radius.emplace_back(std::log(double(small[i])),
                                std::log(variance(in_small[i])));

@@ -206,7 +206,7 @@ TEST_CASE("distributed rays: the error falls by n^-1/2, stratified by n^-3/4") {
     CHECK(random == doctest::Approx(-0.5).epsilon(0.2));
     CHECK(jittered == doctest::Approx(-0.75).epsilon(0.15));
     CHECK(multi == doctest::Approx(-0.75).epsilon(0.15));
-    CHECK(detail::sobol < -0.65);
+    CHECK(sobol < -0.65);
 }
 
 namespace {

@@ -422,17 +422,17 @@ TEST_CASE("emission: where cones overlap, each object gets what it is hit by fir
             const double r = std::sqrt(1 - z * z);
             const D3 d =
                 z * axis_far + r * std::cos(phi) * side + r * std::sin(phi) * up;
-            if (glm::dot(d, axis_near) < cos_near) ++detail::visible;
+            if (glm::dot(d, axis_near) < cos_near) ++visible;
         }
-    detail::visible /= double(steps) * steps;
+    visible /= double(steps) * steps;
 
     const double flux = 4 * pi;
     CHECK(std::abs(found.means[0][0].sigmas(flux * (1 - cos_near) / 2)) < 4.5);
-    CHECK(std::abs(found.means[1][0].sigmas(flux * (1 - cos_far) / 2 * detail::visible,
+    CHECK(std::abs(found.means[1][0].sigmas(flux * (1 - cos_far) / 2 * visible,
                                             1e-4)) < 4.5);
     CHECK(std::abs(found.means[2][0].sigmas(flux * (1 - std::sqrt(15.0 / 16)) / 2)) <
           4.5);
-    CHECK(detail::visible < 0.9); // the case is one of overlap
+    CHECK(visible < 0.9); // the case is one of overlap
 }
 
 TEST_CASE(

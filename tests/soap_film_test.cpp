@@ -297,7 +297,7 @@ TEST_CASE("thin sheets: who owns which path") {
         if (photon.kind == PhotonKind::direct) direct += double(photon.flux.y);
     emitted = general.audit.emitted.y;
     CHECK(direct / emitted > 0.7); // the rest was reflected by the bubble
-    CHECK(direct / detail::emitted < 0.999);
+    CHECK(direct / emitted < 0.999);
     const auto caustics =
         trace_photons(without, MapType::caustics, {.photons = 20000, .threads = 1});
     for (const auto& photon : caustics.photons)

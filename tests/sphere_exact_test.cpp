@@ -227,21 +227,21 @@ Case<T> make_case(std::size_t family, int i, Numbers& n) {
     };
     switch (family) {
     case ordinary:
-        return detail::seen(n.power(-2, 2), n.power(0, 2), V{n.between(-5, 5), 1, 2});
+        return seen(n.power(-2, 2), n.power(0, 2), V{n.between(-5, 5), 1, 2});
     case far_away:
-        return detail::seen(n.power(-2, 2), n.power(2, 8), V{0.5, n.next(), -1});
+        return seen(n.power(-2, 2), n.power(2, 8), V{0.5, n.next(), -1});
     case huge: {
         const double radius = n.power(4, 8);
-        return detail::seen(radius, 1 + n.between(-3, 3) / radius, V{0, -radius, 0});
+        return seen(radius, 1 + n.between(-3, 3) / radius, V{0, -radius, 0});
     }
     case inside:
-        return detail::seen(n.power(-2, 2), n.next(), V{n.next(), 1, 2});
+        return seen(n.power(-2, 2), n.next(), V{n.next(), 1, 2});
     case at_centre:
-        return detail::seen(n.power(-2, 2), 0, V{n.next(), 1, 2});
+        return seen(n.power(-2, 2), 0, V{n.next(), 1, 2});
     case on_surface:
-        return detail::seen(n.power(-2, 2), 1, V{n.next(), 1, 2});
+        return seen(n.power(-2, 2), 1, V{n.next(), 1, 2});
     case offset:
-        return detail::seen(n.power(0, 3), n.power(0.1, 3),
+        return seen(n.power(0, 3), n.power(0.1, 3),
                             V{1e6, -1e6, 1e6 * n.next()});
     case tangent: {
         // The radius is the distance of the rounded line, moved by a few ulp.
@@ -272,19 +272,19 @@ Case<T> make_case(std::size_t family, int i, Numbers& n) {
         return result;
     }
     case any_length: {
-        auto result = detail::seen(n.power(-2, 2), n.power(-1, 3), V{n.next(), 1, 2});
+        auto result = seen(n.power(-2, 2), n.power(-1, 3), V{n.next(), 1, 2});
         result.ray.direction *= static_cast<T>(n.power(-10, 10));
         return result;
     }
     case tiny:
-        return detail::seen(1e-30, n.power(-1, 4), V{1e-30 * n.next(), 0, 0});
+        return seen(1e-30, n.power(-1, 4), V{1e-30 * n.next(), 0, 0});
     case denormal: {
         // For double data the same sizes are ordinary; the family is about float.
         const double least = 1.4012984643248171e-45;
-        return detail::seen(least * (1 + i % 5000), n.power(-1, 6), V{0});
+        return seen(least * (1 + i % 5000), n.power(-1, 6), V{0});
     }
     default:
-        return detail::seen(1e30, n.power(-1, 4), V{1e30 * n.next(), 0, 0});
+        return seen(1e30, n.power(-1, 4), V{1e30 * n.next(), 0, 0});
     }
 }
 
