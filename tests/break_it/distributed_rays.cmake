@@ -74,6 +74,6 @@ ljus_break_it(NAME stratified-stream-order HEADER math/stratified_stream.hpp
 # Cells that are not divided by their number.
 ljus_break_it(NAME stratified-stream-random HEADER math/stratified_stream.hpp
     TEST lens_camera
-    FROM "spread(stream.pattern, cell, ~key, next_2d<T>(stream.rest));"
+    FROM "detail::spread(stream.pattern, cell, ~key, next_2d<T>(stream.rest));"
     TO   "next_2d<T>(stream.rest); (void)cell;"
     CASES "stratified stream: in each*")
