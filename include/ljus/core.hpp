@@ -45,8 +45,10 @@ LJUS_CORE_EXTERN template Bvh8Nodes make_bvh8(const BvhNodesT<float>&, std::uint
 
 // Photons.
 LJUS_CORE_EXTERN template LightChoice light_choice(const std::vector<LightT<float>>&);
-LJUS_CORE_EXTERN template long long
-detail::join_blocks(std::vector<detail::PhotonBlockT<float>>&, TracedPhotonsT<float>&);
+namespace detail {
+LJUS_CORE_EXTERN template long long join_blocks(std::vector<PhotonBlockT<float>>&,
+                                                TracedPhotonsT<float>&);
+} // namespace detail
 LJUS_CORE_EXTERN template PhotonMap make_photon_map(const std::vector<Photon>&, int);
 LJUS_CORE_EXTERN template RgbT<double> flux_in_disc(const KdTree8&,
                                                     const PhotonRecordsT<float>&,
@@ -63,7 +65,9 @@ LJUS_CORE_EXTERN template Rgb estimate_radiance(const PhotonMap&, const VertexT<
 
 // Pictures.
 LJUS_CORE_EXTERN template Camera look_at(const ViewT<float>&);
-LJUS_CORE_EXTERN template Bytes detail::encode_png(const Image&, const PngSettings&);
+namespace detail {
+LJUS_CORE_EXTERN template Bytes encode_png(const Image&, const PngSettings&);
+} // namespace detail
 LJUS_CORE_EXTERN template void save_png(const Image&, const std::string&,
                                         const PngSettings&);
 
