@@ -43,7 +43,7 @@ glm::dvec3 beforehand(double c, double d) {
 /// Waves that are not turned over at the denser side: the sine becomes a cosine.
 glm::dvec3 not_turned(double c, double d) {
     const double g = std::sqrt(ljus::film_cosine2(c, water));
-    return ljus::into_gamut(ljus::seen<double>([&](double wavelength) {
+    return ljus::into_gamut(ljus::detail::seen<double>([&](double wavelength) {
         const double phase = 2 * std::numbers::pi * d * g / wavelength;
         const double beat = (water * water - 1) * std::cos(phase) / g;
         return ljus::film_shares(c, water, beat).reflected;

@@ -223,7 +223,7 @@ struct Study {
 /// a pixel, and photons for caustics.
 struct Judge {
     using Stream = StratifiedStream; ///< What render() gives it to draw from.
-    IndexedT<Cornell> scene;         ///< A room.
+    detail::IndexedT<Cornell> scene; ///< A room.
     const PhotonMap& caustics;       ///< Empty in the matt room.
     DensityEstimateSettings gather;  ///< In discs smaller than a pixel.
 };
@@ -233,7 +233,7 @@ template <typename Material>
 Rgb lamps_and_caustics(const Judge& judge, const VertexT<float>& at,
                        const Material& material, StratifiedStream& stream,
                        Counts& counts) {
-    const Rgb lamps = soft_light(judge.scene, at, material, stream, counts);
+    const Rgb lamps = detail::soft_light(judge.scene, at, material, stream, counts);
     return lamps + estimate_radiance(judge.caustics, at, material, at.wo, judge.gather,
                                      light_kinds, counts.map_photons);
 }
@@ -278,7 +278,7 @@ void find_truth(Study& study, int rays, const examples::Options& options) {
             .caustics_estimate{.radius = 0.6f / float(options.width)}};
         const auto maps = make_photon_maps(scene, settings);
         examples::ProgressBar bar("reference", options.quiet);
-        runs.push_back(render(Judge{.scene = IndexedT<Cornell>(scene),
+        runs.push_back(render(Judge{.scene = detail::IndexedT<Cornell>(scene),
                                     .caustics = maps.caustics,
                                     .gather = settings.caustics_estimate},
                               study.room.camera,

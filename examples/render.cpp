@@ -285,7 +285,7 @@ void run_request(const examples::CommandLine& line, const Request& request,
         .seed = options.seed,
         .threads = options.threads,
         .sampling = chosen<Sampling>(patterns, request.sampling)};
-    require_image_size(picture.width, picture.height);
+    detail::require_image_size(picture.width, picture.height);
     const std::string stem = std::filesystem::path(request.scene).stem().string();
     const std::string path =
         options.path(options.file.empty() ? stem + ".png" : options.file);

@@ -115,8 +115,8 @@ TEST_CASE("conductor: the light that iron reflects falls before it rises") {
 TEST_CASE("conductor: an index below 0 or of NaN is refused by name") {
     const auto message = [](float n, float k) -> std::string {
         try {
-            ljus::require_conductor("metal.index",
-                                    ljus::ConductorIndex{ljus::Rgb{n}, ljus::Rgb{k}});
+            ljus::detail::require_conductor(
+                "metal.index", ljus::ConductorIndex{ljus::Rgb{n}, ljus::Rgb{k}});
         } catch (const std::invalid_argument& error) {
             return error.what();
         }

@@ -379,8 +379,9 @@ TEST_CASE("distributed rays: a moving lamp lights as the mean over its places") 
 TEST_CASE("distributed rays: a scene in which nothing moves draws no time") {
     const auto scene = edge_scene();
     const auto tracer = make_distributed(scene);
-    static_assert(!lists_moving<decltype(scene)>);
-    static_assert(lists_moving<Scene<Shapes<Quad, Moving<Sphere>>, Materials<Mirror>>>);
+    static_assert(!detail::lists_moving<decltype(scene)>);
+    static_assert(
+        detail::lists_moving<Scene<Shapes<Quad, Moving<Sphere>>, Materials<Mirror>>>);
     RandomStream stream;
     Counts counts;
     const RayT<double> up{.origin{30, 5, 30}, .direction{0, 1, 0}};
@@ -409,9 +410,9 @@ TEST_CASE("distributed rays: every path is L D? (S|G)* E") {
     for (int y = 0; y < 20; ++y)
         for (int x = 0; x < 20; ++x)
             for (int i = 0; i < 4; ++i)
-                (void)sample_pixel(tracer, lens, picture,
-                                   ljus::make_pattern(picture.sampling, 4), x, y, i,
-                                   counts, log);
+                (void)detail::sample_pixel(tracer, lens, picture,
+                                           ljus::make_pattern(picture.sampling, 4), x,
+                                           y, i, counts, log);
     std::set<std::string> kinds;
     std::size_t longest = 0;
     for (const PathLogLine& line : log.lines) {

@@ -18,6 +18,19 @@ using namespace ljus_test;
 
 namespace {
 
+/// The share of a constant sky that the surface returns, in closed form.
+template <std::floating_point T>
+ljus::RgbT<T> eon_albedo(const ljus::EonT<T>& surface,
+                         const ljus::Vec3T<T>& wo) noexcept {
+    const T r = surface.roughness;
+    const T ar = r / (T(1) + ljus::detail::fon_constant<T> * r);
+    const T loss = ar * ljus::detail::eon_loss(std::hypot(wo.x, wo.y), std::abs(wo.z));
+    return surface.albedo * (T(1) - loss) +
+           ljus::detail::multiple_scattering(surface.albedo,
+                                             ar * ljus::detail::eon_mean_loss<T>) *
+               loss;
+}
+
 using L = long double;
 constexpr L pi = std::numbers::pi_v<L>;
 
@@ -57,7 +70,7 @@ TEST_CASE_TEMPLATE("eon: within 64 roundoffs of the printed formula", T, float,
         if (wo.z < T(1e-3) || wi.z < T(1e-3)) continue;
         const EonT<T> m{ljus::RgbT<T>{rho}, r};
         const L exact = printed(L(rho), L(r), wo, wi);
-        const L ours = L(eon_weight(m, wo, wi).x);
+        const L ours = L(ljus::detail::eon_weight(m, wo, wi).x);
         const L factor = std::hypot(L(wi.x), L(wi.y)) * std::hypot(L(wo.x), L(wo.y)) /
                          std::max(L(wi.z), L(wo.z));
         worst =
@@ -163,7 +176,7 @@ TEST_CASE(
         const auto u = draws.cube<double>();
         const double a = sample(m, wo, u, ljus::Transport::radiance)->weight.x;
         const double b =
-            ljus::eon_weight(
+            ljus::detail::eon_weight(
                 m, wo, ljus::sample_cosine_hemisphere(ljus::Vec2T<double>{u.x, u.y}))
                 .x;
         lobe += a;

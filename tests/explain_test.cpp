@@ -31,7 +31,7 @@ void check_sums(const Renderer& renderer, const Camera& camera) {
         const int y = place.second;
         CAPTURE(x);
         CAPTURE(y);
-        const auto apart = take_apart(renderer, camera, picture, x, y);
+        const auto apart = detail::take_apart(renderer, camera, picture, x, y);
         const Rgb& expected = pixel(rendered.image, x, y);
 #ifdef __FMA__
         // The compiler may fuse other products and sums in a renderer with a log.
@@ -41,7 +41,7 @@ void check_sums(const Renderer& renderer, const Camera& camera) {
 #endif
         CHECK(apart.rejected == 0);
         glm::dvec3 sum{0};
-        for (const PathSum& part : apart.sums) sum += part.value;
+        for (const detail::PathSum& part : apart.sums) sum += part.value;
         for (int channel = 0; channel < 3; ++channel)
             CHECK(sum[channel] ==
                   doctest::Approx(double(apart.radiance[channel])).epsilon(1e-5));
@@ -90,8 +90,8 @@ TEST_CASE("explain: a floor below a point light has one path, of the known value
     scene.add(PointLight{.position{0, 2, 0}, .intensity = Rgb{10}});
     const Camera camera = look_at(
         {.position{0, 5, 0}, .target{0, 0, 0}, .up{0, 0, -1}, .vfov_degrees = 0.01f});
-    const auto apart = take_apart(make_path_tracer(scene), camera,
-                                  {.width = 1, .height = 1, .samples = 4}, 0, 0);
+    const auto apart = detail::take_apart(
+        make_path_tracer(scene), camera, {.width = 1, .height = 1, .samples = 4}, 0, 0);
     REQUIRE(apart.sums.size() == 1);
     CHECK(apart.sums[0].path == "EDL");
     CHECK(apart.sums[0].owner == "shadow ray");
@@ -106,8 +106,8 @@ TEST_CASE("explain: a floor below a point light has one path, of the known value
 TEST_CASE("explain: the text has a line for each vertex, each term and each path") {
     const auto room = cornell_box();
     const auto apart =
-        take_apart(make_path_tracer(room.scene), room.camera, picture, 3, 9, 2);
-    const std::string text = describe(apart);
+        detail::take_apart(make_path_tracer(room.scene), room.camera, picture, 3, 9, 2);
+    const std::string text = detail::describe(apart);
     CHECK(text.find("ray 1\n") == 0);
     CHECK(text.find("\nray 2\n") != std::string::npos);
     CHECK(text.find("\nray 3\n") == std::string::npos);
@@ -130,7 +130,7 @@ TEST_CASE("explain: long lists of paths end in one line for the rest") {
     for (int i = 0; i < 5; ++i)
         apart.sums.push_back({std::string("E").append(std::size_t(i), 'D') + "L",
                               "emission", glm::dvec3{1}, 1});
-    const std::string text = describe(apart, 3);
+    const std::string text = detail::describe(apart, 3);
     CHECK(text.find("  E D D L ") != std::string::npos);
     CHECK(text.find("E D D D L") == std::string::npos);
     CHECK(text.find("2 more") != std::string::npos);
@@ -145,7 +145,7 @@ TEST_CASE("explain: a scene alone is explained by path tracing") {
 TEST_CASE("explain: rays that are not finite are left out and counted") {
     const Camera camera = look_at({.position{0, 0, 0}, .target{0, 0, -1}});
     const RenderSettings odd{.width = 3, .height = 3, .samples = 7};
-    const auto apart = take_apart(HalfNan{}, camera, odd, 1, 1);
+    const auto apart = detail::take_apart(HalfNan{}, camera, odd, 1, 1);
     const auto rendered =
         render(HalfNan{}, camera, {.width = 1, .height = 1, .samples = 7});
     CHECK(apart.rejected == 3);
@@ -153,7 +153,7 @@ TEST_CASE("explain: rays that are not finite are left out and counted") {
     CHECK(apart.radiance == pixel(rendered.image, 0, 0));
     REQUIRE(apart.sums.size() == 1);
     CHECK(apart.sums[0].value.x == doctest::Approx(3 * 4 / 7.0));
-    CHECK(describe(apart).find("3 rays were not finite") != std::string::npos);
+    CHECK(detail::describe(apart).find("3 rays were not finite") != std::string::npos);
 }
 
 TEST_CASE("explain: a pixel outside of the picture is refused") {

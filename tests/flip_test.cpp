@@ -47,38 +47,43 @@ TEST_CASE("flip: 0 for the same picture, whatever it shows and from wherever") {
 }
 
 TEST_CASE("flip: the distance of a screen, and the largest difference of all") {
-    CHECK(pixels_per_degree() == Approx(67.0206432766).epsilon(1e-11));
-    CHECK(pixels_per_degree(1.4) == Approx(2 * pixels_per_degree()));
+    CHECK(detail::pixels_per_degree() == Approx(67.0206432766).epsilon(1e-11));
+    CHECK(detail::pixels_per_degree(1.4) == Approx(2 * detail::pixels_per_degree()));
     // Other programs hold 41.2760963 as a constant.
-    const double most = hyab(hunt_lab({0, 1, 0}), hunt_lab({0, 0, 1}));
+    const double most =
+        detail::hyab(detail::hunt_lab({0, 1, 0}), detail::hunt_lab({0, 0, 1}));
     CHECK(std::pow(most, 0.7) == Approx(41.2760963).epsilon(2e-7));
     // L*a*b* of the primaries as tables have them: 87.737, -86.185, 83.181 for green;
     // the Hunt effect takes 0.87737 of the last two.
-    const auto green = hunt_lab({0, 1, 0});
+    const auto green = detail::hunt_lab({0, 1, 0});
     CHECK(green.x == Approx(87.737).epsilon(1e-4));
     CHECK(green.y == Approx(-86.185 * 0.87737).epsilon(1e-3));
     CHECK(green.z == Approx(83.181 * 0.87737).epsilon(1e-3));
-    const auto white = hunt_lab(RgbD(1));
+    const auto white = detail::hunt_lab(RgbD(1));
     CHECK(white.x == Approx(100));
     CHECK(std::abs(white.y) + std::abs(white.z) < 1e-10);
     // In the dark, L* is 903.3 times Y.
-    CHECK(hunt_lab(RgbD(0.001)).x == Approx(24389.0 / 27 * 0.001));
+    CHECK(detail::hunt_lab(RgbD(0.001)).x == Approx(24389.0 / 27 * 0.001));
 }
 
 TEST_CASE("flip: colours against colours") {
-    CHECK(color_error({0, 1, 0}, {0, 0, 1}) == 1);
+    CHECK(detail::color_error({0, 1, 0}, {0, 0, 1}) == 1);
     // By hand: 100 to the power 0.7 is 25.1189, beyond the bend at 0.4 * 41.2761.
-    CHECK(color_error(RgbD(1), RgbD(0)) == Approx(0.9673797615).epsilon(1e-8));
+    CHECK(detail::color_error(RgbD(1), RgbD(0)) == Approx(0.9673797615).epsilon(1e-8));
     // The second program.
-    CHECK(color_error({1, 0, 0}, {0, 1, 0}) == Approx(0.9866622752).epsilon(1e-8));
-    CHECK(color_error({1, 0, 0}, {0, 0, 1}) == Approx(0.9650790225).epsilon(1e-8));
-    CHECK(color_error(RgbD(0.2), RgbD(0.21)) == Approx(0.0619891554).epsilon(1e-8));
-    CHECK(color_error({0.001, 0.002, 0.003}, RgbD(0)) ==
+    CHECK(detail::color_error({1, 0, 0}, {0, 1, 0}) ==
+          Approx(0.9866622752).epsilon(1e-8));
+    CHECK(detail::color_error({1, 0, 0}, {0, 0, 1}) ==
+          Approx(0.9650790225).epsilon(1e-8));
+    CHECK(detail::color_error(RgbD(0.2), RgbD(0.21)) ==
+          Approx(0.0619891554).epsilon(1e-8));
+    CHECK(detail::color_error({0.001, 0.002, 0.003}, RgbD(0)) ==
           Approx(0.0836492478).epsilon(1e-8));
-    CHECK(color_error(RgbD(1), RgbD(0.2)) == Approx(0.8666886543).epsilon(1e-8));
+    CHECK(detail::color_error(RgbD(1), RgbD(0.2)) ==
+          Approx(0.8666886543).epsilon(1e-8));
     // To the colour space to blur in and back.
     for (const RgbD& c : {RgbD{1, 0, 0}, RgbD{0.1, 0.7, 0.4}, RgbD{0}, RgbD{1}})
-        CHECK(glm::distance(rgb_of_opponent(opponent(c)), c) < 1e-12);
+        CHECK(glm::distance(detail::rgb_of_opponent(detail::opponent(c)), c) < 1e-12);
 }
 
 TEST_CASE("flip: pictures without edges are as different as their colours") {
@@ -87,7 +92,7 @@ TEST_CASE("flip: pictures without edges are as different as their colours") {
         const ImageD one = make_image<double>(size, size, a);
         const ImageD other = make_image<double>(size, size, b);
         // Sums that cancel leave features of 1e-17, of which a root is taken.
-        CHECK(flip(one, other) == Approx(color_error(a, b)).epsilon(1e-7));
+        CHECK(flip(one, other) == Approx(detail::color_error(a, b)).epsilon(1e-7));
     }
     CHECK(flip(make_image(9, 9, Rgb(1)), make_image(9, 9)) ==
           Approx(0.9673797615).epsilon(1e-8));
@@ -159,20 +164,20 @@ TEST_CASE("flip: too bright, below black and not a number are what a screen show
 }
 
 TEST_CASE("flip: HDR: the film's curve and the exposures, by hand") {
-    CHECK(film_curve(0) == 0);
-    CHECK(film_curve(2.1188723) == Approx(0.85).epsilon(1e-6));
-    CHECK(film_curve(1) == Approx(0.9216 / 1.3688));
-    CHECK(film_curve(1e300) == 1);
+    CHECK(detail::film_curve(0) == 0);
+    CHECK(detail::film_curve(2.1188723) == Approx(0.85).epsilon(1e-6));
+    CHECK(detail::film_curve(1) == Approx(0.9216 / 1.3688));
+    CHECK(detail::film_curve(1e300) == 1);
     // Luminances 1/4, 1/4, 1, 4: the median is 1 and the brightest 4.
     ImageD image = make_image<double>(4, 1, RgbD(0.25));
     pixel(image, 2, 0) = RgbD(1);
     pixel(image, 3, 0) = RgbD(4);
-    const Exposures e = exposures_of(image);
+    const detail::Exposures e = detail::exposures_of(image);
     CHECK(e.first == Approx(std::log2(2.1188723 / 4)).epsilon(1e-6));
     CHECK(e.last == Approx(std::log2(2.1188723)).epsilon(1e-6));
     CHECK(e.count == 2);
     pixel(image, 3, 0) = RgbD(1024);
-    CHECK(exposures_of(image).count == 10);
+    CHECK(detail::exposures_of(image).count == 10);
 }
 
 TEST_CASE("flip: HDR: the second program's numbers; and what does not matter") {

@@ -7,6 +7,8 @@
 
 #include <vector>
 
+#include "support/form_factor_facing.hpp"
+
 using ljus::Facet;
 
 namespace {
@@ -54,7 +56,7 @@ double quadrature(const Facet& a, const Facet& b, int n) {
             }
         return all;
     };
-    const V na = area_vector(a), nb = area_vector(b);
+    const V na = ljus::detail::area_vector(a), nb = ljus::detail::area_vector(b);
     double sum = 0;
     for (const Node& p : nodes(a))
         for (const Node& q : nodes(b)) {
@@ -79,14 +81,15 @@ std::vector<Facet> tetrahedron(std::array<V, 4> p) {
 } // namespace
 
 TEST_CASE("form_factor: unit squares, as every table has them") {
-    CHECK(std::abs(ljus::form_factor_facing(1, 1, 1) - 0.1998248957) < 1e-10);
+    CHECK(std::abs(ljus_test::form_factor_facing(1, 1, 1) - 0.1998248957) < 1e-10);
     CHECK(std::abs(ljus::form_factor_corner(1, 1, 1) - 0.2000437761) < 1e-10);
     // A floor and the five other faces of a cube.
-    CHECK(ljus::form_factor_facing(1, 1, 1) + 4 * ljus::form_factor_corner(1, 1, 1) ==
+    CHECK(ljus_test::form_factor_facing(1, 1, 1) +
+              4 * ljus::form_factor_corner(1, 1, 1) ==
           doctest::Approx(1).epsilon(1e-14));
     // Very near to each other all of the light arrives, very far almost none.
-    CHECK(ljus::form_factor_facing(1e6, 1e6, 1) > 1 - 1e-5);
-    CHECK(ljus::form_factor_facing(1, 1, 100) * std::numbers::pi * 1e4 ==
+    CHECK(ljus_test::form_factor_facing(1e6, 1e6, 1) > 1 - 1e-5);
+    CHECK(ljus_test::form_factor_facing(1, 1, 100) * std::numbers::pi * 1e4 ==
           doctest::Approx(1).epsilon(1e-3));
 }
 
@@ -98,14 +101,14 @@ TEST_CASE("exchange_area: rectangles that face each other or stand on each other
                 const Facet roof = rectangle({0, 0, c}, {0, b, 0}, {a, 0, 0});
                 const Facet wall = rectangle({}, {0, b, 0}, {0, 0, c});
                 CHECK(exchange_area(floor, roof) ==
-                      doctest::Approx(a * b * ljus::form_factor_facing(a, b, c))
+                      doctest::Approx(a * b * ljus_test::form_factor_facing(a, b, c))
                           .epsilon(1e-11));
                 CHECK(exchange_area(floor, wall) ==
                       doctest::Approx(a * b * ljus::form_factor_corner(b, a, c))
                           .epsilon(1e-12));
                 // From behind nothing arrives.
-                CHECK(exchange_area(turned(floor), wall) == 0);
-                CHECK(exchange_area(floor, turned(roof)) == 0);
+                CHECK(exchange_area(ljus::detail::turned(floor), wall) == 0);
+                CHECK(exchange_area(floor, ljus::detail::turned(roof)) == 0);
             }
 }
 
@@ -115,11 +118,11 @@ TEST_CASE("exchange_area: quads anywhere, by the definition") {
         const V u = numbers.point(), v = numbers.point();
         const V s = numbers.point(), t = numbers.point();
         const Facet a = rectangle(-(u + v) / 2.0, u, v);
-        const V up = glm::normalize(area_vector(a));
+        const V up = glm::normalize(ljus::detail::area_vector(a));
         // So far up that all of it is in front; turned so that it faces downwards.
         Facet b = rectangle(4.0 * up + 0.3 * numbers.point() - (s + t) / 2.0, s, t);
-        if (glm::dot(area_vector(b), up) > 0) b = turned(b);
-        if (glm::dot(glm::normalize(area_vector(b)), up) > -0.8) continue;
+        if (glm::dot(ljus::detail::area_vector(b), up) > 0) b = ljus::detail::turned(b);
+        if (glm::dot(glm::normalize(ljus::detail::area_vector(b)), up) > -0.8) continue;
         const double right = quadrature(a, b, 2);
         CHECK(std::abs(exchange_area(a, b) - right) < 1e-9 * right);
         // An edge of b that is parallel to one of a takes another way.
@@ -172,8 +175,8 @@ TEST_CASE("exchange_area: in a closed room all light arrives somewhere") {
             double sum = 0;
             for (const Facet& to : sides)
                 if (&to != &from) sum += exchange_area(from, to);
-            CHECK(sum ==
-                  doctest::Approx(glm::length(area_vector(from))).epsilon(1e-10));
+            CHECK(sum == doctest::Approx(glm::length(ljus::detail::area_vector(from)))
+                             .epsilon(1e-10));
         }
     }
 }
@@ -228,7 +231,7 @@ TEST_CASE("form_factor: from a point, by Lambert") {
     const Facet roof = rectangle({-1, -1, 2}, {0, 2, 0}, {2, 0, 0});
     CHECK(form_factor_at({}, up, roof) ==
           doctest::Approx(4 * corner(1, 1, 2)).epsilon(1e-14));
-    CHECK(form_factor_at({}, up, turned(roof)) == 0);
+    CHECK(form_factor_at({}, up, ljus::detail::turned(roof)) == 0);
     CHECK(form_factor_at({}, -up, roof) == 0);
     // A cube around the point, which stands on no wall: below its horizon nothing
     // counts, and above it everything does.

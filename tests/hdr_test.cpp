@@ -86,7 +86,8 @@ TEST_CASE("hdr: four bytes hold a colour within 1/256 of its largest channel") {
         for (int i = 1; i <= 64; ++i) {
             const double largest = std::ldexp(0.5 + i / 128.0 - 1e-9, exponent);
             const ljus::RgbT<double> c{largest, 0.3 * largest, 0.0};
-            const ljus::RgbT<double> back = ljus::from_rgbe(ljus::to_rgbe(c));
+            const ljus::RgbT<double> back =
+                ljus::detail::from_rgbe(ljus::detail::to_rgbe(c));
             CHECK(std::abs(back.x - c.x) <= largest / 256 * (1 + 1e-12));
             CHECK(std::abs(back.y - c.y) <= largest / 256 * (1 + 1e-12));
             CHECK(back.z == 0.0);
@@ -95,20 +96,22 @@ TEST_CASE("hdr: four bytes hold a colour within 1/256 of its largest channel") {
 
 TEST_CASE("hdr: known colours have the bytes of the format") {
     using Rgbe = std::array<unsigned char, 4>;
-    CHECK(ljus::to_rgbe({1, 0.5, 0.25}) == Rgbe{128, 64, 32, 129});
-    CHECK(ljus::to_rgbe({0, 0, 0}) == Rgbe{0, 0, 0, 0});
-    CHECK(ljus::to_rgbe({0.5, 0, 0}) == Rgbe{128, 0, 0, 128});
-    CHECK(ljus::to_rgbe({0.9999, 0, 0}) == Rgbe{128, 0, 0, 129}); // 256 does not fit
-    CHECK(ljus::to_rgbe({1e-300, 0, 0}) == Rgbe{0, 0, 0, 0});
-    CHECK(ljus::to_rgbe({1.69e38, 0, 0})[3] == 255);
-    CHECK(ljus::from_rgbe({128, 64, 32, 129}) == ljus::RgbT<double>{1, 0.5, 0.25});
+    CHECK(ljus::detail::to_rgbe({1, 0.5, 0.25}) == Rgbe{128, 64, 32, 129});
+    CHECK(ljus::detail::to_rgbe({0, 0, 0}) == Rgbe{0, 0, 0, 0});
+    CHECK(ljus::detail::to_rgbe({0.5, 0, 0}) == Rgbe{128, 0, 0, 128});
+    CHECK(ljus::detail::to_rgbe({0.9999, 0, 0}) ==
+          Rgbe{128, 0, 0, 129}); // 256 does not fit
+    CHECK(ljus::detail::to_rgbe({1e-300, 0, 0}) == Rgbe{0, 0, 0, 0});
+    CHECK(ljus::detail::to_rgbe({1.69e38, 0, 0})[3] == 255);
+    CHECK(ljus::detail::from_rgbe({128, 64, 32, 129}) ==
+          ljus::RgbT<double>{1, 0.5, 0.25});
 }
 
 TEST_CASE("hdr: rounding has no preferred direction") {
     double sum = 0.0;
     for (int i = 0; i < 100000; ++i) {
         const double x = 0.5 + (i + 0.5) / 200000.0;
-        sum += ljus::from_rgbe(ljus::to_rgbe({x, x, x})).x - x;
+        sum += ljus::detail::from_rgbe(ljus::detail::to_rgbe({x, x, x})).x - x;
     }
     CHECK(std::abs(sum / 100000) < 1e-5); // rounding down would give -0.002
 }

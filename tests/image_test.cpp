@@ -48,10 +48,10 @@ TEST_CASE("image: a size that is not positive, or absurd, is refused with its va
         (void)ljus::make_image(0, 400),
         "The image's size is 0 x 400; width and height must be at least 1, "
         "and their product at most 268435456.");
-    CHECK_NOTHROW(ljus::require_image_size(1LL << 28, 1));
-    CHECK_THROWS_AS(ljus::require_image_size((1LL << 28) + 1, 1),
+    CHECK_NOTHROW(ljus::detail::require_image_size(1LL << 28, 1));
+    CHECK_THROWS_AS(ljus::detail::require_image_size((1LL << 28) + 1, 1),
                     std::invalid_argument);
-    CHECK_THROWS_AS(ljus::require_image_size(1LL << 62, 1LL << 62),
+    CHECK_THROWS_AS(ljus::detail::require_image_size(1LL << 62, 1LL << 62),
                     std::invalid_argument);
 }
 

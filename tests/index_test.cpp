@@ -121,6 +121,6 @@ TEST_CASE(
     CHECK(&tracer.scene == &indexed);
     CHECK(render(tracer, room.camera, picture).image.pixels == by_itself.image.pixels);
     CHECK(indexed.size() == room.scene.size());
-    CHECK(indexed.size() > flat_loop_limit);
+    CHECK(indexed.size() > detail::flat_loop_limit);
     CHECK(indexed.ids.size() == indexed.size());
 }

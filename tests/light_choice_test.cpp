@@ -30,9 +30,9 @@ constexpr T below_one = T(1) - std::numeric_limits<T>::epsilon() / 2;
 TEST_CASE("light choice: the power of a light is the sum of its channels") {
     const auto choice = light_choice(lights_of({{1, 0, 0}, {1, 1, 1}, {0, 2, 4}}));
     CHECK(choice.cumulative == std::vector<double>{1, 4, 10});
-    CHECK(probability_of<float>(choice, 0) == 0.1f);
-    CHECK(probability_of<float>(choice, 1) == 0.3f);
-    CHECK(probability_of<float>(choice, 2) == 0.6f);
+    CHECK(detail::probability_of<float>(choice, 0) == 0.1f);
+    CHECK(detail::probability_of<float>(choice, 1) == 0.3f);
+    CHECK(detail::probability_of<float>(choice, 2) == 0.6f);
 }
 
 TEST_CASE_TEMPLATE("light choice: probabilities sum to 1", T, float, double) {
@@ -44,7 +44,7 @@ TEST_CASE_TEMPLATE("light choice: probabilities sum to 1", T, float, double) {
         const auto choice = light_choice(lights_of(fluxes));
         double sum = 0;
         for (std::uint32_t i = 0; i < fluxes.size(); ++i) {
-            const T p = probability_of<T>(choice, i);
+            const T p = detail::probability_of<T>(choice, i);
             REQUIRE(p > 0);
             sum += double(p);
         }
@@ -57,10 +57,10 @@ TEST_CASE_TEMPLATE("light choice: the extremes of u choose the first and the las
     for (const std::size_t count : {1u, 2u, 3u, 10u, 1000u}) {
         const auto choice =
             light_choice(lights_of(std::vector<Rgb>(count, Rgb{0.1f, 0.2f, 0.3f})));
-        CHECK(choose_light(choice, T(0)).light == 0);
-        CHECK(choose_light(choice, below_one<T>).light == count - 1);
+        CHECK(detail::choose_light(choice, T(0)).light == 0);
+        CHECK(detail::choose_light(choice, below_one<T>).light == count - 1);
         // Even u = 1, which no stream gives, stays among the lights.
-        CHECK(choose_light(choice, T(1)).light == count - 1);
+        CHECK(detail::choose_light(choice, T(1)).light == count - 1);
     }
 }
 
@@ -70,13 +70,13 @@ TEST_CASE_TEMPLATE("light choice: what is chosen comes with its probability", T,
     std::vector<double> counts(3);
     constexpr int many = 1 << 16;
     for (int i = 0; i < many; ++i) { // every cell of u once: no statistics
-        const auto chosen = choose_light(choice, T(i) / T(many));
-        REQUIRE(chosen.probability == probability_of<T>(choice, chosen.light));
+        const auto chosen = detail::choose_light(choice, T(i) / T(many));
+        REQUIRE(chosen.probability == detail::probability_of<T>(choice, chosen.light));
         ++counts[chosen.light];
     }
     for (std::uint32_t light = 0; light < 3; ++light)
-        CHECK(std::abs(counts[light] - many * probability_of<double>(choice, light)) <=
-              1);
+        CHECK(std::abs(counts[light] -
+                       many * detail::probability_of<double>(choice, light)) <= 1);
 }
 
 TEST_CASE_TEMPLATE("light choice: a light without power is never chosen", T, float,
@@ -85,10 +85,10 @@ TEST_CASE_TEMPLATE("light choice: a light without power is never chosen", T, flo
         std::vector<Rgb> fluxes(4, Rgb{0, 0, 1}); // a channel may well be zero
         fluxes[dark] = Rgb{0};
         const auto choice = light_choice(lights_of(fluxes));
-        CHECK(probability_of<T>(choice, std::uint32_t(dark)) == T(0));
+        CHECK(detail::probability_of<T>(choice, std::uint32_t(dark)) == T(0));
         for (int i = 0; i <= 3000; ++i) {
             const T u = i == 3000 ? below_one<T> : T(i) / T(3000);
-            const auto chosen = choose_light(choice, u);
+            const auto chosen = detail::choose_light(choice, u);
             REQUIRE(chosen.light != dark);
             REQUIRE(chosen.probability > 0);
         }
@@ -101,7 +101,7 @@ TEST_CASE("light choice: lights of all powers that float can say") {
     const auto lights = lights_of(fluxes);
     const auto choice = light_choice(lights);
     for (const float u : {0.0f, 0x1p-24f, 0.5f, below_one<float>}) {
-        const auto chosen = choose_light(choice, u);
+        const auto chosen = detail::choose_light(choice, u);
         REQUIRE(chosen.probability > 0);
         CHECK(is_finite(lights[chosen.light].flux / chosen.probability));
     }

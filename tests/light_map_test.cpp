@@ -59,8 +59,9 @@ TEST_CASE("light_map: vertices are numbered, each by all of its cells") {
     const auto check_all = [](const PatchGrid& grid) {
         std::vector<int> cells(grid.vertices(), 0);
         for (std::uint32_t cell = 0; cell < grid.size(); ++cell)
-            for (const std::uint32_t vertex : cell_vertices(grid, place_of(grid, cell)))
-                if (vertex != no_grid) {
+            for (const std::uint32_t vertex :
+                 detail::cell_vertices(grid, place_of(grid, cell)))
+                if (vertex != detail::no_grid) {
                     REQUIRE(vertex < cells.size());
                     ++cells[vertex];
                 }
@@ -92,7 +93,8 @@ TEST_CASE("light_map: blended light is continuous, and as even as the patches") 
         const auto rough = vertex_light(grid, wild);
         for (int i = 0; i < 2000; ++i) {
             glm::dvec2 at = next_2d<double>(stream);
-            if (grid.kind == GridKind::triangle && at.x + at.y > 1) at = 1.0 - at;
+            if (grid.kind == detail::GridKind::triangle && at.x + at.y > 1)
+                at = 1.0 - at;
             CHECK(glm::distance(blended_light(grid, at, flat), Color(1, 2, 3)) < 1e-14);
             const glm::dvec2 near =
                 at * (1 - 1e-9) + 1e-9 * glm::dvec2(1, 1) / 3.0; // within both
@@ -100,7 +102,7 @@ TEST_CASE("light_map: blended light is continuous, and as even as the patches") 
                                 blended_light(grid, near, rough)) < 1e-6);
         }
         // Around a ball the last row meets the first.
-        if (grid.kind == GridKind::ball)
+        if (grid.kind == detail::GridKind::ball)
             for (const double u : {0.0, 0.1, 0.5, 1.0})
                 CHECK(glm::distance(blended_light(grid, {u, 0}, rough),
                                     blended_light(grid, {u, 1}, rough)) < 1e-14);
@@ -110,11 +112,11 @@ TEST_CASE("light_map: blended light is continuous, and as even as the patches") 
          {patch_grid(Quad{}, 0.1),
           patch_grid(Triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, 0.05)}) {
         std::vector<Color> cells(grid.size());
-        const Facet unit = grid.kind == GridKind::quad
+        const Facet unit = grid.kind == detail::GridKind::quad
                                ? facet_of(QuadT<double>{})
                                : Facet{{glm::dvec3(0), {1, 0, 0}, {0, 1, 0}}, 3};
         for (std::uint32_t cell = 0; cell < grid.size(); ++cell) {
-            const Facet part = cell_facet(grid, unit, cell);
+            const Facet part = detail::cell_facet(grid, unit, cell);
             glm::dvec3 middle(0);
             for (int i = 0; i < part.count; ++i)
                 middle += part.corners[std::size_t(i)] / double(part.count);
@@ -194,7 +196,7 @@ TEST_CASE("light_map: a map of another scene is refused") {
     wrong.grids[0].object.type = 7;
     refused(room.scene, wrong);
     wrong = all->map;
-    wrong.grids[0].kind = GridKind::triangle;
+    wrong.grids[0].kind = detail::GridKind::triangle;
     refused(room.scene, wrong);
     wrong = all->map;
     wrong.irradiance.pop_back();

@@ -40,7 +40,8 @@ Mean irradiance(const Scene& scene, const Vec3& at, const Vec3& up, int count) {
 } // namespace
 
 TEST_CASE("light: the flux of a diffuse emitter is pi L A") {
-    CHECK(double(diffuse_flux(Rgb{1, 2, 0}, 3.0f).y) == doctest::Approx(6 * pi));
+    CHECK(double(detail::diffuse_flux(Rgb{1, 2, 0}, 3.0f).y) ==
+          doctest::Approx(6 * pi));
     const auto scene = make_scene(
         placed(Sphere{.radius = 2}, Lambertian{}, Rgb{1}),
         placed(Quad{.edge_u{2, 0, 0}, .edge_v{0, 3, 0}}, Lambertian{}, Rgb{0, 5, 0}),

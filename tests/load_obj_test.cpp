@@ -71,7 +71,7 @@ std::string message(const std::string& text, const ObjSettings& settings = {}) {
     return "nothing";
 }
 
-ObjCount trouble(const std::string& text, ObjTrouble which) {
+detail::ObjCount trouble(const std::string& text, ObjTrouble which) {
     return read_obj(text, "x.obj").report[which];
 }
 
@@ -193,7 +193,7 @@ TEST_CASE("load_obj: many corners, in and out, are cut in no time") {
 TEST_CASE("load_obj: each trouble is counted, with its first line") {
     const auto check = [](const std::string& more, ObjTrouble which, long long count,
                           long long line) {
-        const ObjCount found = trouble(cube + more, which);
+        const detail::ObjCount found = trouble(cube + more, which);
         CAPTURE(more);
         CHECK(found.count == count);
         CHECK(found.line == line);

@@ -38,7 +38,8 @@ std::uint32_t owen_by_definition(std::uint32_t bits, std::uint64_t seed) {
 
 /// A coordinate of the first points, plain or scrambled.
 std::uint32_t coordinate(std::uint32_t i, std::uint32_t d, std::uint64_t seed) {
-    return seed == 0 ? sobol(i, d) : owen_scrambled(sobol(i, d), seed + d);
+    return seed == 0 ? detail::sobol(i, d)
+                     : detail::owen_scrambled(detail::sobol(i, d), seed + d);
 }
 
 /// The least t for which 2^m points in two dimensions are a (t,m,2)-net: each cell of
@@ -102,15 +103,15 @@ TEST_CASE("low_discrepancy: the first points, by hand") {
     const std::uint32_t first[][2] = {{0, 0}, {2, 2}, {1, 3}, {3, 1}};
     for (std::uint32_t i = 0; i < 4; ++i)
         for (std::uint32_t d = 0; d < 2; ++d)
-            CHECK(sobol(i, d) == first[i][d] * quarter);
-    CHECK(sobol(1, 15) == 1u << 31);
-    CHECK(reversed_bits(1) == 1u << 31);
-    CHECK(reversed_bits(0x12345678u) == 0x1e6a2c48u);
+            CHECK(detail::sobol(i, d) == first[i][d] * quarter);
+    CHECK(detail::sobol(1, 15) == 1u << 31);
+    CHECK(detail::reversed_bits(1) == 1u << 31);
+    CHECK(detail::reversed_bits(0x12345678u) == 0x1e6a2c48u);
 }
 
 TEST_CASE("low_discrepancy: in each dimension the first 2^m points lie one in a cell") {
     for (const std::uint64_t seed : {0u, 1u, 77u})
-        for (std::uint32_t d = 0; d < sobol_dimensions; ++d)
+        for (std::uint32_t d = 0; d < detail::sobol_dimensions; ++d)
             for (const int m : {1, 4, 9, 14}) {
                 std::vector<bool> taken(std::size_t(1) << m);
                 for (std::uint32_t i = 0; i < 1u << m; ++i)
@@ -133,7 +134,7 @@ TEST_CASE("low_discrepancy: dimensions 0 and 1 are a (0,m,2)-net, scrambled or n
 TEST_CASE("low_discrepancy: any two dimensions are a net, and scrambling keeps its t") {
     // t is at most the sum of the degrees of the polynomials less one each (Sobol).
     const int degree[] = {1, 1, 2, 3, 3, 4, 4, 5, 5, 5, 5, 5, 5, 6, 6, 6};
-    for (std::uint32_t d = 0; d < sobol_dimensions; ++d)
+    for (std::uint32_t d = 0; d < detail::sobol_dimensions; ++d)
         for (std::uint32_t e = 0; e < d; ++e) {
             const int t = quality(e, d, 8, 0);
             CAPTURE(d);
@@ -151,7 +152,8 @@ TEST_CASE(
         const int level = n.below(32); // the first bit, from above, that differs
         const std::uint32_t b = a ^ (0x80000000u >> level);
         const auto seed = static_cast<std::uint64_t>(test);
-        const std::uint32_t apart = owen_scrambled(a, seed) ^ owen_scrambled(b, seed);
+        const std::uint32_t apart =
+            detail::owen_scrambled(a, seed) ^ detail::owen_scrambled(b, seed);
         // They part at the same bit, neither before nor after.
         CHECK((apart >> (31 - level)) == 1u);
     }
@@ -165,10 +167,10 @@ TEST_CASE("low_discrepancy: one point is uniform over the seeds, by cells and in
             std::vector<int> cells(256), pairs(256), low(256);
             for (std::uint64_t seed = 0; seed < seeds; ++seed) {
                 const auto scrambled = [&](std::uint32_t d) {
-                    const std::uint32_t bits = sobol(index, d);
+                    const std::uint32_t bits = detail::sobol(index, d);
                     const std::uint64_t key = mix_bits(seed) + d;
                     return definition ? owen_by_definition(bits, key)
-                                      : owen_scrambled(bits, key);
+                                      : detail::owen_scrambled(bits, key);
                 };
                 const std::uint32_t x = scrambled(0), y = scrambled(1);
                 ++cells[x >> 24];
@@ -204,7 +206,7 @@ TEST_CASE("low_discrepancy: after its dimensions a stream goes on at random; nev
             for (int c = 0; c < 3; ++c) CHECK((u[c] >= 0 && u[c] < 1));
             seen.insert(double(u.x));
         }
-        CHECK(stream.dimension == sobol_dimensions);
+        CHECK(stream.dimension == detail::sobol_dimensions);
     }
     CHECK(seen.size() > 3700); // of 3800; a few of 24 bits may be equal
     // Another seed, pass, iteration or 2^32 paths on: another scrambling.

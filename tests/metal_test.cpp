@@ -44,7 +44,7 @@ TEST_CASE("metal: gold is yellow from above and white at the rim") {
 TEST_CASE("metal: it is specular, and only that") {
     static_assert(ljus::Material<Metal>);
     const ljus::Vec3 up{0, 0, 1}, u{0.5f, 0.5f, 0.5f};
-    CHECK(ljus::is_specular(Metal{}));
+    CHECK(ljus::lobes(Metal{}) == ljus::Lobes::specular);
     CHECK(ljus::is_black(evaluate(Metal{}, up, up)));
     CHECK(pdf(Metal{}, up, up) == 0);
     CHECK_FALSE(sample(Metal{}, up, u, Transport::flux, Lobes::diffuse));

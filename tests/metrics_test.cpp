@@ -42,8 +42,6 @@ TEST_CASE("metrics: all are 0 for equal images, of float and of double") {
     CHECK(ljus::rel_mse(a, b) == 0.0);
     CHECK(ljus::trimmed_rel_mse(a, b) == 0.0);
     CHECK(ljus::block_error(a, b) == 0.0);
-    CHECK(ljus::mape(a, b) == 0.0);
-    CHECK(ljus::smape(a, b) == 0.0);
     const ljus::BiasVariance split = ljus::bias_variance(std::vector{a, a}, b);
     CHECK(split.bias_squared == 0.0);
     CHECK(split.variance == 0.0);
@@ -55,8 +53,6 @@ TEST_CASE("metrics: their formulas, for one pixel written out") {
     CHECK(ljus::rmse(x, r) == Approx(std::sqrt((4.0 + 1.0 + 0.25) / 3)));
     CHECK(ljus::rel_mse(x, r) == Approx((4 / 1.01 + 1 / 4.01 + 0.25 / 0.26) / 3));
     CHECK(ljus::rel_mse(x, r, 1.0) == Approx((4 / 2.0 + 1 / 5.0 + 0.25 / 1.25) / 3));
-    CHECK(ljus::mape(x, r) == Approx((2 / 1.01 + 1 / 2.01 + 0.5 / 0.51) / 3));
-    CHECK(ljus::smape(x, r) == Approx((2 / 4.01 + 1 / 3.01 + 0.5 / 0.51) / 3));
     CHECK(ljus::block_error(x, r) == Approx(ljus::rel_mse(x, r)));
 }
 
@@ -156,8 +152,6 @@ TEST_CASE("metrics: NaN is shown, not hidden") {
     CHECK(std::isnan(ljus::rel_mse(x, r)));
     CHECK(std::isnan(ljus::trimmed_rel_mse(x, r)));
     CHECK(std::isnan(ljus::block_error(x, r)));
-    CHECK(std::isnan(ljus::mape(x, r)));
-    CHECK(std::isnan(ljus::smape(x, r)));
     CHECK(std::isnan(ljus::bias_variance(std::vector{x, r}, r).variance));
 }
 
@@ -170,8 +164,6 @@ TEST_CASE("metrics: sizes that differ, and arguments without sense, are refused"
     CHECK_THROWS_AS((void)ljus::rel_mse(a, b), std::invalid_argument);
     CHECK_THROWS_AS((void)ljus::trimmed_rel_mse(a, b), std::invalid_argument);
     CHECK_THROWS_AS((void)ljus::block_error(a, b), std::invalid_argument);
-    CHECK_THROWS_AS((void)ljus::mape(a, b), std::invalid_argument);
-    CHECK_THROWS_AS((void)ljus::smape(a, b), std::invalid_argument);
     CHECK_THROWS_AS((void)ljus::bias_variance(std::vector{a, a}, b),
                     std::invalid_argument);
     CHECK_THROWS_AS((void)ljus::bias_variance(std::vector{a}, a),

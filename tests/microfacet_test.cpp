@@ -74,7 +74,8 @@ TEST_CASE_TEMPLATE("microfacet: as many facets as 50 digits count", T, float, do
         const auto h =
             at_degrees<T>(std::atan(tangent) * 180 / pi, 360 * draws.unit<double>());
         const Real right = exact_normals(alpha, h.x, h.y, h.z);
-        const Real error = abs(Real(ljus::ggx_distribution(alpha, h)) - right) / right;
+        const Real error =
+            abs(Real(ljus::detail::ggx_distribution(alpha, h)) - right) / right;
         // A rounded direction is not of unit length; the printed form does not mind.
         worst = std::max(worst, (error / u).convert_to<double>());
     }
@@ -85,12 +86,13 @@ TEST_CASE_TEMPLATE("microfacet: as many facets as 50 digits count", T, float, do
 TEST_CASE_TEMPLATE("microfacet: the middle is one, where squares underflow too", T,
                    float, double) {
     const T tiny = std::numeric_limits<T>::min();
-    const auto h = ljus::half_vector(Vec3T<T>{1, 0, tiny}, Vec3T<T>{-1, 0, tiny});
+    const auto h =
+        ljus::detail::half_vector(Vec3T<T>{1, 0, tiny}, Vec3T<T>{-1, 0, tiny});
     CHECK(h == Vec3T<T>{0, 0, 1});
     Draws draws;
     for (int i = 0; i < 1000; ++i) {
         const auto a = draws.above<T>(), b = draws.above<T>();
-        const auto m = ljus::half_vector(a, b);
+        const auto m = ljus::detail::half_vector(a, b);
         REQUIRE(std::abs(glm::length(m) - 1) <= 2 * std::numeric_limits<T>::epsilon());
         REQUIRE(std::abs(glm::dot(a, m) - glm::dot(b, m)) <=
                 4 * std::numeric_limits<T>::epsilon());
@@ -100,7 +102,7 @@ TEST_CASE_TEMPLATE("microfacet: the middle is one, where squares underflow too",
 TEST_CASE("microfacet: seen from above the facets cover the surface once") {
     for (const double alpha : {1e-4, 0.01, 0.09, 0.3, 0.6, 1.0}) {
         const double area = over_normals(alpha, 2000, [&](const Vec3T<double>& h) {
-            return ljus::ggx_distribution(alpha, h) * h.z;
+            return ljus::detail::ggx_distribution(alpha, h) * h.z;
         });
         CHECK(area == doctest::Approx(1).epsilon(1e-6));
     }
@@ -112,10 +114,10 @@ TEST_CASE("microfacet: the facets that are seen cover what the surface covers") 
         for (const double degrees : {0.0, 20.0, 45.0, 70.0, 85.0, 89.0}) {
             const auto wo = at_degrees<double>(degrees);
             const double area = over_normals(alpha, 2000, [&](const auto& h) {
-                return ljus::ggx_distribution(alpha, h) *
+                return ljus::detail::ggx_distribution(alpha, h) *
                        std::max(0.0, glm::dot(wo, h));
             });
-            const double g1 = 2 * wo.z / (wo.z + ljus::ggx_lambda(alpha, wo));
+            const double g1 = 2 * wo.z / (wo.z + ljus::detail::ggx_lambda(alpha, wo));
             CHECK(g1 == doctest::Approx(printed_g1(alpha, wo.z)).epsilon(1e-12));
             CHECK(g1 * area == doctest::Approx(wo.z).epsilon(2e-5));
         }
@@ -142,7 +144,7 @@ TEST_CASE("microfacet: visible normals are drawn by their density, for 100 seeds
                 const Vec3T<double> h{r * std::cos(phi), r * std::sin(phi), z};
                 const double density = printed_g1(alpha, wo.z) *
                                        std::max(0.0, glm::dot(wo, h)) *
-                                       ljus::ggx_distribution(alpha, h) / wo.z;
+                                       ljus::detail::ggx_distribution(alpha, h) / wo.z;
                 const double share = density * alpha / ((1 - s) * (1 - s)) * z * z * r *
                                      2 * pi / (rows * fine) / (columns * fine);
                 expected[std::size_t(i / fine * columns + j / fine)] += share * count;
@@ -152,7 +154,7 @@ TEST_CASE("microfacet: visible normals are drawn by their density, for 100 seeds
         for (double& e : expected) e /= total;
         for (int i = 0; i < count; ++i) {
             const auto h =
-                ljus::sample_visible_normal(alpha, wo, draws.square<double>());
+                ljus::detail::sample_visible_normal(alpha, wo, draws.square<double>());
             REQUIRE(glm::dot(wo, h) > -1e-12);
             const double tangent = std::hypot(h.x, h.y) / h.z;
             const double s = tangent / (alpha + tangent);
@@ -178,11 +180,12 @@ TEST_CASE_TEMPLATE("microfacet: at the corners of the square and of the angles",
             for (const T x : {T(0), T(0.25), T(0.5), last})
                 for (const T y : {T(0), tiny, T(0.5), last}) {
                     const Vec3T<T> wo{std::sqrt((1 - z) * (1 + z)), 0, z};
-                    const auto h = ljus::sample_visible_normal(alpha, wo, {x, y});
+                    const auto h =
+                        ljus::detail::sample_visible_normal(alpha, wo, {x, y});
                     REQUIRE(ljus::is_finite(h));
                     REQUIRE(h.z >= 0);
                     REQUIRE(std::abs(glm::length(h) - 1) <=
                             2 * std::numeric_limits<T>::epsilon());
-                    REQUIRE(std::isfinite(ljus::ggx_distribution(alpha, h)));
+                    REQUIRE(std::isfinite(ljus::detail::ggx_distribution(alpha, h)));
                 }
 }

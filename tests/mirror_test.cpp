@@ -47,7 +47,7 @@ TEST_CASE("mirror: light between two facing mirrors falls as R^n") {
 TEST_CASE("mirror: it is specular, and only that") {
     static_assert(ljus::Material<Mirror>);
     const ljus::Vec3 up{0, 0, 1}, u{0.5f, 0.5f, 0.5f};
-    CHECK(ljus::is_specular(Mirror{}));
+    CHECK(ljus::lobes(Mirror{}) == ljus::Lobes::specular);
     CHECK(ljus::is_black(evaluate(Mirror{}, up, up)));
     CHECK_FALSE(sample(Mirror{}, up, u, Transport::flux, Lobes::diffuse));
     CHECK(sample(Mirror{}, up, u, Transport::flux, Lobes::specular));

@@ -16,7 +16,7 @@ TEST_CASE("object: numbers are equal when type and index are") {
 }
 
 TEST_CASE("object: without more said it neither emits nor is inside out") {
-    const ObjectT<float> object{.material = {1, 2}};
+    const detail::ObjectT<float> object{.material = {1, 2}};
     CHECK(is_black(object.emission));
     CHECK_FALSE(object.inside_out);
 }

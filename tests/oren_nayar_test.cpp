@@ -66,7 +66,7 @@ TEST_CASE_TEMPLATE("oren_nayar: within 64 roundoffs of the printed formula", T, 
         if (i % 7 == 0) wo = at_degrees<T>(draws.between(85.0, 89.9), 20);
         const long double exact = printed(sigma, wo, wi);
         const long double ours =
-            static_cast<long double>(ljus::oren_nayar_ratio(sigma, wo, wi));
+            static_cast<long double>(ljus::detail::oren_nayar_ratio(sigma, wo, wi));
         // At crossed azimuths the cosine itself is small: count against its factor.
         const long double factor =
             std::hypot((long double)(wi.x), (long double)(wi.y)) *
@@ -124,10 +124,10 @@ TEST_CASE_TEMPLATE("oren_nayar: without roughness it is Lambert, to the last bit
 TEST_CASE("oren_nayar: roughness 10 and 100 are one picture, because 10 radians are no "
           "slope") {
     const auto up = at_degrees<float>(0);
-    CHECK(ljus::oren_nayar_ratio(1.0f, up, up) ==
+    CHECK(ljus::detail::oren_nayar_ratio(1.0f, up, up) ==
           doctest::Approx(0.682 - 0.058).epsilon(2e-3));
-    const float ten = ljus::oren_nayar_ratio(10.0f, up, up);
-    const float hundred = ljus::oren_nayar_ratio(100.0f, up, up);
+    const float ten = ljus::detail::oren_nayar_ratio(10.0f, up, up);
+    const float hundred = ljus::detail::oren_nayar_ratio(100.0f, up, up);
     CHECK(ten == doctest::Approx(0.5016).epsilon(1e-3));
     CHECK(hundred == doctest::Approx(0.5).epsilon(1e-3));
     CHECK(std::abs(ten / hundred - 1) < 0.006);
@@ -138,12 +138,12 @@ TEST_CASE("oren_nayar: the azimuths count, not the angle between the directions"
     // second term, where the directions' cosine, which the program took, is 1/4.
     const auto wo = at_degrees<double>(60, 0), wi = at_degrees<double>(60, 90);
     CHECK(glm::dot(wo, wi) == doctest::Approx(0.25));
-    CHECK(ljus::oren_nayar_ratio(0.5, wo, wi) ==
+    CHECK(ljus::detail::oren_nayar_ratio(0.5, wo, wi) ==
           doctest::Approx(double(terms(0.5L).a)).epsilon(1e-12));
     // Away from the light it is flat, towards it bright.
-    CHECK(ljus::oren_nayar_ratio(0.5, wo, at_degrees<double>(60, 180)) ==
+    CHECK(ljus::detail::oren_nayar_ratio(0.5, wo, at_degrees<double>(60, 180)) ==
           doctest::Approx(double(terms(0.5L).a)).epsilon(1e-12));
-    CHECK(ljus::oren_nayar_ratio(0.5, wo, wo) ==
+    CHECK(ljus::detail::oren_nayar_ratio(0.5, wo, wo) ==
           doctest::Approx(double(terms(0.5L).a + terms(0.5L).b * 1.5L)).epsilon(1e-12));
 }
 
@@ -151,7 +151,7 @@ TEST_CASE("oren_nayar: a ball lit from the eye is flatter than Lambert's") {
     // Reflected radiance is f cos: from the middle to 75 degrees Lambert falls by cos.
     const auto radiance = [](double degrees) {
         const auto w = at_degrees<double>(degrees);
-        return ljus::oren_nayar_ratio(0.5, w, w) * w.z;
+        return ljus::detail::oren_nayar_ratio(0.5, w, w) * w.z;
     };
     for (const double degrees : {30.0, 45.0, 60.0, 75.0}) {
         const double lambert = at_degrees<double>(degrees).z;

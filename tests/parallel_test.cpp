@@ -15,6 +15,20 @@
 
 namespace {
 
+/// The sum of `body(block)` over all blocks, added in the order of the blocks.
+template <typename Body>
+auto sum_of_blocks(long long count, Body&& body, int threads = 0) {
+    using R = std::invoke_result_t<Body&, long long>;
+    std::vector<R> sums(static_cast<std::size_t>(count));
+    ljus::parallel_blocks(
+        count,
+        [&](long long block) { sums[static_cast<std::size_t>(block)] = body(block); },
+        {.threads = threads});
+    R sum{};
+    for (const R& block_sum : sums) sum = sum + block_sum;
+    return sum;
+}
+
 // Some work whose result depends on every step.
 double work(long long seed, int steps) {
     double x = static_cast<double>(seed) + 0.5;
@@ -54,17 +68,17 @@ TEST_CASE("parallel: every block runs once, for any number of threads and blocks
 
 TEST_CASE("parallel: a sum has the same bits for 1 to 64 threads") {
     const auto sum = [](int threads) {
-        return ljus::parallel_sum(
+        return sum_of_blocks(
             1000, [](long long b) { return 1.0 / (static_cast<double>(b) + 0.1); },
             threads);
     };
     double in_order = 0.0;
     for (int b = 0; b < 1000; ++b) in_order += 1.0 / (b + 0.1);
     for (const int threads : {0, 1, 2, 3, 4, 5, 8, 64}) CHECK(sum(threads) == in_order);
-    CHECK(ljus::parallel_sum(0, [](long long) { return 1.0; }) == 0.0);
-    CHECK(ljus::parallel_sum(1, [](long long) { return 7; }) == 7);
-    CHECK(ljus::parallel_sum(
-              3, [](long long b) { return std::string(1, char('a' + b)); }) == "abc");
+    CHECK(sum_of_blocks(0, [](long long) { return 1.0; }) == 0.0);
+    CHECK(sum_of_blocks(1, [](long long) { return 7; }) == 7);
+    CHECK(sum_of_blocks(3, [](long long b) { return std::string(1, char('a' + b)); }) ==
+          "abc");
 }
 
 #ifdef _OPENMP
@@ -180,12 +194,12 @@ TEST_CASE(
                                   {.threads = threads, .progress = progress}),
             int);
         CHECK_THROWS_AS(
-            (void)ljus::parallel_sum(
+            (void)sum_of_blocks(
                 10, [](long long) -> double { throw std::bad_alloc(); }, threads),
             std::bad_alloc);
     }
     // The loop can be used again.
-    CHECK(ljus::parallel_sum(
+    CHECK(sum_of_blocks(
               4, [](long long b) { return b; }, 4) == 6);
 }
 
@@ -194,7 +208,7 @@ TEST_CASE("parallel: a loop inside a loop") {
     CHECK(ljus::parallel_blocks(
         8,
         [&](long long b) {
-            results[static_cast<std::size_t>(b)] = ljus::parallel_sum(
+            results[static_cast<std::size_t>(b)] = sum_of_blocks(
                 10, [b](long long i) { return static_cast<double>(10 * b + i); }, 4);
         },
         {.threads = 4}));
@@ -208,15 +222,16 @@ TEST_CASE("parallel: a number of threads without sense is refused with its value
                          std::invalid_argument);
     CHECK_THROWS_AS(ljus::parallel_blocks(1, [](long long) {}, {.threads = 1025}),
                     std::invalid_argument);
-    CHECK(ljus::max_threads() >= 1);
+    CHECK(ljus::detail::max_threads() >= 1);
 }
 
 TEST_CASE("parallel: blocks cover all things, none twice") {
     for (const long long total : {0LL, 1LL, 9LL, 10LL, 11LL, 100LL})
         for (const long long size : {1LL, 3LL, 10LL, 1000LL}) {
             long long next = 0;
-            for (long long b = 0; b < ljus::block_count(total, size); ++b) {
-                const ljus::BlockRange range = ljus::block_range(b, size, total);
+            for (long long b = 0; b < ljus::detail::block_count(total, size); ++b) {
+                const ljus::detail::BlockRange range =
+                    ljus::detail::block_range(b, size, total);
                 CHECK(range.first == next);
                 CHECK(range.last > range.first);
                 CHECK(range.last - range.first <= size);
@@ -225,8 +240,8 @@ TEST_CASE("parallel: blocks cover all things, none twice") {
             CHECK(next == total);
         }
     const long long most = std::numeric_limits<long long>::max();
-    CHECK(ljus::block_count(most, 2) == most / 2 + 1);
-    CHECK(ljus::block_range(0, most, most).last == most);
+    CHECK(ljus::detail::block_count(most, 2) == most / 2 + 1);
+    CHECK(ljus::detail::block_range(0, most, most).last == most);
 }
 
 // What a loop costs depends on what else the machine does: shown, not required.

@@ -7,6 +7,7 @@
 #include "ljus/radiosity/form_factor_matrix.hpp"
 #include "ljus/scenes/cornell_box.hpp"
 #include "ljus/scenes/furnaces.hpp"
+#include "support/form_factor_facing.hpp"
 #include "support/refusal.hpp"
 
 using namespace ljus;
@@ -48,23 +49,24 @@ TEST_CASE("patches: each place of a shape belongs to one cell") {
             for (std::uint32_t cell = 0; cell < grid.size(); ++cell) {
                 for (int i = 0; i < 20; ++i) {
                     const auto point =
-                        sample_cell(grid, shape, cell, next_2d<double>(stream));
+                        detail::sample_cell(grid, shape, cell, next_2d<double>(stream));
                     // A ray that comes back to the point tells the cell.
                     const Vec3T<double> outer = inward ? -point.normal : point.normal;
                     const RayT<double> ray{.origin = point.position + 0.1 * outer,
                                            .direction = -outer};
                     const auto t = intersect(ray, shape);
                     REQUIRE(t);
-                    const auto at = place_on(grid.kind, as_hit(*t), outer);
+                    const auto at = detail::place_on(grid.kind, as_hit(*t), outer);
                     CHECK(cell_of(grid, at) == cell);
                 }
                 if constexpr (Flat<std::remove_cvref_t<decltype(shape)>>) {
-                    const Facet facet = cell_facet(grid, facet_of(shape), cell);
-                    CHECK(glm::length(area_vector(facet)) ==
+                    const Facet facet = detail::cell_facet(grid, facet_of(shape), cell);
+                    CHECK(glm::length(detail::area_vector(facet)) ==
                           doctest::Approx(double(area(shape)) / grid.size())
                               .epsilon(1e-12));
-                    CHECK((glm::dot(area_vector(facet), area_vector(facet_of(shape))) <
-                           0) == inward);
+                    CHECK((glm::dot(detail::area_vector(facet),
+                                    detail::area_vector(facet_of(shape))) < 0) ==
+                          inward);
                 }
             }
         }
@@ -152,7 +154,8 @@ TEST_CASE("form_factors: the closed form in a box") {
             facing += factors->row(i)[16 + j];
             corner += factors->row(i)[32 + j];
         }
-    CHECK(facing == doctest::Approx(form_factor_facing(1, 1, 1)).epsilon(1e-12));
+    CHECK(facing ==
+          doctest::Approx(ljus_test::form_factor_facing(1, 1, 1)).epsilon(1e-12));
     CHECK(corner == doctest::Approx(form_factor_corner(1, 1, 1)).epsilon(1e-12));
     for (std::size_t i = 0; i < n; ++i) {
         CHECK(std::abs(factors->row_sum(i) - 1) < 1e-12);
@@ -214,8 +217,8 @@ TEST_CASE("form_factors: rays find the numbers of the tables") {
     for (std::size_t i = 0; i < 6; ++i)
         for (std::size_t j = 0; j < i; ++j) {
             const bool facing = i / 2 == j / 2;
-            const double right =
-                facing ? form_factor_facing(1, 1, 1) : form_factor_corner(1, 1, 1);
+            const double right = facing ? ljus_test::form_factor_facing(1, 1, 1)
+                                        : form_factor_corner(1, 1, 1);
             CHECK(std::abs((*found)(i, j) - right) < 3 * sigma); // the seed is fixed
         }
 }
@@ -258,7 +261,7 @@ TEST_CASE("form_factors: what stands between") {
         const auto rays =
             make_form_factors(stage, all, {.analytic = false, .rays = 20000});
         CHECK((*rays)(0, 1) == doctest::Approx((*factors)(0, 1)).epsilon(0.03));
-        return (*factors)(0, 1) / form_factor_facing(1, 1, 1);
+        return (*factors)(0, 1) / ljus_test::form_factor_facing(1, 1, 1);
     };
     CHECK(share(0) == doctest::Approx(1).epsilon(1e-12));
     CHECK(share(1) == 0);

@@ -69,14 +69,14 @@ TEST_CASE("multiple importance: the shares of two strategies are the whole") {
     for (const MisHeuristic share : {MisHeuristic::balance, MisHeuristic::power})
         for (const float a : {1e-38f, 0.3f, 1.0f, 7.0f, largest})
             for (const float b : {1e-38f, 0.3f, 2.0f, 1e20f, largest}) {
-                const float of_a = mis_weight(share, a, b),
-                            of_b = mis_weight(share, b, a);
+                const float of_a = detail::mis_weight(share, a, b),
+                            of_b = detail::mis_weight(share, b, a);
                 CHECK(of_a + of_b == doctest::Approx(1));
                 CHECK((of_a >= 0 && of_b >= 0));
-                CHECK(mis_weight(share, a, infinity) == 0.0f);
-                CHECK(mis_weight(share, a, 0.0f) == 1.0f);
+                CHECK(detail::mis_weight(share, a, infinity) == 0.0f);
+                CHECK(detail::mis_weight(share, a, 0.0f) == 1.0f);
             }
-    CHECK(balance(1.0, 3.0) == 0.25);
+    CHECK(balance_heuristic(1.0, 3.0) == 0.25);
     CHECK(power_heuristic(1.0, 3.0) == doctest::Approx(0.1));
     CHECK(power_heuristic(3.0, 1.0) == doctest::Approx(0.9));
 }
@@ -144,8 +144,8 @@ TEST_CASE("multiple importance: in a box furnace no surface brings more than twi
     CHECK(std::abs(apart(both.mean, 2 - std::exp2(-12))) < 3.5);
     CHECK(both.most < 1 + 2 * 1.0001);
     const Seen shadow = seen({.max_depth = 12,
-                              .roulette_depth = 100,
-                              .heuristic = MisHeuristic::shadow_rays});
+                                      .roulette_depth = 100,
+                                      .heuristic = MisHeuristic::shadow_rays});
     CAPTURE(shadow.most);
     CHECK(shadow.most > 20);
 }

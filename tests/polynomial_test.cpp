@@ -37,7 +37,22 @@ Exact exact_value(const Powers& p, const Exact& x) {
     return sum;
 }
 
-/// The tolerance that roots_in() documents.
+/// All roots of a polynomial in powers that lie in an interval; the tolerance is
+/// 8 (N + 1) eps times the sum of |c_i| m^i, m the larger of |low| and |high|: what
+/// rounding may have done.
+template <std::floating_point T, std::size_t M>
+detail::RootsT<T, M - 1> roots_in(const std::array<T, M>& p, T low, T high) noexcept {
+    const T m = glm::max(std::abs(low), std::abs(high));
+    T size = T(0);
+    for (std::size_t i = M; i-- > 0;) size = size * m + std::abs(p[i]);
+    const T tolerance = T(8 * M) * std::numeric_limits<T>::epsilon() * size;
+    auto result = detail::roots(detail::on_interval(p, low, high), tolerance);
+    for (std::size_t i = 0; i < result.count; ++i)
+        result.at[i] = glm::min(high, low + result.at[i] * (high - low));
+    return result;
+}
+
+/// The tolerance of roots_in(), worked out anew.
 double tolerance(const Powers& p, double low, double high) {
     const double m = std::max(std::abs(low), std::abs(high));
     double size = 0;
@@ -176,7 +191,7 @@ TEST_CASE("polynomial: no root is lost, none is invented, and they come in order
                 worst_residual =
                     std::max(worst_residual, residual / (allowed + steep * step));
             }
-            const auto formula = quartic_formula(known.p);
+            const auto formula = detail::quartic_formula(known.p);
             for (const double truth : known.roots) {
                 ++truths;
                 double nearest = 1e300, nearest_formula = 1e300;
@@ -223,14 +238,17 @@ TEST_CASE("polynomial: known roots") {
 }
 
 TEST_CASE("polynomial: the constant 0 has a root, a constant has none, a NaN no end") {
-    CHECK(roots(BernsteinT<double, 4>{}, 0.0).count > 0);
-    CHECK(roots(BernsteinT<double, 4>{{1, 1, 1, 1, 1}}, 0.0).count == 0);
-    CHECK(roots(BernsteinT<double, 4>{{-1, -1, -1, -1, -1}}, 0.0).count == 0);
+    CHECK(detail::roots(detail::BernsteinT<double, 4>{}, 0.0).count > 0);
+    CHECK(detail::roots(detail::BernsteinT<double, 4>{{1, 1, 1, 1, 1}}, 0.0).count ==
+          0);
+    CHECK(
+        detail::roots(detail::BernsteinT<double, 4>{{-1, -1, -1, -1, -1}}, 0.0).count ==
+        0);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double inf = std::numeric_limits<double>::infinity();
     Numbers n;
     for (int i = 0; i < 20000; ++i) { // each returns
-        BernsteinT<double, 4> p;
+        detail::BernsteinT<double, 4> p;
         for (double& c : p.c) {
             const int kind = n.below(8);
             c = kind == 0   ? nan
@@ -239,39 +257,41 @@ TEST_CASE("polynomial: the constant 0 has a root, a constant has none, a NaN no 
                 : kind == 3 ? 0
                             : n.sign() * n.power(-320, 308);
         }
-        CHECK(roots(p, noise(p)).count <= 5);
-        (void)first_change(p);
-        (void)quartic_formula(p.c);
+        CHECK(detail::roots(p, detail::noise(p)).count <= 5);
+        (void)detail::first_change(p);
+        (void)detail::quartic_formula(p.c);
     }
-    CHECK_FALSE(first_change(BernsteinT<double, 4>{{nan, nan, nan, nan, nan}}));
+    CHECK_FALSE(
+        detail::first_change(detail::BernsteinT<double, 4>{{nan, nan, nan, nan, nan}}));
 }
 
 TEST_CASE("polynomial: value and derivative on Bernstein coefficients") {
     // u^3 (1 - u) * 4 has one coefficient; its derivative is 12 u^2 - 16 u^3.
-    const BernsteinT<double, 4> p{{0, 0, 0, 1, 0}};
-    CHECK(value_at(p, 0.5) == 0.25);
-    CHECK(value_at(derivative(p), 0.5) == 1.0);
-    CHECK(value_at(on_interval(std::array{1.0, 2.0, 3.0}, 2.0, 4.0), 0.5) == 34.0);
-    CHECK(sign_changes(BernsteinT<double, 4>{{1, 0, -1, 0, 2}}) == 2);
-    CHECK(sign_changes(p) == 0);
+    const detail::BernsteinT<double, 4> p{{0, 0, 0, 1, 0}};
+    CHECK(detail::value_at(p, 0.5) == 0.25);
+    CHECK(detail::value_at(detail::derivative(p), 0.5) == 1.0);
+    CHECK(detail::value_at(detail::on_interval(std::array{1.0, 2.0, 3.0}, 2.0, 4.0),
+                           0.5) == 34.0);
+    CHECK(detail::sign_changes(detail::BernsteinT<double, 4>{{1, 0, -1, 0, 2}}) == 2);
+    CHECK(detail::sign_changes(p) == 0);
 }
 
 TEST_CASE("polynomial: the first change of sign") {
     // (u - 1/4)(u - 3/4): below, between, and from an end to the other
-    const auto p = on_interval(std::array{3.0 / 16, -1.0, 1.0}, 0.0, 1.0);
-    REQUIRE(first_change(p));
-    CHECK(*first_change(p) == doctest::Approx(0.25).epsilon(1e-14));
-    const auto late = on_interval(std::array{3.0 / 16, -1.0, 1.0}, 0.5, 1.5);
-    REQUIRE(first_change(late));
-    CHECK(*first_change(late) == doctest::Approx(0.25).epsilon(1e-14));
+    const auto p = detail::on_interval(std::array{3.0 / 16, -1.0, 1.0}, 0.0, 1.0);
+    REQUIRE(detail::first_change(p));
+    CHECK(*detail::first_change(p) == doctest::Approx(0.25).epsilon(1e-14));
+    const auto late = detail::on_interval(std::array{3.0 / 16, -1.0, 1.0}, 0.5, 1.5);
+    REQUIRE(detail::first_change(late));
+    CHECK(*detail::first_change(late) == doctest::Approx(0.25).epsilon(1e-14));
     // A touch counts, a miss by a little does not.
-    const auto touch = on_interval(std::array{0.25, -1.0, 1.0}, 0.0, 1.0);
-    REQUIRE(first_change(touch));
-    CHECK(*first_change(touch) == doctest::Approx(0.5));
-    CHECK_FALSE(
-        first_change(on_interval(std::array{0.25 + 1e-13, -1.0, 1.0}, 0.0, 1.0)));
+    const auto touch = detail::on_interval(std::array{0.25, -1.0, 1.0}, 0.0, 1.0);
+    REQUIRE(detail::first_change(touch));
+    CHECK(*detail::first_change(touch) == doctest::Approx(0.5));
+    CHECK_FALSE(detail::first_change(
+        detail::on_interval(std::array{0.25 + 1e-13, -1.0, 1.0}, 0.0, 1.0)));
     // A quartic that changes three times: the first of them.
-    const auto three = on_interval(
+    const auto three = detail::on_interval(
         std::array{-0.1 * 0.5 * 0.8, 0.05 + 0.08 + 0.4, -1.4, 1.0}, 0.0, 1.0);
-    CHECK(*first_change(three) == doctest::Approx(0.1).epsilon(1e-12));
+    CHECK(*detail::first_change(three) == doctest::Approx(0.1).epsilon(1e-12));
 }

@@ -9,6 +9,7 @@
 
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/scenes/furnaces.hpp"
+#include "support/form_factor_facing.hpp"
 #include "support/mean.hpp"
 #include "support/refusal.hpp"
 
@@ -110,7 +111,7 @@ TEST_CASE("radiosity: energy is kept by few rays as well, for they are symmetric
     for (std::size_t i = 0; i < rough.size(); ++i) {
         std::span row(rough.exchange.data() + i * rough.size(), rough.size());
         std::fill(row.begin(), row.end(), 0.0);
-        shoot_rays(indexed, all->patches, std::uint32_t(i), 20, 1, row);
+        detail::shoot_rays(indexed, all->patches, std::uint32_t(i), 20, 1, row);
         CHECK(std::abs(rough.row_sum(i) - 1) < 1e-12);
     }
     auto wrong = *all;
@@ -171,15 +172,16 @@ TEST_CASE("radiosity: the light of one lamp, without a bounce") {
     two.add(QuadT<double>{{0, 0, 1}, {0, 1, 0}, {1, 0, 0}}, black, Color(1));
     const auto all = make_radiosity(two, {.patches = {.size = 1}});
     REQUIRE(all->map.irradiance.size() == 2);
-    CHECK(
-        all->map.irradiance[0].x ==
-        doctest::Approx(std::numbers::pi * form_factor_facing(1, 1, 1)).epsilon(1e-13));
+    CHECK(all->map.irradiance[0].x ==
+          doctest::Approx(std::numbers::pi * ljus_test::form_factor_facing(1, 1, 1))
+              .epsilon(1e-13));
     CHECK(all->solution.radiosity[0] == Color(0));
     CHECK(all->map.irradiance[1] == Color(0));
     const auto sum =
         energy_balance(all->patches, all->factors, all->solution.radiosity);
     CHECK(sum.escaped.x ==
-          doctest::Approx(std::numbers::pi * (1 - form_factor_facing(1, 1, 1))));
+          doctest::Approx(std::numbers::pi *
+                          (1 - ljus_test::form_factor_facing(1, 1, 1))));
     // Emission leaves the front only.
     Cube around;
     const auto white = around.add(LambertianT<double>{.albedo = Color(1)});
@@ -227,7 +229,7 @@ TEST_CASE("radiosity: extremes") {
         scaled.add(QuadT<double>{Point(0), x, y}, grey);
         scaled.add(QuadT<double>{z, y, x}, grey, Color(1));
         const auto all = make_radiosity(scaled, {.patches = {.size = size}});
-        const double f = form_factor_facing(1, 1, 1);
+        const double f = ljus_test::form_factor_facing(1, 1, 1);
         CHECK(
             all->map.irradiance[0].x ==
             doctest::Approx(std::numbers::pi * f / (1 - 0.25 * f * f)).epsilon(1e-10));

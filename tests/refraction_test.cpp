@@ -84,8 +84,7 @@ TEST_CASE_TEMPLATE(
     }
 }
 
-TEST_CASE_TEMPLATE("refraction: straight down stays straight down", T, float,
-                   double) {
+TEST_CASE_TEMPLATE("refraction: straight down stays straight down", T, float, double) {
     for (const T eta : {T(1e-3), T(0.5), T(1), T(1.5), T(1e3)}) {
         CHECK(*ljus::refract(Vec3T<T>{0, 0, 1}, eta) == Vec3T<T>{0, 0, -1});
         CHECK(*ljus::refract(Vec3T<T>{0, 0, -1}, eta) == Vec3T<T>{0, 0, 1});
@@ -136,7 +135,7 @@ TEST_CASE("refraction: GLM's function of the same name is not in the way") {
 TEST_CASE("refraction: an index that no substance has is refused by name and value") {
     const auto message = [](float index) -> std::string {
         try {
-            ljus::require_index("glass.index", index);
+            ljus::detail::require_index("glass.index", index);
         } catch (const std::invalid_argument& error) {
             return error.what();
         }

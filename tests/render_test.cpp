@@ -177,8 +177,8 @@ TEST_CASE("render: one pixel's ray is the same alone as in the picture") {
         Counts counts;
         PathLog log;
         for (int i = 0; i < picture.samples; ++i)
-            sum += RgbT<double>(
-                sample_pixel(tracer, camera, picture, pattern, x, y, i, counts, log));
+            sum += RgbT<double>(detail::sample_pixel(tracer, camera, picture, pattern,
+                                                     x, y, i, counts, log));
         CHECK(Rgb(sum / double(picture.samples)) == pixel(seen.image, x, y));
         CHECK(counts.camera_rays == 5);
         CHECK_FALSE(log.lines.empty());

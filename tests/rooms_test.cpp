@@ -10,7 +10,6 @@
 #include "ljus/render/render.hpp"
 #include "ljus/scenes/cornell_box.hpp"
 #include "ljus/scenes/furnaces.hpp"
-#include "ljus/scenes/material_rows.hpp"
 #include "ljus/scenes/report_rooms.hpp"
 
 using namespace ljus;
@@ -233,24 +232,10 @@ TEST_CASE(
     const auto room = all_materials_room();
     const auto& mixtures = std::get<3>(room.scene.materials);
     REQUIRE(mixtures.size() == 1);
-    const auto share = mixture_shares(mixtures[0], Vec3{0, 0, 1}, Lobes::all);
+    const auto share = detail::mixture_shares(mixtures[0], Vec3{0, 0, 1}, Lobes::all);
     CHECK(share.reflect / share.refract == doctest::Approx(0.6));
     CHECK(share.sum() == doctest::Approx(1));
     CHECK(share.diffuse == 0.0f);
-}
-
-TEST_CASE("rooms: the balls of a row stand on the floor, clear of each other") {
-    for (int i = 0; i < 4; ++i) {
-        CHECK(ball_of_row(i).center.z - ball_of_row(i).radius == -5.0f);
-        if (i > 0)
-            CHECK(ball_of_row(i - 1).center.y - ball_of_row(i).center.y >
-                  2 * ball_of_row(i).radius);
-    }
-    const auto row = oren_nayar_row();
-    const auto& rough = std::get<1>(row.scene.materials);
-    REQUIRE(rough.size() == 4);
-    for (std::size_t i = 1; i < 4; ++i) CHECK(rough[i].sigma > rough[i - 1].sigma);
-    CHECK(rough[3].sigma < 0.8f);
 }
 
 TEST_CASE("rooms: the Cornell box faces inwards") {
@@ -270,12 +255,6 @@ TEST_CASE("rooms: both renderers find the same light") {
     SUBCASE("four glass balls") {
         check_both_renderers_agree(four_glass_room(), 16, 0.1f);
     }
-    SUBCASE("row of materials") {
-        check_both_renderers_agree(material_row(), 16, 0.1f);
-    }
-    SUBCASE("row of roughnesses") {
-        check_both_renderers_agree(oren_nayar_row(), 16, 0.1f);
-    }
     SUBCASE("Cornell box") {
         check_both_renderers_agree(cornell_box(), 16, 0.02f);
     }
@@ -289,7 +268,7 @@ TEST_CASE("rooms: a furnace emits L / (1 - a) in every direction") {
     };
     const Rgb emission{0.5f, 1, 2};
     const Rgb albedo{0.2f, 0.5f, 0.8f};
-    const Rgb exact = furnace_radiance(emission, albedo);
+    const Rgb exact = detail::furnace_radiance(emission, albedo);
     CHECK(exact.x == doctest::Approx(0.625));
     CHECK(exact.z == doctest::Approx(10));
     SUBCASE("sphere, path tracing") {

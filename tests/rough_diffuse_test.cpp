@@ -90,7 +90,7 @@ TEST_CASE_TEMPLATE("rough_diffuse: within 64 roundoffs of the printed formulas",
             const auto wi = i % 5 ? draws.above<T>() : wo;
             const RoughDiffuseT<T> m{ljus::RgbT<T>{rho}, sigma, model};
             const L exact = printed(model, L(rho), L(sigma), angles(wo, wi));
-            const L ours = L(ljus::rough_weight(m, wo, wi).x);
+            const L ours = L(ljus::detail::rough_weight(m, wo, wi).x);
             // At crossed azimuths the cosine itself is small: count against its factor.
             const L factor = std::hypot(L(wi.x), L(wi.y)) *
                              std::hypot(L(wo.x), L(wo.y)) / std::max(L(wi.z), L(wo.z));
@@ -128,7 +128,7 @@ TEST_CASE("rough_diffuse: without roughness every model is Lambert's") {
         for (int i = 0; i < 200; ++i) {
             const auto wo = draws.above<float>(), wi = draws.above<float>();
             const RoughDiffuse m{ljus::Rgb{0.7f}, 0, model};
-            CHECK(ljus::rough_weight(m, wo, wi).x == doctest::Approx(0.7f));
+            CHECK(ljus::detail::rough_weight(m, wo, wi).x == doctest::Approx(0.7f));
         }
 }
 

@@ -65,7 +65,8 @@ Errors errors(Sampling sampling, int count, int keys = 400) {
         const double c = std::cos(angle), s = std::sin(angle);
         double smooth = 0, below = 0;
         for (int i = 0; i < count; ++i) {
-            const Vec2T<double> p = spread(pattern, i, key, next_2d<double>(stream));
+            const Vec2T<double> p =
+                detail::spread(pattern, i, key, next_2d<double>(stream));
             smooth += (std::exp(p.x) + p.x) * p.y;
             below += (p.x - 0.5) * c + (p.y - 0.5) * s < offset;
         }
@@ -101,7 +102,7 @@ TEST_CASE_TEMPLATE("sampling_pattern: any count has its points, within the pixel
             for (int i = 0; i < count; ++i)
                 for (const T corner :
                      {T(0), T(1) - std::numeric_limits<T>::epsilon()}) {
-                    const Vec2T<T> p = spread(pattern, i, 9, Vec2T<T>{corner});
+                    const Vec2T<T> p = detail::spread(pattern, i, 9, Vec2T<T>{corner});
                     inside = inside && p.x >= 0 && p.y >= 0 && p.x <= 1 && p.y <= 1;
                 }
             CAPTURE(count);
@@ -120,7 +121,7 @@ TEST_CASE("sampling_pattern: multi-jittered, each count: one point in each of n 
         std::vector<int> fine_x(static_cast<std::size_t>(m * n)),
             fine_y(static_cast<std::size_t>(count)), cells(fine_x.size());
         for (int i = 0; i < count; ++i) {
-            const auto p = spread(pattern, i, 42, Vec2T<double>{0.5});
+            const auto p = detail::spread(pattern, i, 42, Vec2T<double>{0.5});
             ++fine_x[std::size_t(p.x * m * n)];
             ++fine_y[std::size_t(p.y * count)];
             ++cells[std::size_t(int(p.y * count) / m * m + int(p.x * m))];
@@ -142,7 +143,7 @@ TEST_CASE(
             for (int a = 0; a <= k; ++a) {
                 std::vector<int> cells(std::size_t(1) << k);
                 for (int i = 0; i < count; ++i) {
-                    const auto p = spread(pattern, i, key, Vec2T<double>{0});
+                    const auto p = detail::spread(pattern, i, key, Vec2T<double>{0});
                     ++cells[(std::size_t(std::ldexp(p.x, a)) << (k - a)) +
                             std::size_t(std::ldexp(p.y, k - a))];
                 }
@@ -159,7 +160,7 @@ TEST_CASE("sampling_pattern: each point is uniform over the pixels, and all toge
             for (std::uint64_t key = 0; key < 40000; ++key) {
                 RandomStream stream = random_stream(1, Pass::user, 0, key);
                 for (int i = 0; i < count; ++i) {
-                    const Vec2 p = spread(pattern, i, key, next_2d(stream));
+                    const Vec2 p = detail::spread(pattern, i, key, next_2d(stream));
                     const int x = std::min(19, int(p.x * 20)),
                               y = std::min(19, int(p.y * 20));
                     ++together[std::size_t(20 * y + x)];
@@ -180,8 +181,8 @@ TEST_CASE("sampling_pattern: each point is uniform over the pixels, and all toge
 
 TEST_CASE("sampling_pattern: neighbouring pixels do not repeat each other") {
     for (std::uint64_t key = 0; key < 1000; ++key) {
-        const auto here = scrambled_sobol<double>(0, key);
-        const auto there = scrambled_sobol<double>(0, key + 1);
+        const auto here = detail::scrambled_sobol<double>(0, key);
+        const auto there = detail::scrambled_sobol<double>(0, key + 1);
         CHECK(here.x != there.x);
         CHECK(here.y != there.x);
         CHECK(here.x != here.y);
@@ -196,7 +197,7 @@ TEST_CASE("sampling_pattern: neighbouring pixels do not repeat each other") {
             RandomStream stream = random_stream(2, Pass::user, 0, key);
             double sum = -13.0 / 4; // the mean of a product is 1/4
             for (int i = 0; i < 13; ++i) {
-                const auto p = spread(pattern, i, key, next_2d<double>(stream));
+                const auto p = detail::spread(pattern, i, key, next_2d<double>(stream));
                 sum += p.x * p.y;
             }
             equal += sum * before > 0;

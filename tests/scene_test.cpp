@@ -39,8 +39,9 @@ static_assert(!Takes<Room, Sphere> && !Takes<Room, SphereT<double>, MaterialId> 
               !Takes<Room, LambertianT<double>> && !Takes<Room, int>);
 using Small = Scene<Shapes<Sphere>, Materials<Lambertian>>;
 static_assert(!Takes<Small, Quad, MaterialId> && !Takes<Small, Glass>);
-static_assert(each_once<> && each_once<int> && each_once<int, char> &&
-              !each_once<int, char, int> && !each_once<char, int, int>);
+static_assert(detail::each_once<> && detail::each_once<int> &&
+              detail::each_once<int, char> && !detail::each_once<int, char, int> &&
+              !detail::each_once<char, int, int>);
 
 } // namespace
 

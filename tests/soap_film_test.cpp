@@ -155,13 +155,14 @@ TEST_CASE("thin sheets: the survey says whether there are any") {
     const auto without = survey(room_with(nullptr), PhotonMappingSettings{});
     CHECK_FALSE(without.thin_film.on);
     CHECK(without.thin_film.why == "no material is one");
-    CHECK_FALSE(lists_thin_surfaces<Scene<Shapes<Sphere>, Materials<Lambertian>>>);
+    CHECK_FALSE(
+        detail::lists_thin_surfaces<Scene<Shapes<Sphere>, Materials<Lambertian>>>);
 }
 
 TEST_CASE("thin sheets: a lamp is seen through a bubble by T of each wall") {
     const SoapFilm film{.thickness = 300, .scale = 0.7f};
     const Room room = room_with(&film);
-    const IndexedT<Room> indexed(room);
+    const detail::IndexedT<Room> indexed(room);
     Draws draws;
     int hits = 0;
     for (int i = 0; i < 2000; ++i) {
@@ -271,7 +272,8 @@ TEST_CASE("thin sheets: who owns which path") {
     std::set<std::string> found;
     for (int y = 4; y < 24; y += 4)
         for (int x = 4; x < 24; x += 4)
-            for (const auto& part : take_apart(mapper, camera, picture, x, y).sums)
+            for (const auto& part :
+                 detail::take_apart(mapper, camera, picture, x, y).sums)
                 found.insert(part.path + " " + part.owner);
     // Through the bubble by shadow rays, and by its reflection as a caustic; a mirror
     // in it is seen through it. No path has a letter for what goes straight on.

@@ -63,7 +63,7 @@ TEST_CASE_TEMPLATE("solid angle: the cone of a sphere, near, far, tiny and huge"
             CAPTURE(radius);
             CAPTURE(ratio);
             const SphereT<T> ball{{0, T(radius * ratio), 0}, T(radius)};
-            const ConeT<T> cone = cone_towards(ball, Vec3T<T>{0});
+            const detail::ConeT<T> cone = detail::cone_towards(ball, Vec3T<T>{0});
             const auto truth = double(
                 cone_of((long double)(ball.radius), (long double)(ball.center.y)));
             CHECK(double(cone.axis.y) == doctest::Approx(1).epsilon(double(u)));
@@ -84,8 +84,8 @@ TEST_CASE_TEMPLATE("solid angle: the cone of a sphere, near, far, tiny and huge"
 TEST_CASE("solid angle: from inside a sphere every direction leads to it") {
     const Sphere room{{1, 2, 3}, 2};
     for (const Vec3 from : {Vec3{1, 2, 3}, Vec3{2, 2, 3}, Vec3{1, 0.5f, 3}}) {
-        CHECK_FALSE(sees_cone(room, from));
-        CHECK(cone_towards(room, from).one_minus_cos == 2.0f);
+        CHECK_FALSE(detail::sees_cone(room, from));
+        CHECK(detail::cone_towards(room, from).one_minus_cos == 2.0f);
         CHECK(measured(room, from, 20000, true).agrees_with(4 * pi, 1e-5));
     }
     // Close to the wall the mean converges slowly, but to the same.

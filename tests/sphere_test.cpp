@@ -114,12 +114,12 @@ TEST_CASE("sphere: the range of the ray decides which root counts") {
 TEST_CASE("sphere: the chord has both ends, in order, also behind the origin") {
     for (const float z : {-9.0f, -6.0f, -5.5f, -5.0f, -4.25f, -4.0f, 0.0f}) {
         const Sphere ball{.center = {0, 0, -5}, .radius = 1};
-        const auto ends = ljus::chord(Ray{.origin = {0, 0, z}}, ball);
+        const auto ends = ljus::detail::chord(Ray{.origin = {0, 0, z}}, ball);
         REQUIRE(ends);
         CHECK(ends->enter == z + 4);
         CHECK(ends->leave == z + 6);
     }
-    const auto touch = ljus::chord(Ray{.origin = {1, 0, 0}}, Sphere{});
+    const auto touch = ljus::detail::chord(Ray{.origin = {1, 0, 0}}, Sphere{});
     REQUIRE(touch);
     CHECK(touch->enter == 0.0f);
     CHECK(touch->leave == 0.0f);
@@ -170,17 +170,17 @@ TEST_CASE("sphere: invalid data are a miss") {
                 origin.origin[axis] = direction.direction[axis] = bad;
                 center.center[axis] = bad;
                 for (const auto& ray : {origin, direction}) {
-                    CHECK_FALSE(ljus::chord(ray, ball));
+                    CHECK_FALSE(ljus::detail::chord(ray, ball));
                     CHECK_FALSE(ljus::intersect(ray, ball));
                     CHECK_FALSE(ljus::intersect<double>(ray, ball));
                 }
-                CHECK_FALSE(ljus::chord(Ray{}, center));
+                CHECK_FALSE(ljus::detail::chord(Ray{}, center));
                 CHECK_FALSE(ljus::intersect(Ray{}, center));
                 CHECK_FALSE(ljus::intersect<double>(Ray{}, center));
             }
     for (const float radius : {0.0f, -0.0f, -1.0f, not_a_number, infinity, -infinity}) {
         const Sphere bad{.center = {0, 0, -5}, .radius = radius};
-        CHECK_FALSE(ljus::chord(Ray{}, bad));
+        CHECK_FALSE(ljus::detail::chord(Ray{}, bad));
         CHECK_FALSE(ljus::intersect(Ray{}, bad));
         CHECK_FALSE(ljus::intersect<double>(Ray{}, bad));
         CHECK_FALSE(ljus::intersect(Ray{.origin = bad.center}, bad));

@@ -19,7 +19,7 @@ using ljus_test::chi_square_limit;
 
 TEST_CASE("stratified: as many cells as rays, as square as the number allows") {
     const auto is = [](int rays, int columns, int rows, bool n_rooks) {
-        const Strata s = strata_for(rays);
+        const detail::Strata s = detail::strata_for(rays);
         return s.columns == columns && s.rows == rows && s.n_rooks == n_rooks;
     };
     CHECK(is(1, 1, 1, false));
@@ -43,7 +43,7 @@ TEST_CASE("stratified: rooks stand only where no grid is square enough") {
         for (int columns = 1; columns <= rays; ++columns)
             grid = grid || (rays % columns == 0 && columns <= rays / columns &&
                             rays / columns <= 4 * columns);
-        const Strata s = strata_for(rays);
+        const detail::Strata s = detail::strata_for(rays);
         CAPTURE(rays);
         REQUIRE(s.n_rooks == !grid);
         if (s.n_rooks)
@@ -56,20 +56,20 @@ TEST_CASE("stratified: rooks stand only where no grid is square enough") {
 TEST_CASE_TEMPLATE("stratified: of 1 to 1000 rays each has a cell of its own", T, float,
                    double) {
     for (int rays = 1; rays <= 1000; ++rays) {
-        const Strata s = strata_for(rays);
+        const detail::Strata s = detail::strata_for(rays);
         std::set<int> cells;
         std::vector<bool> column(std::size_t(s.columns)), row(std::size_t(s.rows));
         for (int i = 0; i < rays; ++i) {
             // The middle of the cell, and its far corner, which rounding may reach.
-            const auto middle = stratified(s, i, 42, Vec2T<T>{T(0.5)});
+            const auto middle = detail::stratified(s, i, 42, Vec2T<T>{T(0.5)});
             const int x = int(middle.x * T(s.columns)), y = int(middle.y * T(s.rows));
             cells.insert(y * s.columns + x);
             column[std::size_t(x)] = row[std::size_t(y)] = true;
             const T last = T(1) - std::numeric_limits<T>::epsilon() / 2;
-            const auto corner = stratified(s, i, 42, Vec2T<T>{last});
+            const auto corner = detail::stratified(s, i, 42, Vec2T<T>{last});
             REQUIRE(corner.x <= T(x + 1) / T(s.columns));
             REQUIRE(corner.y <= T(y + 1) / T(s.rows));
-            const auto near = stratified(s, i, 42, Vec2T<T>{0});
+            const auto near = detail::stratified(s, i, 42, Vec2T<T>{0});
             REQUIRE(near.x == T(x) / T(s.columns));
             REQUIRE(near.y == T(y) / T(s.rows));
         }
@@ -87,7 +87,7 @@ TEST_CASE("stratified: shuffled() is a permutation for every count") {
         for (const std::uint64_t key : {0u, 1u, 12345u}) {
             seen.assign(count, false);
             for (std::uint32_t i = 0; i < count; ++i) {
-                const std::uint32_t place = shuffled(i, count, key);
+                const std::uint32_t place = detail::shuffled(i, count, key);
                 REQUIRE(place < count);
                 REQUIRE_FALSE(seen[place]);
                 seen[place] = true;
@@ -101,7 +101,7 @@ TEST_CASE("stratified: over the keys every place is as likely as any other") {
         std::vector<int> places(count * count);
         for (std::uint64_t key = 0; key < 20000; ++key)
             for (std::uint32_t i = 0; i < count; ++i)
-                ++places[i * count + shuffled(i, count, key)];
+                ++places[i * count + detail::shuffled(i, count, key)];
         CAPTURE(count);
         // Each row and each column of this table is fixed: (count - 1)^2 are free.
         const double free = double((count - 1) * (count - 1));
@@ -113,7 +113,8 @@ TEST_CASE("stratified: keys give different orders") {
     std::set<std::vector<std::uint32_t>> orders;
     for (std::uint64_t key = 0; key < 1000; ++key) {
         std::vector<std::uint32_t> order;
-        for (std::uint32_t i = 0; i < 13; ++i) order.push_back(shuffled(i, 13, key));
+        for (std::uint32_t i = 0; i < 13; ++i)
+            order.push_back(detail::shuffled(i, 13, key));
         orders.insert(order);
     }
     CHECK(orders.size() > 500);
@@ -124,12 +125,12 @@ TEST_CASE_TEMPLATE("stratified: uniform over the pixel, in a grid and with rooks
     // 60 x 60 cells fall across the strata. Stratified counts scatter less than
     // independent ones, so the limit is generous.
     for (const int rays : {1, 6, 7, 10, 13, 16, 97}) {
-        const Strata s = strata_for(rays);
+        const detail::Strata s = detail::strata_for(rays);
         std::vector<int> area(3600), x_only(60), y_only(60);
         for (std::uint64_t pixel = 0; pixel < 400000u / unsigned(rays); ++pixel) {
             RandomStream stream = random_stream(1, Pass::user, 0, pixel);
             for (int i = 0; i < rays; ++i) {
-                const auto p = stratified(s, i, pixel, next_2d<T>(stream));
+                const auto p = detail::stratified(s, i, pixel, next_2d<T>(stream));
                 const int x = std::min(59, int(p.x * 60)),
                           y = std::min(59, int(p.y * 60));
                 ++area[std::size_t(60 * y + x)];
@@ -147,14 +148,14 @@ TEST_CASE_TEMPLATE("stratified: uniform over the pixel, in a grid and with rooks
 TEST_CASE("stratified: an edge through the pixel is seen better than by chance") {
     // The share of the pixel left of x + y/3 = 2/3 is 1/2; its error falls.
     for (const int rays : {7, 16, 97, 100}) {
-        const Strata s = strata_for(rays);
+        const detail::Strata s = detail::strata_for(rays);
         double strata_error = 0, chance_error = 0;
         for (std::uint64_t pixel = 0; pixel < 2000; ++pixel) {
             RandomStream stream = random_stream(2, Pass::user, 0, pixel);
             int strata_left = 0, chance_left = 0;
             for (int i = 0; i < rays; ++i) {
                 const Vec2 u = next_2d(stream);
-                const Vec2 p = stratified(s, i, pixel, u);
+                const Vec2 p = detail::stratified(s, i, pixel, u);
                 strata_left += p.x + p.y / 3 < 2.0f / 3;
                 chance_left += u.x + u.y / 3 < 2.0f / 3;
             }

@@ -182,9 +182,9 @@ TEST_CASE("observer: near the CIE's table, and each function has the same integr
     for (int nm = 360; nm < 830; ++nm) sum += ljus::cie_observer(nm + 0.5);
     for (int i = 0; i < 3; ++i) CHECK(sum[i] == doctest::Approx(106.9).epsilon(5e-3));
     // A flat spectrum is white; light of 550 nm alone is greener than any screen.
-    const auto white = ljus::seen<double>([](double) { return 1.0; });
+    const auto white = ljus::detail::seen<double>([](double) { return 1.0; });
     for (int i = 0; i < 3; ++i) CHECK(white[i] == doctest::Approx(1).epsilon(1e-12));
-    CHECK(ljus::xyz_to_rgb(ljus::cie_observer(550.0)).x < 0);
+    CHECK(ljus::detail::xyz_to_rgb(ljus::cie_observer(550.0)).x < 0);
 }
 
 TEST_CASE("observer: a colour that cannot be shown keeps its luminance") {

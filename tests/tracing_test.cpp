@@ -246,8 +246,8 @@ TEST_CASE("tracing: a caustic has the power that the glass was given") {
                 auto stream = random_stream(seed, Pass::user, 0, path);
                 auto flight = emit(scene, choice, stream);
                 flight.flux /= 100000.0f;
-                trace_photon(scene, MapType::caustics, flight, std::nullopt, blind,
-                             stream, out, audit);
+                detail::trace_photon(scene, MapType::caustics, flight, std::nullopt,
+                                     blind, stream, out, audit);
             }
             for (const Photon& photon : out) sum += double(photon.flux.x);
             found.add(sum);
@@ -325,8 +325,8 @@ TEST_CASE("tracing: aimed photons equal blind ones, whatever their targets") {
                 auto stream = random_stream(seed, Pass::user, 0, path);
                 auto flight = emit(scene, choice, stream);
                 flight.flux /= float(paths);
-                trace_photon(scene, MapType::caustics, flight, std::nullopt,
-                             PhotonPassSettings{}, stream, out, audit);
+                detail::trace_photon(scene, MapType::caustics, flight, std::nullopt,
+                                     PhotonPassSettings{}, stream, out, audit);
             }
             add(blind, out);
         }
@@ -353,8 +353,8 @@ TEST_CASE("tracing: the kinds of photons are those of their paths") {
             const auto flight = emit(room, choice, stream);
             std::vector<Photon> out;
             FluxAudit audit;
-            trace_photon(room, law, flight, std::nullopt, {.shadow_photons = false},
-                         stream, out, audit);
+            detail::trace_photon(room, law, flight, std::nullopt,
+                                 {.shadow_photons = false}, stream, out, audit);
 
             std::vector<std::pair<std::string, Vec3>> expected;
             auto again = random_stream(5, Pass::user, 0, path);
@@ -622,9 +622,10 @@ TEST_CASE("tracing: memory is foretold, and refused in a sentence before it is t
                                         {.photons = photons, .numbers = numbers}),
                     doctest::Contains("max_memory allows 4 GB"), std::invalid_argument);
     // What the pilot stored tells what all of them will: both sides of the limit.
-    const auto few = trace_photons(room, MapType::general, {.photons = pilot_paths});
-    const double mean = double(few.photons.size()) / double(pilot_paths);
-    const double bytes = expected_bytes<float>(20000, mean);
+    const auto few =
+        trace_photons(room, MapType::general, {.photons = detail::pilot_paths});
+    const double mean = double(few.photons.size()) / double(detail::pilot_paths);
+    const double bytes = detail::expected_bytes<float>(20000, mean);
     PhotonPassSettings pass{.photons = 20000, .max_memory = 1.05 * bytes};
     const auto all = trace_photons(room, MapType::general, pass);
     CHECK(double(all.photons.size()) * 2 * sizeof(Photon) ==

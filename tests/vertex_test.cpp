@@ -36,12 +36,17 @@ TEST_CASE("vertex: what a path is in after a surface") {
     const Glass glass{.absorption = Rgb{0.1f, 0.2f, 0.3f}};
     const Rgb outside{0}, inside = glass.absorption;
     const Vec3 up = glm::normalize(Vec3{0.3f, 0, 1}), down = -up;
-    CHECK(medium_beyond(outside, glass, up, up) == outside);   // reflected outside
-    CHECK(medium_beyond(outside, glass, up, down) == inside);  // refracted into it
-    CHECK(medium_beyond(inside, glass, down, down) == inside); // reflected inside
-    CHECK(medium_beyond(inside, glass, down, up) == Rgb{0});   // refracted out of it
+    CHECK(detail::medium_beyond(outside, glass, up, up) ==
+          outside); // reflected outside
+    CHECK(detail::medium_beyond(outside, glass, up, down) ==
+          inside); // refracted into it
+    CHECK(detail::medium_beyond(inside, glass, down, down) ==
+          inside); // reflected inside
+    CHECK(detail::medium_beyond(inside, glass, down, up) ==
+          Rgb{0}); // refracted out of it
     const Lambertian matt{};
-    CHECK(medium_beyond(inside, matt, up, up) == inside); // a matt ball within glass
+    CHECK(detail::medium_beyond(inside, matt, up, up) ==
+          inside); // a matt ball within glass
 }
 
 TEST_CASE("vertex: roulette leaves the mean as it was") {

@@ -46,8 +46,10 @@ LJUS_CORE_EXTERN template detail::Bvh8Nodes detail::make_bvh8(const BvhNodesT<fl
 
 // Photons.
 LJUS_CORE_EXTERN template LightChoice light_choice(const std::vector<LightT<float>>&);
+namespace detail {
 LJUS_CORE_EXTERN template long long join_blocks(std::vector<PhotonBlockT<float>>&,
                                                 TracedPhotonsT<float>&);
+} // namespace detail
 LJUS_CORE_EXTERN template PhotonMap make_photon_map(const std::vector<Photon>&, int);
 LJUS_CORE_EXTERN template RgbT<double> flux_in_disc(const KdTree8&,
                                                     const PhotonRecordsT<float>&,
@@ -64,7 +66,9 @@ LJUS_CORE_EXTERN template Rgb estimate_radiance(const PhotonMap&, const VertexT<
 
 // Pictures.
 LJUS_CORE_EXTERN template Camera look_at(const ViewT<float>&);
+namespace detail {
 LJUS_CORE_EXTERN template Bytes encode_png(const Image&, const PngSettings&);
+} // namespace detail
 LJUS_CORE_EXTERN template void save_png(const Image&, const std::string&,
                                         const PngSettings&);
 

@@ -10,7 +10,6 @@
 #include "ljus/geometry/moving.hpp"
 #include "ljus/geometry/quad.hpp"
 #include "ljus/geometry/sphere.hpp"
-#include "ljus/geometry/transform.hpp"
 #include "ljus/geometry/triangle.hpp"
 #include "ljus/io/png.hpp"
 #include "ljus/materials/compensated_glossy.hpp"

@@ -31,6 +31,8 @@ namespace ljus {
 /// The largest number of threads that one may ask for.
 inline constexpr int max_threads_allowed = 1024;
 
+namespace detail {
+
 /// The number of threads that `threads = 0` stands for: that of the processors, or what
 /// OMP_NUM_THREADS says; 1 without OpenMP.
 [[nodiscard]] inline int max_threads() noexcept {
@@ -41,11 +43,15 @@ inline constexpr int max_threads_allowed = 1024;
 #endif
 }
 
+} // namespace detail
+
 /// How a parallel loop runs.
 struct ParallelSettings {
     int threads = 0;        ///< 1 to max_threads_allowed; 0: max_threads().
     Progress progress = {}; ///< Called after a block, by one thread at a time.
 };
+
+namespace detail {
 
 /// The number of blocks that cover `total` things.
 /// \param total  At least 0.
@@ -70,8 +76,6 @@ struct BlockRange {
     const long long first = block * size;
     return {first, total - first < size ? total : first + size};
 }
-
-namespace detail {
 
 // A body of any type, as one that a compiled loop can call: the loop below is the same
 // for all of them, and not compiled again for each.
@@ -129,7 +133,6 @@ private:
     Mutex& turns_;
 };
 
-// [parallel_blocks]
 LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
                                  const ParallelSettings& options) {
     if (options.threads < 0 || options.threads > max_threads_allowed)
@@ -213,7 +216,6 @@ LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
     report(); // the last blocks may have ended while another thread was reporting
     return done >= count;
 }
-// [parallel_blocks]
 
 #endif
 
@@ -246,28 +248,6 @@ bool parallel_blocks(long long count, Body&& body,
     void* const any = const_cast<void*>(static_cast<const void*>(std::addressof(body)));
     return detail::run_blocks(count, {any, call}, options);
 }
-
-/// The sum of `body(block)` over all blocks, added in the order of the blocks.
-/// \param count    The number of blocks, at least 0.
-/// \param body     Called as body(long long); returns the sum of its block.
-/// \param threads  As in ParallelSettings.
-/// \return The sum, the same for any number of threads; R() for no block.
-/// \throws As parallel_blocks().
-// [parallel_sum]
-template <std::invocable<long long> Body>
-[[nodiscard]] auto parallel_sum(long long count, Body&& body, int threads = 0) {
-    using R = std::remove_cvref_t<std::invoke_result_t<Body&, long long>>;
-    static_assert(!std::same_as<R, bool>, "A sum of bool: return an int instead.");
-    std::vector<R> sums(count > 0 ? static_cast<std::size_t>(count) : 0);
-    parallel_blocks(
-        count,
-        [&](long long block) { sums[static_cast<std::size_t>(block)] = body(block); },
-        {.threads = threads});
-    R sum{};
-    for (const R& block_sum : sums) sum = sum + block_sum;
-    return sum;
-}
-// [parallel_sum]
 
 /// \}
 

@@ -18,7 +18,8 @@ ljus_break_it(NAME compensated_glossy-series HEADER materials/detail/multiple_sc
 
 # The second lobe drawn, and not in the density.
 ljus_break_it(NAME compensated_glossy-pdf HEADER materials/compensated_glossy.hpp TEST compensated_glossy
-    FROM "return chance * first + (T(1) - chance) * pdf_lost(gloss.loss, std::abs(wi.z));"
+    FROM "return chance * first +
+           (T(1) - chance) * detail::pdf_lost(gloss.loss, std::abs(wi.z));"
     TO   "return first;"
     CASES "full glossy: samples*")
 

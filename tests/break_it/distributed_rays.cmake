@@ -29,8 +29,8 @@ ljus_break_it(NAME distributed-rays-depth HEADER render/distributed.hpp
 # Nothing moves.
 ljus_break_it(NAME distributed-rays-frozen HEADER geometry/moving.hpp
     TEST distributed_rays
-    FROM "moved(moving.shape, time * moving.way)"
-    TO   "moved(moving.shape, T(0) * time * moving.way)"
+    FROM "translated(moving.shape, time * moving.way)"
+    TO   "translated(moving.shape, T(0) * time * moving.way)"
     CASES "distributed rays: a moving strip*")
 
 # The tree knows what moves where it starts, and loses it on its way.
@@ -74,6 +74,6 @@ ljus_break_it(NAME stratified-stream-order HEADER math/stratified_stream.hpp
 # Cells that are not divided by their number.
 ljus_break_it(NAME stratified-stream-random HEADER math/stratified_stream.hpp
     TEST lens_camera
-    FROM "spread(stream.pattern, cell, ~key, next_2d<T>(stream.rest));"
+    FROM "detail::spread(stream.pattern, cell, ~key, next_2d<T>(stream.rest));"
     TO   "next_2d<T>(stream.rest); (void)cell;"
     CASES "stratified stream: in each*")

@@ -30,13 +30,13 @@ ljus_break_it(NAME glossy-direction HEADER materials/glossy.hpp TEST glossy
 
 # Jacobian 4 in place of 2 times the root: half of the light.
 ljus_break_it(NAME glossy-half HEADER materials/glossy.hpp TEST glossy
-    FROM "const T f = ggx_distribution(alpha, h) / (T(2) * shadowed);"
-    TO   "const T f = ggx_distribution(alpha, h) / (T(4) * shadowed);"
+    FROM "const T f = detail::ggx_distribution(alpha, h) / (T(2) * shadowed);"
+    TO   "const T f = detail::ggx_distribution(alpha, h) / (T(4) * shadowed);"
     CASES "glossy: white*")
 
 # A pdf that forgets that facets hide each other.
 ljus_break_it(NAME glossy-pdf HEADER materials/glossy.hpp TEST glossy
-    FROM "(T(2) * (out.z + ggx_lambda(alpha, out)));"
+    FROM "(T(2) * (out.z + detail::ggx_lambda(alpha, out)));"
     TO   "(T(4) * out.z);"
     CASES "glossy: samples*")
 

@@ -12,8 +12,9 @@ ljus_break_it(NAME oren_nayar-variant HEADER materials/oren_nayar.hpp TEST oren_
     CASES "oren_nayar: the albedo*")
 
 ljus_break_it(NAME oren_nayar-missing-pi HEADER materials/oren_nayar.hpp TEST oren_nayar
-    FROM "std::numbers::inv_pi_v<T> * oren_nayar_ratio(surface.sigma, wo, wi)"
-    TO   "oren_nayar_ratio(surface.sigma, wo, wi)"
+    FROM "std::numbers::inv_pi_v<T> *
+                             detail::oren_nayar_ratio(surface.sigma, wo, wi)"
+    TO   "detail::oren_nayar_ratio(surface.sigma, wo, wi)"
     CASES "oren_nayar: the albedo*")
 
 # The larger angle's tangent: the division by the wrong cosine.

@@ -34,7 +34,7 @@ ljus_break_it(NAME path-tracing-medium HEADER path/next_vertex.hpp TEST path_tra
 # A lamp that the path meets is taken for the only one.
 ljus_break_it(NAME path-tracing-light-density HEADER render/path_tracing.hpp
     TEST path_strategies
-    FROM "return pdf * probability_of<T>(tracer.lights, vertex.object.light);"
+    FROM "return pdf * detail::probability_of<T>(tracer.lights, vertex.object.light);"
     TO   "return pdf;"
     CASES "multiple importance: all ways*")
 

@@ -1,6 +1,6 @@
 # A polygon that is not cut at the plane of the other: light from behind a wall.
 ljus_break_it(NAME exchange-area-clip HEADER radiosity/exchange_area.hpp TEST form_factor
-    FROM "const Facet a = clipped(one, two.corners[0], n2, 1e-13 * unit);"
+    FROM "const Facet a = detail::clipped(one, two.corners[0], n2, 1e-13 * unit);"
     TO   "const Facet a = one;"
     CASES "exchange_area: what lies behind*")
 
@@ -24,7 +24,7 @@ ljus_break_it(NAME exchange-area-far HEADER radiosity/exchange_area.hpp TEST for
 
 # What lies below the horizon counts against what lies above.
 ljus_break_it(NAME form-factor-horizon HEADER radiosity/form_factor.hpp TEST form_factor
-    FROM "const Facet seen = clipped(facet, point, normal);"
+    FROM "const Facet seen = detail::clipped(facet, point, normal);"
     TO   "const Facet seen = facet;"
     CASES "form_factor: from a point*")
 

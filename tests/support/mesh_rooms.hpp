@@ -46,8 +46,8 @@ inline Mean flux_by_photons(const MeshRoom& room, int photons, std::uint64_t see
         FluxAudit audit;
         // The general law leaves out what only mirrors and glass have sent there.
         for (const MapType law : {MapType::general, MapType::caustics})
-            trace_photon(room, law, emit(room, choice, stream), std::nullopt, pass,
-                         stream, marks, audit);
+            detail::trace_photon(room, law, emit(room, choice, stream), std::nullopt,
+                                 pass, stream, marks, audit);
         double sum = 0;
         for (const Photon& photon : marks)
             if (photon.position.y < 0.005f) sum += double(photon.flux.x);

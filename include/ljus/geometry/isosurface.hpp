@@ -38,14 +38,16 @@ struct IsosurfaceT {
 template <LipschitzField Field>
 using Isosurface = IsosurfaceT<float, Field>; ///< IsosurfaceT in float.
 
+namespace detail {
+
 /// The field of an isosurface on a ray; its range comes from the Lipschitz bound.
 template <LipschitzField Field>
 struct LipschitzLine {
-    const Field& field;           ///< The field.
-    RayT<double> ray{};           ///< The ray.
-    double length = 0;            ///< Of its direction.
-    double enter = 0;             ///< Where it comes into the bounds.
-    double leave = 0; ///< Where it goes out of them.
+    const Field& field; ///< The field.
+    RayT<double> ray{}; ///< The ray.
+    double length = 0;  ///< Of its direction.
+    double enter = 0;   ///< Where it comes into the bounds.
+    double leave = 0;   ///< Where it goes out of them.
 
     /// f(O + tD).
     [[nodiscard]] double value(double t) const { return field.value(point_at(ray, t)); }
@@ -58,6 +60,8 @@ struct LipschitzLine {
     }
 };
 
+} // namespace detail
+
 /// The distance at which a ray first meets an isosurface.
 /// \tparam Solver  SphereTracing or Bisection.
 /// \param ray      Hits count within its [t_min, t_max].
@@ -68,15 +72,18 @@ template <typename Solver = SphereTracing, std::floating_point T, LipschitzField
 [[nodiscard]] std::optional<T> intersect(const RayT<T>& ray,
                                          const IsosurfaceT<T, Field>& surface,
                                          const Solver& solver = {}) {
-    const auto inside = chord<double>(ray, surface.bounds);
+    const auto inside = detail::chord<double>(ray, surface.bounds);
     if (!inside) return std::nullopt;
     const RayT<double> wide{Vec3T<double>(ray.origin), Vec3T<double>(ray.direction)};
-    const LipschitzLine<Field> line{surface.field, wide, glm::length(wide.direction),
-                                    inside->enter, inside->leave};
-    const auto t = first_meeting(solver, line, double(ray.t_min), double(ray.t_max));
+    const detail::LipschitzLine<Field> line{
+        surface.field, wide, glm::length(wide.direction), inside->enter, inside->leave};
+    const auto t =
+        detail::first_meeting(solver, line, double(ray.t_min), double(ray.t_max));
     if (!t || !(*t <= std::numeric_limits<T>::max())) return std::nullopt;
     return static_cast<T>(*t);
 }
+
+namespace detail {
 
 /// A hit of a field, put back onto the surface: one Newton step along the gradient, no
 /// longer than the rounding of t can have been. Where the gradient vanishes there is no
@@ -87,7 +94,6 @@ template <typename Solver = SphereTracing, std::floating_point T, LipschitzField
 /// \param t         What intersect() returned.
 /// \param rounding  What the values of f may be wrong by, the solver's tolerance in.
 /// \return Position, its error bound, the outer normal.
-// [refined]
 template <std::floating_point T, typename Value, typename Gradient>
 [[nodiscard]] SurfacePointT<T> refined(const Value& value, const Gradient& gradient,
                                        const RayT<T>& ray, T t, double rounding) {
@@ -111,7 +117,8 @@ template <std::floating_point T, typename Value, typename Gradient>
                      rounding_bound<T>(2) * glm::abs(Vec3T<T>(x)),
             .normal = Vec3T<T>(-glm::normalize(g))};
 }
-// [refined]
+
+} // namespace detail
 
 /// The point of an isosurface that a ray hit.
 /// \param surface  The isosurface.
@@ -122,9 +129,9 @@ template <std::floating_point T, LipschitzField Field>
 [[nodiscard]] SurfacePointT<T> surface_point(const IsosurfaceT<T, Field>& surface,
                                              const RayT<T>& ray,
                                              const FlatHitT<T>& hit) {
-    return refined([&](const auto& x) { return surface.field.value(x); },
-                   [&](const auto& x) { return surface.field.gradient(x); }, ray, hit.t,
-                   4 * SphereTracing{}.tolerance);
+    return detail::refined([&](const auto& x) { return surface.field.value(x); },
+                           [&](const auto& x) { return surface.field.gradient(x); },
+                           ray, hit.t, 4 * SphereTracing{}.tolerance);
 }
 
 /// A sphere around the isosurface: its bounds.

@@ -36,7 +36,6 @@ using Metaballs = MetaballsT<float>; ///< MetaballsT in float.
 /// \param balls  The metaballs.
 /// \param x      A point.
 /// \return f(X), in double: above 0 inside, 0 on the surface, -L far away.
-// [field]
 template <std::floating_point T>
 [[nodiscard]] WideT<T> field(const MetaballsT<T>& balls, const Vec3T<WideT<T>>& x) {
     using C = WideT<T>;
@@ -48,13 +47,11 @@ template <std::floating_point T>
     }
     return sum;
 }
-// [field]
 
 /// The gradient of the field: it points inwards.
 /// \param balls  The metaballs.
 /// \param x      A point.
 /// \return \f$ \nabla f = -4 \sum_i w_i s_i (X - C_i)/R_i^2 \f$, in double.
-// [gradient]
 template <std::floating_point T>
 [[nodiscard]] Vec3T<WideT<T>> gradient(const MetaballsT<T>& balls,
                                        const Vec3T<WideT<T>>& x) {
@@ -67,7 +64,6 @@ template <std::floating_point T>
     }
     return sum;
 }
-// [gradient]
 
 /// A bound of the gradient's length everywhere: the Lipschitz constant of the field.
 /// \param balls  The metaballs.
@@ -78,7 +74,7 @@ template <std::floating_point T>
     WideT<T> sum = 0;
     for (const BlobT<T>& blob : balls.blobs)
         sum += std::abs(WideT<T>(blob.weight)) / WideT<T>(blob.radius);
-    return sum * steepest_blob<WideT<T>>;
+    return sum * detail::steepest_blob<WideT<T>>;
 }
 
 /// The distance at which a ray first meets metaballs, from outside or from within.
@@ -96,20 +92,18 @@ template <std::floating_point T>
 ///       most 3 n - 1 spans of n additions and mostly 0 or 1 root; never more than 10
 ///       roots of 106 steps.
 /// \report{Section 2.1}
-// [intersect]
 template <typename Solver = QuarticPieces, std::floating_point T>
 [[nodiscard]] std::optional<T> intersect(const RayT<T>& ray, const MetaballsT<T>& balls,
                                          const Solver& solver = {}) {
     using C = WideT<T>;
-    StrandsT<C> strands;
+    detail::StrandsT<C> strands;
     for (const BlobT<T>& blob : balls.blobs)
-        if (const auto met = strand(ray, blob)) strands.add(*met);
-    const auto line = line_of(strands, C(balls.level));
-    const auto t = first_meeting(solver, line, C(ray.t_min), C(ray.t_max));
+        if (const auto met = detail::strand(ray, blob)) strands.add(*met);
+    const auto line = detail::line_of(strands, C(balls.level));
+    const auto t = detail::first_meeting(solver, line, C(ray.t_min), C(ray.t_max));
     if (!t || !(*t <= std::numeric_limits<T>::max())) return std::nullopt;
     return static_cast<T>(*t);
 }
-// [intersect]
 
 /// The point of metaballs that a ray hit, put back onto the surface.
 /// \param balls  The metaballs.
@@ -123,10 +117,12 @@ template <std::floating_point T>
 surface_point(const MetaballsT<T>& balls, const RayT<T>& ray, const FlatHitT<T>& hit) {
     WideT<T> size = balls.level;
     for (const BlobT<T>& blob : balls.blobs) size += std::abs(WideT<T>(blob.weight));
-    return refined([&](const auto& x) { return field(balls, x); },
-                   [&](const auto& x) { return gradient(balls, x); }, ray, hit.t,
-                   64 * std::numeric_limits<WideT<T>>::epsilon() * size);
+    return detail::refined([&](const auto& x) { return field(balls, x); },
+                           [&](const auto& x) { return gradient(balls, x); }, ray,
+                           hit.t, 64 * std::numeric_limits<WideT<T>>::epsilon() * size);
 }
+
+namespace detail {
 
 /// The radius within which a blob can hold a share of the level up.
 /// \param blob   A blob of positive weight.
@@ -137,6 +133,8 @@ template <std::floating_point T>
     const WideT<T> s = std::sqrt(share / WideT<T>(blob.weight));
     return s < 1 ? WideT<T>(blob.radius) * std::sqrt(1 - s) : WideT<T>(-1);
 }
+
+} // namespace detail
 
 /// A sphere around metaballs. Where n blobs together reach the level, one of them has
 /// at least 1/n of it: that lies within the blob's reach, and the sphere holds all
@@ -153,7 +151,7 @@ template <std::floating_point T>
     const auto each = [&](const auto& visit) {
         for (const BlobT<T>& blob : balls.blobs) {
             if (!(blob.weight > T(0))) continue;
-            const C reach = reach_of(blob, C(balls.level) / positive);
+            const C reach = detail::reach_of(blob, C(balls.level) / positive);
             if (reach >= C(0)) visit(Vec3T<C>(blob.center), reach);
         }
     };

@@ -21,27 +21,31 @@ namespace ljus {
 /// \param by     In scene units.
 /// \return The same shape there.
 template <std::floating_point T>
-[[nodiscard]] constexpr SphereT<T> moved(SphereT<T> shape,
-                                         const Vec3T<T>& by) noexcept {
+[[nodiscard]] constexpr SphereT<T> translated(SphereT<T> shape,
+                                              const Vec3T<T>& by) noexcept {
     shape.center += by;
     return shape;
 }
+
 template <std::floating_point T>
-[[nodiscard]] constexpr QuadT<T> moved(QuadT<T> shape, const Vec3T<T>& by) noexcept {
+[[nodiscard]] constexpr QuadT<T> translated(QuadT<T> shape,
+                                            const Vec3T<T>& by) noexcept {
     shape.corner += by;
     return shape;
 }
+
 template <std::floating_point T>
-[[nodiscard]] constexpr TriangleT<T> moved(const TriangleT<T>& shape,
-                                           const Vec3T<T>& by) noexcept {
+[[nodiscard]] constexpr TriangleT<T> translated(const TriangleT<T>& shape,
+                                                const Vec3T<T>& by) noexcept {
     return {.v1 = shape.v1 + by, .v2 = shape.v2 + by, .v3 = shape.v3 + by};
 }
+
 /// \}
 
 /// A shape that is moved at little cost, so that it can be at each ray's own time.
 template <typename S>
 concept Movable = Shape<S> && requires(const S& shape, const Vec3T<ScalarOf<S>>& by) {
-    { moved(shape, by) } -> std::same_as<S>;
+    { translated(shape, by) } -> std::same_as<S>;
 };
 
 /// A shape on its way in a straight line. Time runs from 0, when the shutter opens, to
@@ -58,12 +62,17 @@ struct Moving {
 };
 // [moving]
 
+namespace detail {
+
 /// Whether a type of shape moves.
 template <typename S>
 inline constexpr bool is_moving = false;
+
 /// The one that does.
 template <typename S>
 inline constexpr bool is_moving<Moving<S>> = true;
+
+} // namespace detail
 
 /// A shape at a time.
 /// \param moving  The shape.
@@ -72,13 +81,13 @@ inline constexpr bool is_moving<Moving<S>> = true;
 // [at_time]
 template <typename S, std::floating_point T>
 [[nodiscard]] S at_time(const Moving<S>& moving, T time) noexcept {
-    return moved(moving.shape, time * moving.way);
+    return translated(moving.shape, time * moving.way);
 }
 // [at_time]
 
 /// The same for a shape that stands still: itself.
 template <typename S, std::floating_point T>
-requires(!is_moving<S>)
+requires(!detail::is_moving<S>)
     [[nodiscard]] constexpr const S& at_time(const S& shape, T) noexcept {
     return shape;
 }
@@ -143,7 +152,6 @@ template <typename S>
 /// A box around all its places: those between the first and the last lie between.
 /// \param moving  The shape.
 /// \return The box, a few units in the last place too large.
-// [bounds]
 template <typename S>
 [[nodiscard]] auto bounds(const Moving<S>& moving) noexcept {
     using T = ScalarOf<S>;
@@ -154,7 +162,6 @@ template <typename S>
     const BoxT<T> both = box_union(first, last);
     return BoxT<T>{both.low - rounding, both.high + rounding};
 }
-// [bounds]
 
 /// Refuses a way that is not finite, and what the shape refuses.
 /// \param moving  The shape.

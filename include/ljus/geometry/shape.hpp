@@ -30,7 +30,7 @@ namespace ljus {
 /// | center_sample(shape)                  | the centre of a lamp  | u = v = 1/2        |
 /// | texture_coordinates()                 | images by (u, v)      | those of the hit   |
 /// | is_flat                               | photons aimed at area | at its sphere      |
-/// | moved(shape, by)                      | Moving                | does not compile   |
+/// | translated(shape, by)                 | Moving                | does not compile   |
 /// | patch_grid(shape, size), facet_of()   | radiosity             | left out, and said |
 /// \{
 
@@ -150,10 +150,13 @@ concept HasBounds = requires(const S& shape) {
     bounding_sphere(shape);
 };
 
+namespace detail {
+
 /// Whether a type of shape lies in a plane: it fills little of its bounding sphere and
 /// no ray meets it twice, so that photons are aimed at points of its area.
 template <typename S>
 inline constexpr bool is_flat = false;
+
 /// A triangle is flat.
 template <std::floating_point T>
 inline constexpr bool is_flat<TriangleT<T>> = true;
@@ -161,8 +164,9 @@ inline constexpr bool is_flat<TriangleT<T>> = true;
 template <std::floating_point T>
 inline constexpr bool is_flat<QuadT<T>> = true;
 
+} // namespace detail
+
 /// What a scene asks of a shape.
-// [shape]
 template <typename S>
 concept Shape = HasBounds<S> &&
     requires(const S& shape, RayT<ScalarOf<S>> ray, FlatHitT<ScalarOf<S>> hit) {
@@ -185,7 +189,6 @@ concept Samplable = Shape<S> && HasArea<S> &&
     requires(const S& shape, Vec2T<ScalarOf<S>> u) {
     { sample_area(shape, u) } -> std::same_as<SurfacePointT<ScalarOf<S>>>;
 };
-// [shape]
 
 /// A shape without an area has no points to choose. A scene refuses it as a light, so
 /// that none is ever asked for.

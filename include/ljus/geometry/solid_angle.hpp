@@ -13,6 +13,8 @@ namespace ljus {
 /// steradian holds the cosine and the inverse square that the report's program forgot.
 /// \{
 
+namespace detail {
+
 /// The directions from a point to a sphere: a cone.
 template <std::floating_point T>
 struct ConeT {
@@ -30,8 +32,11 @@ template <std::floating_point T>
     const Vec3T<T> way = sphere.center - from;
     const T sin2 = sphere.radius * sphere.radius / glm::dot(way, way);
     if (!(sin2 < T(1))) return {};
-    return {.axis = glm::normalize(way), .one_minus_cos = one_minus_cosine(sin2)};
+    return {.axis = glm::normalize(way),
+            .one_minus_cos = detail::one_minus_cosine(sin2)};
 }
+
+} // namespace detail
 
 /// A point of a shape, and the density with which an observer's direction fell on it.
 template <std::floating_point T>
@@ -39,6 +44,8 @@ struct SeenPointT {
     SurfacePointT<T> point{}; ///< The point.
     T pdf = T(0);             ///< Per steradian of the observer.
 };
+
+namespace detail {
 
 /// The density per steradian of a point that was chosen uniformly over the area.
 /// \param from   The observer.
@@ -67,6 +74,8 @@ template <std::floating_point T>
     return glm::distance(sphere.center, from) > sphere.radius + doubt;
 }
 
+} // namespace detail
+
 /// A point of any shape, uniform over its area.
 /// \param shape  The shape.
 /// \param from   The observer.
@@ -78,7 +87,7 @@ template <Shape S, std::floating_point T>
                                            const Vec2T<T>& u) noexcept {
     if constexpr (HasArea<S>) {
         const SurfacePointT<T> point = sample_area(shape, u);
-        return {.point = point, .pdf = pdf_from_area(from, point, area(shape))};
+        return {.point = point, .pdf = detail::pdf_from_area(from, point, area(shape))};
     } else
         return {};
 }
@@ -92,7 +101,7 @@ template <Shape S, std::floating_point T>
 [[nodiscard]] T pdf_towards(const S& shape, const Vec3T<T>& from,
                             const SurfacePointT<T>& point) noexcept {
     if constexpr (HasArea<S>)
-        return pdf_from_area(from, point, area(shape));
+        return detail::pdf_from_area(from, point, area(shape));
     else
         return T(0);
 }
@@ -104,16 +113,16 @@ template <Shape S, std::floating_point T>
 /// \param u       Point of the unit square.
 /// \return The point and its density per steradian of the observer.
 /// \cite shirley1996
-// [sample_towards]
 template <std::floating_point T>
 [[nodiscard]] SeenPointT<T> sample_towards(const SphereT<T>& sphere,
                                            const Vec3T<T>& from,
                                            const Vec2T<T>& u) noexcept {
-    if (!sees_cone(sphere, from)) {
+    if (!detail::sees_cone(sphere, from)) {
         const SurfacePointT<T> point = sample_area(sphere, u);
-        return {.point = point, .pdf = pdf_from_area(from, point, area(sphere))};
+        return {.point = point,
+                .pdf = detail::pdf_from_area(from, point, area(sphere))};
     }
-    const ConeT<T> cone = cone_towards(sphere, from);
+    const detail::ConeT<T> cone = detail::cone_towards(sphere, from);
     const Vec3T<T> local = sample_uniform_cone(u, cone.one_minus_cos);
 
     // From the centre, the point lies at the angle that the chord leaves.
@@ -126,7 +135,6 @@ template <std::floating_point T>
     return {.point = surface_point(sphere, ray, {.t = t}),
             .pdf = pdf_uniform_cone(cone.one_minus_cos)};
 }
-// [sample_towards]
 
 /// The density of sample_towards() for a sphere.
 /// \param sphere  The sphere.
@@ -136,8 +144,9 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] T pdf_towards(const SphereT<T>& sphere, const Vec3T<T>& from,
                             const SurfacePointT<T>& point) noexcept {
-    if (!sees_cone(sphere, from)) return pdf_from_area(from, point, area(sphere));
-    return pdf_uniform_cone(cone_towards(sphere, from).one_minus_cos);
+    if (!detail::sees_cone(sphere, from))
+        return detail::pdf_from_area(from, point, area(sphere));
+    return pdf_uniform_cone(detail::cone_towards(sphere, from).one_minus_cos);
 }
 
 /// \}

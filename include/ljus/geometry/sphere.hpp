@@ -30,6 +30,8 @@ struct SphereT {
 using Sphere = SphereT<float>; ///< SphereT in float.
 // [sphere]
 
+namespace detail {
+
 /// The part of a line that lies within a ball: where it enters, and where it leaves.
 template <std::floating_point T>
 struct ChordT {
@@ -83,6 +85,8 @@ chord(const RayT<T>& ray, const SphereT<T>& sphere) noexcept {
 }
 // [chord]
 
+} // namespace detail
+
 /// The distance at which a ray first meets a sphere, from outside or from within.
 ///
 /// \tparam Compute  The precision of the arithmetic; t is rounded to T once. With float
@@ -97,15 +101,14 @@ chord(const RayT<T>& ray, const SphereT<T>& sphere) noexcept {
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<T> intersect(const RayT<T>& ray,
                                          const SphereT<T>& sphere) noexcept {
-    const auto hits = chord<Compute>(ray, sphere);
+    const auto hits = detail::chord<Compute>(ray, sphere);
     if (!hits) return std::nullopt;
     // A ray may be open to infinity; no hit is infinitely far away.
     const T t_max = glm::min(ray.t_max, std::numeric_limits<T>::max());
     const T enter = static_cast<T>(hits->enter);
     if (ray.t_min <= enter && enter <= t_max) return enter;
     const T leave = static_cast<T>(hits->leave);
-    if (ray.t_min <= leave && leave <= t_max)
-        return leave;
+    if (ray.t_min <= leave && leave <= t_max) return leave;
     return std::nullopt;
 }
 // [intersect]
@@ -148,13 +151,11 @@ template <typename Compute = void, std::floating_point T>
 /// \param sphere  The sphere.
 /// \param point   A point on the sphere, or near to it; not its centre.
 /// \return Unit vector from the centre towards the point.
-// [normal]
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> normal(const SphereT<T>& sphere,
                               const Vec3T<T>& point) noexcept {
     return glm::normalize(point - sphere.center);
 }
-// [normal]
 
 /// The area of a sphere.
 /// \param sphere  The sphere.

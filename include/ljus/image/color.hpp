@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/image/color.hpp
-/// \brief From radiance to the 256 steps of a screen: exposure and the sRGB curve.
+/// \brief From radiance to the 256 steps of a screen: the sRGB curve.
 
 #include <cmath>
 #include <concepts>
@@ -13,15 +13,6 @@ namespace ljus {
 /// \defgroup color Colour
 /// \brief Radiance is linear and has no upper end; a screen's bytes are neither.
 /// \{
-
-/// A colour, brighter by a number of stops.
-/// \param radiance  Linear colour.
-/// \param stops     Any number: +1 doubles, -1 halves, 0 changes nothing.
-/// \return radiance * 2^stops.
-template <std::floating_point T>
-[[nodiscard]] RgbT<T> expose(const RgbT<T>& radiance, double stops) noexcept {
-    return radiance * static_cast<T>(std::exp2(stops));
-}
 
 /// The luminance Y of a linear sRGB colour (Rec. 709 primaries, white D65).
 /// \param c  Linear colour.
@@ -58,11 +49,9 @@ template <std::floating_point T>
 /// one; in double, none.
 /// \param linear  Any number: NaN and negatives are 0, 1 and above are 255.
 /// \return floor(255 y + 1/2), y the encoded value.
-// [srgb_byte]
 [[nodiscard]] inline unsigned char srgb_byte(double linear) noexcept {
     return static_cast<unsigned char>(std::floor(255.0 * srgb_encode(linear) + 0.5));
 }
-// [srgb_byte]
 
 /// \}
 

@@ -19,6 +19,8 @@ namespace ljus {
 /// Chapter: \ref ch_light_transport.
 /// \{
 
+namespace detail {
+
 /// How large a pixel is to the viewer.
 /// \param distance  From the eye to the screen, in metres.
 /// \param width     Of the screen, in metres.
@@ -39,7 +41,6 @@ namespace ljus {
 /// \param b  The other one.
 /// \return 0 for equal colours, 1 for green and blue.
 /// \cite andersson2020
-// [color_error]
 [[nodiscard]] inline double color_error(const RgbT<double>& a, const RgbT<double>& b) {
     const auto powered = [](const RgbT<double>& p, const RgbT<double>& q) {
         return std::pow(hyab(hunt_lab(p), hunt_lab(q)), 0.7);
@@ -50,7 +51,8 @@ namespace ljus {
     return error < bend ? 0.95 * error / bend
                         : 0.95 + 0.05 * (error - bend) / (most - bend);
 }
-// [color_error]
+
+} // namespace detail
 
 /// FLIP of each pixel: how much a viewer who flips between two pictures sees there.
 ///
@@ -70,16 +72,19 @@ namespace ljus {
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] ImageT<double> flip_map(const ImageT<T>& image,
                                       const ImageT<U>& reference,
-                                      double ppd = pixels_per_degree()) {
-    require_same_size(image, reference);
+                                      double ppd = detail::pixels_per_degree()) {
+    detail::require_same_size(image, reference);
     require(ppd >= 1 && ppd <= 1000, "pixels per degree", ppd, "from 1 to 1000");
-    const ImageT<double> a = opponent_image(image), b = opponent_image(reference);
-    const ImageT<double> seen_a = as_seen(a, ppd), seen_b = as_seen(b, ppd);
-    const ImageT<double> features_a = features(a, ppd), features_b = features(b, ppd);
+    const ImageT<double> a = detail::opponent_image(image),
+                         b = detail::opponent_image(reference);
+    const ImageT<double> seen_a = detail::as_seen(a, ppd),
+                         seen_b = detail::as_seen(b, ppd);
+    const ImageT<double> features_a = detail::features(a, ppd),
+                         features_b = detail::features(b, ppd);
 
     ImageT<double> map = make_image<double>(image.width, image.height);
     for (std::size_t i = 0; i < map.pixels.size(); ++i) {
-        const double color = color_error(seen_a.pixels[i], seen_b.pixels[i]);
+        const double color = detail::color_error(seen_a.pixels[i], seen_b.pixels[i]);
         const RgbT<double> change = features_a.pixels[i] - features_b.pixels[i];
         const double larger = glm::max(std::abs(change.x), std::abs(change.y));
         const double feature = std::sqrt(larger / std::numbers::sqrt2);
@@ -89,6 +94,8 @@ template <std::floating_point T, std::floating_point U>
 }
 // [flip_map]
 
+namespace detail {
+
 /// The mean of a grey image.
 /// \param map  From flip_map() or hdr_flip_map().
 /// \return The mean of its first channel.
@@ -96,8 +103,10 @@ template <std::floating_point T, std::floating_point U>
     std::vector<double> values;
     values.reserve(map.pixels.size());
     for (const RgbT<double>& value : map.pixels) values.push_back(value.x);
-    return pairwise_sum(values) / static_cast<double>(values.size());
+    return detail::pairwise_sum(values) / static_cast<double>(values.size());
 }
+
+} // namespace detail
 
 /// The mean of flip_map().
 /// *Trap*: it is made for pictures that are looked at one after the other on the same
@@ -110,8 +119,8 @@ template <std::floating_point T, std::floating_point U>
 /// \throws std::invalid_argument  as flip_map().
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] double flip(const ImageT<T>& image, const ImageT<U>& reference,
-                          double ppd = pixels_per_degree()) {
-    return mean_of(flip_map(image, reference, ppd));
+                          double ppd = detail::pixels_per_degree()) {
+    return detail::mean_of(flip_map(image, reference, ppd));
 }
 
 /// \}

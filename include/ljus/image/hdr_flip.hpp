@@ -14,6 +14,8 @@ namespace ljus {
 /// \addtogroup flip
 /// \{
 
+namespace detail {
+
 /// The first and the last exposure of HDR-FLIP, and how many there are.
 struct Exposures {
     double first = 0; ///< In stops: the brightest pixel is nearly white.
@@ -39,7 +41,6 @@ struct Exposures {
 ///         the one that takes the median there.
 /// \throws std::invalid_argument  for an image as check().
 /// \cite andersson2021
-// [exposures_of]
 template <std::floating_point T>
 [[nodiscard]] Exposures exposures_of(const ImageT<T>& reference) {
     check(reference);
@@ -63,7 +64,8 @@ template <std::floating_point T>
     const double last = std::log2(bright / *middle);
     return {first, last, std::max(2, static_cast<int>(std::ceil(last - first)))};
 }
-// [exposures_of]
+
+} // namespace detail
 
 /// HDR-FLIP of each pixel: the largest flip_map() over the exposures_of() the
 /// reference.
@@ -74,13 +76,12 @@ template <std::floating_point T>
 /// \throws std::invalid_argument  as flip_map().
 /// \cost exposures_of().count times flip_map().
 /// \cite andersson2021
-// [hdr_flip_map]
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] ImageT<double> hdr_flip_map(const ImageT<T>& image,
                                           const ImageT<U>& reference,
-                                          double ppd = pixels_per_degree()) {
-    require_same_size(image, reference);
-    const Exposures exposures = exposures_of(reference);
+                                          double ppd = detail::pixels_per_degree()) {
+    detail::require_same_size(image, reference);
+    const detail::Exposures exposures = detail::exposures_of(reference);
     ImageT<double> worst = make_image<double>(image.width, image.height);
     for (int i = 0; i < exposures.count; ++i) {
         const double part = double(i) / (exposures.count - 1);
@@ -91,7 +92,7 @@ template <std::floating_point T, std::floating_point U>
             for (std::size_t k = 0; k < result.pixels.size(); ++k)
                 for (int c = 0; c < 3; ++c)
                     result.pixels[k][c] =
-                        film_curve(light * double(picture.pixels[k][c]));
+                        detail::film_curve(light * double(picture.pixels[k][c]));
             return result;
         };
         const auto map = flip_map(developed(image), developed(reference), ppd);
@@ -100,7 +101,6 @@ template <std::floating_point T, std::floating_point U>
     }
     return worst;
 }
-// [hdr_flip_map]
 
 /// The mean of hdr_flip_map().
 /// \param image      Linear sRGB of any brightness.
@@ -110,8 +110,8 @@ template <std::floating_point T, std::floating_point U>
 /// \throws std::invalid_argument  as flip_map().
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] double hdr_flip(const ImageT<T>& image, const ImageT<U>& reference,
-                              double ppd = pixels_per_degree()) {
-    return mean_of(hdr_flip_map(image, reference, ppd));
+                              double ppd = detail::pixels_per_degree()) {
+    return detail::mean_of(hdr_flip_map(image, reference, ppd));
 }
 
 /// \}

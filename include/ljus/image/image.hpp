@@ -18,8 +18,12 @@ namespace ljus {
 /// \brief What a renderer makes: linear radiance, before any exposure or encoding.
 /// \{
 
+namespace detail {
+
 /// The largest number of pixels of an image: 2^28, three gigabytes in float.
 inline constexpr long long max_pixels = 1LL << 28;
+
+} // namespace detail
 
 /// A rectangle of linear colours. make_image() makes one of a given size.
 template <std::floating_point T>
@@ -29,6 +33,8 @@ struct ImageT {
     std::vector<RgbT<T>> pixels; ///< Row by row, from the top left: y * width + x.
 };
 using Image = ImageT<float>; ///< ImageT in float.
+
+namespace detail {
 
 /// Refuses the size of an image.
 /// \param width   Pixels in a row.
@@ -45,29 +51,29 @@ inline void require_image_size(long long width, long long height) {
                                 std::to_string(max_pixels) + ".");
 }
 
+} // namespace detail
+
 /// An image of one colour.
 /// \param width   Pixels in a row, at least 1.
 /// \param height  Rows, at least 1.
 /// \param fill    The colour of every pixel.
 /// \return The image, with all its pixels in place.
 /// \throws std::invalid_argument  as require_image_size(), before any memory is taken.
-// [make_image]
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> make_image(int width, int height,
                                    RgbT<T> fill = RgbT<T>(T(0))) {
-    require_image_size(width, height);
+    detail::require_image_size(width, height);
     const auto count =
         static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     return {.width = width, .height = height, .pixels = {count, fill}};
 }
-// [make_image]
 
 /// Refuses an image whose number of pixels does not fit its size.
 /// \param image  Any image.
 /// \throws std::invalid_argument  unless pixels.size() = width * height, at least 1.
 template <std::floating_point T>
 void check(const ImageT<T>& image) {
-    require_image_size(image.width, image.height);
+    detail::require_image_size(image.width, image.height);
     const long long count = static_cast<long long>(image.width) * image.height;
     if (static_cast<long long>(image.pixels.size()) == count) return;
     throw std::invalid_argument("The image has " + std::to_string(image.pixels.size()) +
@@ -75,6 +81,8 @@ void check(const ImageT<T>& image) {
                                 " x " + std::to_string(image.height) + ", requires " +
                                 std::to_string(count) + ".");
 }
+
+namespace detail {
 
 /// Refuses to compare two images.
 /// \throws std::invalid_argument  if their sizes differ, or as check() for either.
@@ -102,13 +110,15 @@ template <std::floating_point T>
            static_cast<std::size_t>(x);
 }
 
+} // namespace detail
+
 /// The colour of pixel (x, y), to be changed.
 /// \param image  The image.
 /// \param x      Column from the left, in [0, width).
 /// \param y      Row from the top, in [0, height).
 template <std::floating_point T>
 [[nodiscard]] RgbT<T>& pixel(ImageT<T>& image, int x, int y) noexcept {
-    return image.pixels[pixel_index(image, x, y)];
+    return image.pixels[detail::pixel_index(image, x, y)];
 }
 
 /// The colour of pixel (x, y), to be read.
@@ -117,7 +127,7 @@ template <std::floating_point T>
 /// \param y      Row from the top, in [0, height).
 template <std::floating_point T>
 [[nodiscard]] const RgbT<T>& pixel(const ImageT<T>& image, int x, int y) noexcept {
-    return image.pixels[pixel_index(image, x, y)];
+    return image.pixels[detail::pixel_index(image, x, y)];
 }
 
 /// \}

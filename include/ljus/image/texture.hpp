@@ -59,7 +59,6 @@ concept UsesUv = M::uses_uv;
 /// \param map    The plane.
 /// \param place  In scene units.
 /// \return (u, v), in repetitions.
-// [plane map]
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> coordinates(const PlaneMapT<T>& map, const Vec3T<T>& place,
                                    const Vec2T<T>& = Vec2T<T>{T(0)}) noexcept {
@@ -67,7 +66,6 @@ template <std::floating_point T>
     return {glm::dot(from, map.edge_u) / glm::dot(map.edge_u, map.edge_u),
             glm::dot(from, map.edge_v) / glm::dot(map.edge_v, map.edge_v)};
 }
-// [plane map]
 
 /// The coordinates of a place on a globe; (0, 0.5) at its centre.
 /// \param map    The globe.
@@ -143,7 +141,6 @@ using GlobeChecker = CheckerT<float, GlobeMapT<float>>; ///< On a globe, in floa
 /// \param place    In scene units.
 /// \param uv       Of texture_coordinates(); for a UvMap.
 /// \return One of the two colours.
-// [checker]
 template <std::floating_point T, typename Map>
 [[nodiscard]] RgbT<T> color_at(const CheckerT<T, Map>& checker, const Vec3T<T>& place,
                                const Vec2T<T>& uv = Vec2T<T>{T(0)}) noexcept {
@@ -152,7 +149,6 @@ template <std::floating_point T, typename Map>
         std::floor(at.x * T(checker.columns)) + std::floor(at.y * T(checker.rows));
     return std::abs(std::fmod(field, T(2))) < T(0.5) ? checker.even : checker.odd;
 }
-// [checker]
 
 /// Refuses colours outside [0, 1], and numbers of fields that do not repeat.
 /// \param checker  The texture.
@@ -187,7 +183,6 @@ using UvPicture = PictureTextureT<float, UvMapT<float>>;
 /// \param place    In scene units.
 /// \param uv       Of texture_coordinates(); for a UvMap.
 /// \return A colour between those of the four pixels.
-// [picture]
 template <std::floating_point T, typename Map>
 [[nodiscard]] RgbT<T> color_at(const PictureTextureT<T, Map>& texture,
                                const Vec3T<T>& place,
@@ -211,7 +206,6 @@ template <std::floating_point T, typename Map>
     return (T(1) - dy) * ((T(1) - dx) * color(left, top) + dx * color(left + 1, top)) +
            dy * ((T(1) - dx) * color(left, top + 1) + dx * color(left + 1, top + 1));
 }
-// [picture]
 
 /// Refuses an image without pixels, or with a channel outside [0, 1].
 /// \param texture  The texture.

@@ -28,7 +28,6 @@ struct BiasVariance {
 /// \param reference  The truth, of that size; its own variance is part of the result.
 /// \return Both parts, in units of radiance squared.
 /// \throws std::invalid_argument  for fewer than 2 runs, or as require_same_size().
-// [bias_variance]
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] BiasVariance bias_variance(const std::vector<ImageT<T>>& runs,
                                          const ImageT<U>& reference) {
@@ -36,7 +35,7 @@ template <std::floating_point T, std::floating_point U>
         throw std::invalid_argument("Bias and variance were asked of " +
                                     std::to_string(runs.size()) +
                                     " runs; there must be at least 2.");
-    for (const ImageT<T>& run : runs) require_same_size(run, reference);
+    for (const ImageT<T>& run : runs) detail::require_same_size(run, reference);
 
     const double count = static_cast<double>(runs.size());
     std::vector<double> biases(reference.pixels.size());
@@ -55,7 +54,6 @@ template <std::floating_point T, std::floating_point U>
     }
     return {.bias_squared = detail::mean(biases), .variance = detail::mean(variances)};
 }
-// [bias_variance]
 
 /// \}
 

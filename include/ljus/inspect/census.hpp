@@ -55,7 +55,6 @@ struct PhotonCensus {
 /// \param photons  Photons or the records of a map: anything with a kind and a flux.
 /// \return The census.
 /// \cost One pass.
-// [census]
 template <typename Photons>
 requires requires(const Photons& p) {
     { p.begin()->kind } -> std::convertible_to<PhotonKind>;
@@ -69,7 +68,6 @@ requires requires(const Photons& p) {
     }
     return result;
 }
-// [census]
 
 /// Counts the photons of a map.
 /// \param map  The map.

@@ -14,10 +14,12 @@ namespace ljus {
 /// \addtogroup light_path_expression
 /// \{
 
+namespace detail {
+
 /// Several ClassLogs that listen to the same path.
 template <std::floating_point T>
 struct ClassesLog {
-    std::vector<ExpressionLog<T>> logs{}; ///< One a class.
+    std::vector<detail::ExpressionLog<T>> logs{}; ///< One a class.
 
     /// A path begins, at the eye.
     void begin() noexcept {
@@ -33,6 +35,8 @@ struct ClassesLog {
         for (auto& log : logs) log.term(owner, letters, value);
     }
 };
+
+} // namespace detail
 
 /// What a renderer really carries: the mean radiance of a picture, class by class.
 ///
@@ -71,11 +75,11 @@ class_means(const R& renderer, const AnyCamera<T>& camera,
         Counts counts;
         for (int x = 0; x < picture.width; ++x)
             for (int i = 0; i < picture.samples; ++i) {
-                ClassesLog<T> log;
+                detail::ClassesLog<T> log;
                 for (const LightPathExpression& wanted : classes)
                     log.logs.push_back({wanted});
-                (void)sample_pixel(renderer, camera, picture, pattern, x, int(y), i,
-                                   counts, log);
+                (void)detail::sample_pixel(renderer, camera, picture, pattern, x,
+                                           int(y), i, counts, log);
                 for (std::size_t k = 0; k < classes.size(); ++k)
                     sums[k] += RgbT<double>(log.logs[k].sum);
             }

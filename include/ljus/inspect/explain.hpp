@@ -21,6 +21,8 @@ namespace ljus {
 /// \cite heckbert1990.
 /// \{
 
+namespace detail {
+
 /// The light of one kind of path within a pixel.
 struct PathSum {
     std::string path;    ///< Heckbert's letters, as "EDSL".
@@ -29,15 +31,19 @@ struct PathSum {
     long long terms = 0; ///< How many terms it is the sum of.
 };
 
+} // namespace detail
+
 /// A pixel, taken apart.
 template <std::floating_point T>
 struct ExplainedPixelT {
-    RgbT<T> radiance{T(0)};            ///< As render() has it, to the last bit.
-    std::vector<PathSum> sums{};       ///< The brightest first; they add up to it.
-    std::vector<PathLog> first_rays{}; ///< The first few, vertex by vertex.
-    int samples = 0;                   ///< How many rays there were.
-    int rejected = 0;                  ///< Those left out because they were not finite.
+    RgbT<T> radiance{T(0)};              ///< As render() has it, to the last bit.
+    std::vector<detail::PathSum> sums{}; ///< The brightest first; they add up to it.
+    std::vector<PathLog> first_rays{};   ///< The first few, vertex by vertex.
+    int samples = 0;                     ///< How many rays there were.
+    int rejected = 0; ///< Those left out because they were not finite.
 };
+
+namespace detail {
 
 /// Takes a pixel apart: renders it again, with a log.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
@@ -48,7 +54,6 @@ struct ExplainedPixelT {
 /// \param keep      How many rays to keep in full.
 /// \return The pixel's parts.
 /// \throws std::invalid_argument  if the pixel lies outside of the picture.
-// [take_apart]
 template <typename R, template <std::floating_point> typename AnyCamera,
           std::floating_point T>
 requires Renderer<R, T>
@@ -56,7 +61,7 @@ requires Renderer<R, T>
                                             const AnyCamera<T>& camera,
                                             const RenderSettings& picture, int x, int y,
                                             int keep = 4) {
-    require_image_size(picture.width, picture.height);
+    detail::require_image_size(picture.width, picture.height);
     require(picture.samples >= 1, "samples", static_cast<long long>(picture.samples),
             "at least 1");
     require(x >= 0 && x < picture.width, "the pixel's column",
@@ -99,9 +104,6 @@ requires Renderer<R, T>
                      });
     return pixel;
 }
-// [take_apart]
-
-namespace detail {
 
 // "EDSL" as "E D S L".
 inline std::string spaced(const std::string& letters) {
@@ -123,8 +125,6 @@ inline std::string padded(std::string text, std::size_t width) {
     if (text.size() < width) text.append(width - text.size(), ' ');
     return text;
 }
-
-} // namespace detail
 
 /// A pixel, taken apart, as a text.
 /// \param pixel  Of take_apart().
@@ -181,6 +181,8 @@ template <std::floating_point T>
     return text;
 }
 
+} // namespace detail
+
 /// Explains one pixel of a picture.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    The camera.
@@ -195,7 +197,7 @@ template <typename R, template <std::floating_point> typename AnyCamera,
 requires Renderer<R, T>
 [[nodiscard]] std::string explain(const R& renderer, const AnyCamera<T>& camera,
                                   const RenderSettings& picture, int x, int y) {
-    return describe(take_apart(renderer, camera, picture, x, y));
+    return detail::describe(detail::take_apart(renderer, camera, picture, x, y));
 }
 
 /// Explains one pixel of a scene, as the path tracer finds it by default.

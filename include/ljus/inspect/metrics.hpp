@@ -54,7 +54,7 @@ std::vector<double> pixel_errors(const ImageT<T>& image, const ImageT<U>& refere
 }
 
 inline double mean(const std::vector<double>& values) {
-    return ljus::pairwise_sum(values) / static_cast<double>(values.size());
+    return ljus::detail::pairwise_sum(values) / static_cast<double>(values.size());
 }
 
 // The squared relative error of one channel.
@@ -92,7 +92,6 @@ template <std::floating_point T, std::floating_point U>
 /// \param epsilon    Radiance squared, above 0: what counts as dark.
 /// \return Without unit; 1 for a black picture of a scene that is bright throughout.
 /// \throws std::invalid_argument  as require_same_size(), or for the epsilon.
-// [rel_mse]
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] double rel_mse(const ImageT<T>& image, const ImageT<U>& reference,
                              double epsilon = default_epsilon) {
@@ -100,7 +99,6 @@ template <std::floating_point T, std::floating_point U>
     return detail::mean(
         detail::pixel_errors(image, reference, detail::RelativeSquare{epsilon}));
 }
-// [rel_mse]
 
 /// The relative mean square error of the best pixels.
 ///
@@ -182,46 +180,8 @@ template <std::floating_point T>
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] double block_error(const ImageT<T>& image, const ImageT<U>& reference,
                                  int size = 10, double epsilon = default_epsilon) {
-    require_same_size(image, reference);
+    detail::require_same_size(image, reference);
     return rel_mse(block_means(image, size), block_means(reference, size), epsilon);
-}
-
-/// The mean absolute relative error, mean |x - r| / (|r| + epsilon).
-///
-/// Robust against fireflies, which enter by their size, not its square.
-/// *Trap*: it is smallest for a picture that is too dark, by the median's argument.
-/// \param image      The picture.
-/// \param reference  The truth, of the same size.
-/// \param epsilon    Radiance, above 0.
-/// \return Without unit, a fraction (0.1 is 10 %).
-/// \throws std::invalid_argument  as rel_mse().
-template <std::floating_point T, std::floating_point U>
-[[nodiscard]] double mape(const ImageT<T>& image, const ImageT<U>& reference,
-                          double epsilon = default_epsilon) {
-    detail::require_epsilon(epsilon);
-    return detail::mean(
-        detail::pixel_errors(image, reference, [epsilon](double x, double r) {
-            return std::abs(x - r) / (std::abs(r) + epsilon);
-        }));
-}
-
-/// The symmetric mean absolute relative error, mean |x - r| / (|x| + |r| + epsilon).
-///
-/// *Trap*: it is bounded, so that it hides fireflies; and some authors put a factor of
-/// 2 in front, which is not here.
-/// \param image  The picture.
-/// \param reference  The truth, of the same size.
-/// \param epsilon  Radiance, above 0.
-/// \return Without unit, in [0, 1).
-/// \throws std::invalid_argument  as rel_mse().
-template <std::floating_point T, std::floating_point U>
-[[nodiscard]] double smape(const ImageT<T>& image, const ImageT<U>& reference,
-                           double epsilon = default_epsilon) {
-    detail::require_epsilon(epsilon);
-    return detail::mean(
-        detail::pixel_errors(image, reference, [epsilon](double x, double r) {
-            return std::abs(x - r) / (std::abs(x) + std::abs(r) + epsilon);
-        }));
 }
 
 /// \}

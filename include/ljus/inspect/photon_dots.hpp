@@ -101,6 +101,8 @@ photon_in_sight(const S& scene, const CameraT<T>& camera, const PhotonT<T>& phot
 }
 // [photon_in_sight]
 
+namespace detail {
+
 /// Adds a dot to a picture.
 /// \param image  The picture.
 /// \param place  The dot's middle, in pixels from the upper left corner.
@@ -123,6 +125,8 @@ void add_dot(ImageT<T>& image, const Vec2T<T>& place, const RgbT<T>& color,
         }
 }
 
+} // namespace detail
+
 /// Draws photons over a picture of their scene.
 /// \param image    The picture, as scene_drawing() makes it.
 /// \param scene    The scene of the photons.
@@ -134,7 +138,6 @@ void add_dot(ImageT<T>& image, const Vec2T<T>& place, const RgbT<T>& color,
 /// \throws std::invalid_argument  if the radius of a dot is not in (0, 1000].
 /// \cost One ray a photon that is drawn and lies within the picture.
 /// \report{Section 3.2.2, Figs. 5 to 8}
-// [add_photon_dots]
 template <SceneLike S, std::floating_point T, typename Color>
 long long add_photon_dots(ImageT<T>& image, const S& scene, const CameraT<T>& camera,
                           const std::vector<PhotonT<T>>& photons,
@@ -148,12 +151,11 @@ long long add_photon_dots(ImageT<T>& image, const S& scene, const CameraT<T>& ca
         const auto place =
             photon_in_sight(scene, camera, photon, image.width, image.height);
         if (!place) continue;
-        add_dot(image, *place, tip, look);
+        detail::add_dot(image, *place, tip, look);
         ++seen;
     }
     return seen;
 }
-// [add_photon_dots]
 
 /// \}
 

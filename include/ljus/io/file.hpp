@@ -148,14 +148,12 @@ private:
 /// \param path   The file; its folder must exist.
 /// \param bytes  What the file shall hold.
 /// \throws std::runtime_error  "cannot write 'out/a.png': No space left on device.".
-// [save_file]
 inline void save_file(const std::string& path, const Bytes& bytes) {
     detail::FileBeside file(detail::file_to_replace(path));
     file.write(bytes);
     file.close();
     file.rename_to_path();
 }
-// [save_file]
 
 /// Reads a file.
 /// \param path  The file.

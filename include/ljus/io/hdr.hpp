@@ -23,12 +23,13 @@ namespace ljus {
 /// channel.
 /// \{
 
+namespace detail {
+
 /// The four bytes of a colour: round(256 c / 2^e) and e + 128, where 2^e is the least
 /// power of two above the largest channel \cite ward1991.
 /// \param c  Every channel at least 0 and below 1.69e38.
 /// \return R, G, B, E; zeros below 2.9e-39. Decoded, a channel is off by at most 1/256
 ///         of the largest one, without a preferred direction.
-// [to_rgbe]
 [[nodiscard]] inline std::array<unsigned char, 4>
 to_rgbe(const RgbT<double>& c) noexcept {
     const double largest = max_component(c);
@@ -43,7 +44,6 @@ to_rgbe(const RgbT<double>& c) noexcept {
     return {mantissa(c.x), mantissa(c.y), mantissa(c.z),
             static_cast<unsigned char>(exponent + 128)};
 }
-// [to_rgbe]
 
 /// The colour of four bytes, without the half step that Ward's own programs add to
 /// their mantissas, which they round down.
@@ -55,6 +55,8 @@ from_rgbe(const std::array<unsigned char, 4>& rgbe) noexcept {
     const double unit = std::ldexp(1.0, int{rgbe[3]} - 136);
     return {rgbe[0] * unit, rgbe[1] * unit, rgbe[2] * unit};
 }
+
+} // namespace detail
 
 /// Saves an image as a Radiance file, without run-length coding.
 /// \param image  Linear colours, every channel finite, at least 0 and below 1.69e38.
@@ -80,7 +82,7 @@ void save_hdr(const ImageT<T>& image, const std::string& path) {
                         path +
                         "' it must be at least 0 and below 1.69e38 (a .pfm file holds "
                         "anything).");
-            for (const unsigned char byte : to_rgbe(c)) bytes.push_back(byte);
+            for (const unsigned char byte : detail::to_rgbe(c)) bytes.push_back(byte);
         }
     save_file(path, bytes);
 }
@@ -141,7 +143,8 @@ inline void read_rgbe_row(ByteReader& reader,
 ///     1991), or is shorter or longer than its header says.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_hdr(const std::string& path) {
-    detail::ByteReader reader{path, load_file(path, 8 * std::size_t(max_pixels), "#?")};
+    detail::ByteReader reader{
+        path, load_file(path, 8 * std::size_t(detail::max_pixels), "#?")};
     double exposure = 1.0;
     for (std::string line = reader.line(); !line.empty(); line = reader.line()) {
         if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe")
@@ -164,7 +167,7 @@ template <std::floating_point T = float>
     if (y_word != "-Y" || x_word != "+X")
         reader.fail("its rows go " + detail::shown(y_word) + " " +
                     detail::shown(x_word) + "; only -Y +X is read");
-    if (width > max_pixels / height) reader.fail("its image is too large");
+    if (width > detail::max_pixels / height) reader.fail("its image is too large");
 
     // The image grows by rows, so that a short file with a large size takes no memory.
     ImageT<T> image{.width = width, .height = height, .pixels = {}};
@@ -172,7 +175,7 @@ template <std::floating_point T = float>
     for (int y = 0; y < height; ++y) {
         detail::read_rgbe_row(reader, row, static_cast<std::size_t>(width));
         for (const auto& rgbe : row)
-            image.pixels.push_back(RgbT<T>(from_rgbe(rgbe) / exposure));
+            image.pixels.push_back(RgbT<T>(detail::from_rgbe(rgbe) / exposure));
     }
     if (reader.left() != 0)
         reader.fail("it has " + std::to_string(reader.left()) +

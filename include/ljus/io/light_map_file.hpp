@@ -35,7 +35,6 @@ inline constexpr std::size_t light_bytes = 24;
 /// \param map   The map.
 /// \throws std::runtime_error  as save_file().
 /// \cost 24 bytes a patch.
-// [save]
 inline void save_light_map(const std::string& path, const LightMap& map) {
     Bytes bytes(detail::light_map_magic.begin(), detail::light_map_magic.end());
     detail::put_number(bytes, detail::light_map_version);
@@ -55,7 +54,6 @@ inline void save_light_map(const std::string& path, const LightMap& map) {
     detail::put_checksum(bytes);
     save_file(path, bytes);
 }
-// [save]
 
 /// Loads a light map.
 /// \param path  The file.
@@ -63,7 +61,6 @@ inline void save_light_map(const std::string& path, const LightMap& map) {
 /// \return The map, the same bit by bit as the one that was saved.
 /// \throws std::runtime_error  "cannot read 'a.light': its checksum is wrong, ...":
 ///         what is cut short, damaged, of another version or no light map is refused.
-// [load]
 [[nodiscard]] inline LightMap load_light_map(const std::string& path,
                                              std::size_t most = 10'000'000) {
     const Bytes bytes = load_file(
@@ -102,7 +99,7 @@ inline void save_light_map(const std::string& path, const LightMap& map) {
             grid.columns > 65535 || grid.rows > 65535 || (how % 4 == 1 && !square) ||
             (how % 4 == 2 && (grid.columns < 2 || grid.rows < 3)))
             refuse("its grid " + std::to_string(i) + " is none");
-        grid.kind = static_cast<GridKind>(how % 4);
+        grid.kind = static_cast<detail::GridKind>(how % 4);
         grid.back = (how & 4u) != 0;
         grid.inward = (how & 8u) != 0;
         grid.first = static_cast<std::uint32_t>(patches);
@@ -126,7 +123,6 @@ inline void save_light_map(const std::string& path, const LightMap& map) {
     }
     return map;
 }
-// [load]
 
 /// \}
 

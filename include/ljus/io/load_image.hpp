@@ -56,6 +56,8 @@ namespace ljus {
 /// \brief Optional (stb_image): PNG, JPEG, BMP, TGA, GIF, PNM.
 /// \{
 
+namespace detail {
+
 /// The largest file that load_image() takes, in bytes.
 inline constexpr std::size_t max_image_file = std::size_t(1) << 28;
 
@@ -78,9 +80,9 @@ template <std::floating_point T = float>
             stbi_failure_reason() + ".");
     if (width < 1 || height < 1)
         throw std::runtime_error(detail::shown_path(path).append(" has no pixels."));
-    if (width > max_pixels / height)
+    if (width > detail::max_pixels / height)
         throw std::runtime_error(detail::shown_path(path).append(" has more than ") +
-                                 std::to_string(max_pixels) + " pixels.");
+                                 std::to_string(detail::max_pixels) + " pixels.");
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
         stbi_load_from_memory(data, size, &width, &height, &channels, 3),
         stbi_image_free);
@@ -102,13 +104,15 @@ template <std::floating_point T = float>
 #endif
 }
 
+} // namespace detail
+
 /// Loads a picture, for a texture.
 /// \param path  The file.
 /// \return Linear colours in [0, 1].
 /// \throws std::runtime_error  with path and reason.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_image(const std::string& path) {
-    return decode_image<T>(load_file(path, max_image_file), path);
+    return detail::decode_image<T>(load_file(path, detail::max_image_file), path);
 }
 
 /// \}

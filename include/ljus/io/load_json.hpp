@@ -34,18 +34,18 @@ namespace ljus {
 /// What a scene file says.
 template <std::floating_point T>
 struct LoadedSceneT {
-    FileSceneT<T> scene; ///< Shapes, materials and lights.
-    CameraT<T> camera;   ///< Where it is seen from.
-    std::string name;    ///< Of the scene, on one line; empty if it has none.
-    int width = 0;       ///< Of its picture, in pixels.
-    int height = 0;      ///< Of its picture, in pixels.
+    detail::FileSceneT<T> scene; ///< Shapes, materials and lights.
+    CameraT<T> camera;           ///< Where it is seen from.
+    std::string name;            ///< Of the scene, on one line; empty if it has none.
+    int width = 0;               ///< Of its picture, in pixels.
+    int height = 0;              ///< Of its picture, in pixels.
 };
 using LoadedScene = LoadedSceneT<float>; ///< LoadedSceneT in float.
 
+namespace detail {
+
 /// The largest file that load_json() takes, in bytes.
 inline constexpr std::size_t max_scene_file = std::size_t(1) << 28;
-
-namespace detail {
 
 template <std::floating_point T>
 CameraT<T> read_camera(const JsonField& field) {
@@ -123,7 +123,7 @@ LoadedSceneT<T> read_scene(const JsonField& top, LoadMeshes& load_meshes) {
 /// \throws std::runtime_error  with one sentence that names the file, the path of the
 ///         field, its value and what would be right: "scene.json: objects[3].radius is
 ///         -1; it must be above 0."
-template <std::floating_point T = float, typename LoadMeshes = NoMeshes>
+template <std::floating_point T = float, typename LoadMeshes = detail::NoMeshes>
 [[nodiscard]] LoadedSceneT<T> read_json_scene(std::string_view source,
                                               const std::string& file,
                                               LoadMeshes load_meshes = {}) {
@@ -137,10 +137,10 @@ template <std::floating_point T = float, typename LoadMeshes = NoMeshes>
 /// \return The scene.
 /// \throws std::runtime_error  as read_json_scene(); or, if the file cannot be read,
 ///         with its name and the reason.
-template <std::floating_point T = float, typename LoadMeshes = NoMeshes>
+template <std::floating_point T = float, typename LoadMeshes = detail::NoMeshes>
 [[nodiscard]] LoadedSceneT<T> load_json(const std::string& path,
                                         LoadMeshes load_meshes = {}) {
-    const Bytes bytes = load_file(path, max_scene_file);
+    const Bytes bytes = load_file(path, detail::max_scene_file);
     return read_json_scene<T>(
         {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path, load_meshes);
 }

@@ -28,18 +28,23 @@ namespace ljus {
 ///     scene.add(teapot.parts[0].mesh, scene.add(Glass{}));  // or one's own
 /// \{
 
+namespace detail {
+
 /// All faces of one material.
 template <std::floating_point T>
 struct ObjPartT {
-    MeshT<T> mesh;        ///< Its triangles.
-    ObjMaterial material; ///< What the file says that it is made of.
+    MeshT<T> mesh;                ///< Its triangles.
+    detail::ObjMaterial material; ///< What the file says that it is made of.
 };
+
+} // namespace detail
 
 /// What a mesh file holds.
 template <std::floating_point T>
 struct LoadedObjT {
-    std::vector<ObjPartT<T>> parts{}; ///< One a material, in order of first use.
-    ObjReport report{};               ///< What is wrong with it.
+    std::vector<detail::ObjPartT<T>>
+        parts{};        ///< One a material, in order of first use.
+    ObjReport report{}; ///< What is wrong with it.
     /// Those that could be read of the parts' materials, by their paths.
     std::map<std::string, ImageT<T>> pictures{};
 };
@@ -141,7 +146,7 @@ template <std::floating_point T = float>
 template <std::floating_point T = float>
 [[nodiscard]] LoadedObjT<T> load_obj(const std::string& path,
                                      const ObjSettings& settings = {}) {
-    const Bytes bytes = load_file(path, max_obj_file);
+    const Bytes bytes = load_file(path, detail::max_obj_file);
     return read_obj<T>(std::string(bytes.begin(), bytes.end()), path, settings);
 }
 
@@ -153,8 +158,8 @@ template <std::floating_point T = float>
 /// \param loaded  What load_obj() returned.
 template <typename Scene, std::floating_point T>
 void add_obj(Scene& scene, const LoadedObjT<T>& loaded) {
-    for (const ObjPartT<T>& part : loaded.parts) {
-        const ObjMaterial& is = part.material;
+    for (const detail::ObjPartT<T>& part : loaded.parts) {
+        const detail::ObjMaterial& is = part.material;
         const GlassT<T> glass{.index = static_cast<T>(is.index)};
         const MirrorT<T> mirror{.reflectance = RgbT<T>(is.specular)};
         MaterialId id = [&] {
@@ -183,7 +188,7 @@ void add_obj(Scene& scene, const LoadedObjT<T>& loaded) {
 template <typename Scene, std::floating_point T>
 void add_obj(Scene& scene, const LoadedObjT<T>& loaded, MaterialId material,
              const RgbT<T>& radiance = RgbT<T>{0}) {
-    for (const ObjPartT<T>& part : loaded.parts)
+    for (const detail::ObjPartT<T>& part : loaded.parts)
         scene.add(part.mesh, material, radiance);
 }
 

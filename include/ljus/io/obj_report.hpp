@@ -36,6 +36,8 @@ enum class ObjTrouble : std::uint8_t {
     no_library,   ///< A material file that cannot be read.
 };
 
+namespace detail {
+
 /// How many there are.
 inline constexpr std::size_t obj_troubles = 14;
 
@@ -45,19 +47,21 @@ struct ObjCount {
     long long line = 0;  ///< The first line, from 1.
 };
 
+} // namespace detail
+
 /// All of it.
 struct ObjReport {
-    std::array<ObjCount, obj_troubles> counts{}; ///< By ObjTrouble.
+    std::array<detail::ObjCount, detail::obj_troubles> counts{}; ///< By ObjTrouble.
     /// A sentence a picture that cannot be read, with its line of the material file.
     std::vector<std::string> pictures{};
 
     /// Counts one more.
     void add(ObjTrouble trouble, long long line) {
-        ObjCount& at = counts[static_cast<std::size_t>(trouble)];
+        detail::ObjCount& at = counts[static_cast<std::size_t>(trouble)];
         if (at.count++ == 0 || line < at.line) at.line = line;
     }
     /// How often, and where first.
-    [[nodiscard]] const ObjCount& operator[](ObjTrouble trouble) const {
+    [[nodiscard]] const detail::ObjCount& operator[](ObjTrouble trouble) const {
         return counts[static_cast<std::size_t>(trouble)];
     }
 };
@@ -66,7 +70,7 @@ struct ObjReport {
 /// \param report  The report.
 /// \return Lines that end with a line feed; empty if nothing is wrong.
 [[nodiscard]] inline std::string to_text(const ObjReport& report) {
-    constexpr std::array<const char*, obj_troubles> words{
+    constexpr std::array<const char*, detail::obj_troubles> words{
         "vertices have coordinates that are no finite numbers; faces there are left "
         "out",
         "normals are no finite numbers; faces there are flat",
@@ -84,7 +88,7 @@ struct ObjReport {
         "uses of a material that no material file has; the default is taken",
         "material files cannot be read; the default material is taken"};
     std::string text;
-    for (std::size_t i = 0; i < obj_troubles; ++i)
+    for (std::size_t i = 0; i < detail::obj_troubles; ++i)
         if (report.counts[i].count > 0)
             text.append("line ")
                 .append(std::to_string(report.counts[i].line))
@@ -102,7 +106,6 @@ namespace detail {
 
 // Counts the edges of a mesh that a closed surface does not have, with the lines of its
 // triangles. Vertices at the same place count as one. O(n log n).
-// [count_edges]
 template <std::floating_point T>
 void count_edges(const MeshDataT<T>& data, const std::vector<long long>& lines,
                  ObjReport& report) {
@@ -142,7 +145,6 @@ void count_edges(const MeshDataT<T>& data, const std::vector<long long>& lines,
             report.add(ObjTrouble::edge_turned, line);
     }
 }
-// [count_edges]
 
 } // namespace detail
 

@@ -25,7 +25,6 @@ namespace ljus {
 /// \param image  Linear colours.
 /// \param path   The file; an older one is replaced at the very end (save_file()).
 /// \throws std::invalid_argument  as check(); std::runtime_error as save_file().
-// [save_pfm]
 template <std::floating_point T>
 void save_pfm(const ImageT<T>& image, const std::string& path) {
     check(image);
@@ -45,7 +44,6 @@ void save_pfm(const ImageT<T>& image, const std::string& path) {
         }
     save_file(path, bytes);
 }
-// [save_pfm]
 
 /// Loads a PFM file, of colours or of grey, of either byte order.
 /// \param path  The file.
@@ -55,8 +53,8 @@ void save_pfm(const ImageT<T>& image, const std::string& path) {
 ///         file, or is shorter or longer than its header says.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_pfm(const std::string& path) {
-    detail::ByteReader reader{path,
-                              load_file(path, 12 * std::size_t(max_pixels) + 256, "P")};
+    detail::ByteReader reader{
+        path, load_file(path, 12 * std::size_t(detail::max_pixels) + 256, "P")};
     const std::string kind = reader.word();
     if (kind != "PF" && kind != "Pf") reader.fail("it does not begin with PF or Pf");
     const int width = reader.size(reader.word());
@@ -64,7 +62,7 @@ template <std::floating_point T = float>
     const double scale = detail::to_number(reader.word());
     if (!std::isfinite(scale) || scale == 0.0)
         reader.fail("the third line of its header is not a finite number other than 0");
-    if (width > max_pixels / height) reader.fail("its image is too large");
+    if (width > detail::max_pixels / height) reader.fail("its image is too large");
 
     // Compared before any memory is taken for the pixels.
     const std::size_t channels = kind == "PF" ? 3 : 1;

@@ -19,6 +19,8 @@ namespace ljus {
 /// takes to read it, and comes out the same.
 /// \{
 
+namespace detail {
+
 /// The photons of a map, in the order in which it was given them.
 /// \param map  The map.
 template <std::floating_point T>
@@ -36,8 +38,6 @@ template <std::floating_point T>
     return photons;
 }
 
-namespace detail {
-
 inline constexpr std::string_view map_magic = "ljus photon map\n";
 inline constexpr std::uint32_t map_version = 1;
 
@@ -48,7 +48,6 @@ inline constexpr std::uint32_t map_version = 1;
 /// \param map   The map.
 /// \throws std::runtime_error  as save_file().
 /// \cost 42 bytes a photon in float.
-// [save]
 template <std::floating_point T>
 void save_photon_map(const std::string& path, const PhotonMapT<T>& map) {
     Bytes bytes(detail::map_magic.begin(), detail::map_magic.end());
@@ -56,7 +55,7 @@ void save_photon_map(const std::string& path, const PhotonMapT<T>& map) {
     detail::put_number(bytes, static_cast<std::uint32_t>(sizeof(T)));
     detail::put_number(bytes, static_cast<std::uint64_t>(map.records.size()));
     detail::put_number(bytes, std::uint64_t(0)); // the checksum's place
-    for (const PhotonT<T>& photon : photons_of(map)) {
+    for (const PhotonT<T>& photon : detail::photons_of(map)) {
         for (const Vec3T<T>& v : {photon.position, photon.direction, photon.flux})
             for (int axis = 0; axis < 3; ++axis) detail::put_number(bytes, v[axis]);
         detail::put_number(bytes, photon.light);
@@ -67,7 +66,6 @@ void save_photon_map(const std::string& path, const PhotonMapT<T>& map) {
     detail::put_checksum(bytes);
     save_file(path, bytes);
 }
-// [save]
 
 /// Loads a map.
 /// \tparam T     The precision that it was saved with.

@@ -65,6 +65,8 @@ struct PngSettings {
     double exposure = 0.0; ///< In stops: +1 doubles the light. Finite.
 };
 
+namespace detail {
+
 /// The bytes of a PNG file.
 /// \param image    Linear colours; NaN and negative channels turn black, what exceeds 1
 ///                 after exposure turns 255.
@@ -113,6 +115,8 @@ template <std::floating_point T>
 #endif
 }
 
+} // namespace detail
+
 /// Saves an image as PNG.
 /// \param image    As for encode_png().
 /// \param path     The file; an older one is replaced at the very end (save_file()).
@@ -121,7 +125,7 @@ template <std::floating_point T>
 template <std::floating_point T>
 void save_png(const ImageT<T>& image, const std::string& path,
               const PngSettings& options = {}) {
-    save_file(path, encode_png(image, options));
+    save_file(path, detail::encode_png(image, options));
 }
 
 /// \}

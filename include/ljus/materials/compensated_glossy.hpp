@@ -21,14 +21,16 @@ namespace ljus {
 /// \tparam Facet  As GlossyT has it.
 template <std::floating_point T, typename Facet = RgbT<T>>
 struct CompensatedGlossyT {
-    using Scalar = T;          ///< The precision of its numbers.
-    GlossyT<T, Facet> first{}; ///< One reflection.
-    EnergyLossT<T> loss{};     ///< What it loses; of bake_energy_loss().
-    RgbT<T> mean{T(0)};        ///< A facet's mean reflectance; of mean_reflectance().
+    using Scalar = T;              ///< The precision of its numbers.
+    GlossyT<T, Facet> first{};     ///< One reflection.
+    detail::EnergyLossT<T> loss{}; ///< What it loses; of bake_energy_loss().
+    RgbT<T> mean{T(0)}; ///< A facet's mean reflectance; of mean_reflectance().
 };
 using CompensatedGlossy = CompensatedGlossyT<float>; ///< Of a colour, in float.
 using FullRoughMetal =
     CompensatedGlossyT<float, ConductorIndexT<float>>; ///< Of metal, in float.
+
+namespace detail {
 
 /// The mean of facet_reflectance() over the angles, \f$ 2 \int F(\mu)\,\mu\,d\mu \f$.
 /// \param facet  A colour straight on, or a metal's index.
@@ -42,20 +44,20 @@ template <std::floating_point T, typename Facet>
     return sum / T(steps);
 }
 
+} // namespace detail
+
 /// Makes gloss keep its light.
 /// \param first  The gloss.
 /// \return The material; with roughness 0 the same mirror.
 /// \throws std::invalid_argument as check() of the gloss.
 /// \cost bake_energy_loss(), once.
-// [full glossy]
 template <std::floating_point T, typename F>
 [[nodiscard]] CompensatedGlossyT<T, F> compensated_glossy(const GlossyT<T, F>& first) {
     check(first);
     return {.first = first,
-            .loss = bake_energy_loss(first.roughness * first.roughness),
-            .mean = mean_reflectance<T>(first.reflectance)};
+            .loss = detail::bake_energy_loss(first.roughness * first.roughness),
+            .mean = detail::mean_reflectance<T>(first.reflectance)};
 }
-// [full glossy]
 
 /// What there is: as of the gloss.
 template <std::floating_point T, typename F>
@@ -74,14 +76,17 @@ template <std::floating_point T, typename F>
 template <std::floating_point T, typename F>
 [[nodiscard]] RgbT<T> evaluate(const CompensatedGlossyT<T, F>& gloss,
                                const Vec3T<T>& wo, const Vec3T<T>& wi) noexcept {
-    const EnergyLossT<T>& loss = gloss.loss;
+    const detail::EnergyLossT<T>& loss = gloss.loss;
     const RgbT<T> first = evaluate(gloss.first, wo, wi);
     if (!same_side(wo, wi) || !(loss.mean > T(0))) return first;
-    const T out = lost_at(loss, std::abs(wo.z)), in = lost_at(loss, std::abs(wi.z));
+    const T out = detail::lost_at(loss, std::abs(wo.z)),
+            in = detail::lost_at(loss, std::abs(wi.z));
     const T again = out * in / loss.mean * std::numbers::inv_pi_v<T>;
-    return first + again * multiple_scattering(gloss.mean, loss.mean);
+    return first + again * detail::multiple_scattering(gloss.mean, loss.mean);
 }
 // [full evaluate]
+
+namespace detail {
 
 /// How often sample() takes the first reflection: as much as it carries of the light.
 /// \param gloss  The surface.
@@ -90,12 +95,14 @@ template <std::floating_point T, typename F>
 template <std::floating_point T, typename F>
 [[nodiscard]] T chance_of_first(const CompensatedGlossyT<T, F>& gloss,
                                 const Vec3T<T>& wo) noexcept {
-    const T lost = lost_at(gloss.loss, std::abs(wo.z));
+    const T lost = detail::lost_at(gloss.loss, std::abs(wo.z));
     const T first = (T(1) - lost) * max_component(gloss.mean);
     const T again =
         lost * max_component(multiple_scattering(gloss.mean, gloss.loss.mean));
     return again > T(0) ? first / (first + again) : T(1);
 }
+
+} // namespace detail
 
 /// The density of sample().
 /// \param gloss  The surface.
@@ -107,11 +114,12 @@ template <std::floating_point T, typename F>
 [[nodiscard]] T pdf(const CompensatedGlossyT<T, F>& gloss, const Vec3T<T>& wo,
                     const Vec3T<T>& wi, Lobes which = Lobes::all) noexcept {
     const T first = pdf(gloss.first, wo, wi, which);
-    const T chance = chance_of_first(gloss, wo);
+    const T chance = detail::chance_of_first(gloss, wo);
     if (!has(which & lobes(gloss), Lobes::glossy) || !same_side(wo, wi) ||
         chance >= T(1))
         return first;
-    return chance * first + (T(1) - chance) * pdf_lost(gloss.loss, std::abs(wi.z));
+    return chance * first +
+           (T(1) - chance) * detail::pdf_lost(gloss.loss, std::abs(wi.z));
 }
 
 /// The mirror direction of a facet that is seen, or a direction as light is lost.
@@ -123,12 +131,11 @@ template <std::floating_point T, typename F>
 /// \return The sample; nothing if `wo` lies on the surface, if the direction would lead
 ///         into it, or without the part.
 /// \cost Up to twice sample() of the gloss.
-// [full sample]
 template <std::floating_point T, typename F>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const CompensatedGlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& u,
        Transport transport, Lobes which = Lobes::all) noexcept {
-    const T chance = chance_of_first(gloss, wo);
+    const T chance = detail::chance_of_first(gloss, wo);
     if (chance >= T(1) || !has(which & lobes(gloss), Lobes::glossy))
         return sample(gloss.first, wo, u, transport, which);
     if (!(wo.z > T(0) || wo.z < T(0))) return std::nullopt;
@@ -138,7 +145,7 @@ sample(const CompensatedGlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>
         if (!first) return std::nullopt;
         wi = first->wi;
     } else {
-        const T z = sample_lost(gloss.loss, u.y);
+        const T z = detail::sample_lost(gloss.loss, u.y);
         const T phi = T(2) * std::numbers::pi_v<T> * u.x;
         const T sine = std::sqrt((T(1) - z) * (T(1) + z));
         wi = {sine * std::cos(phi), sine * std::sin(phi), std::copysign(z, wo.z)};
@@ -148,7 +155,6 @@ sample(const CompensatedGlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>
     const RgbT<T> f = evaluate(gloss, wo, wi);
     return diffuse_sample(wi, f * (std::abs(wi.z) / density), density);
 }
-// [full sample]
 
 /// Refuses gloss that cannot be, and a table that is not its own.
 /// \param gloss  The surface.

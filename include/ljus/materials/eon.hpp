@@ -30,6 +30,8 @@ struct EonT {
 };
 using Eon = EonT<float>; ///< EonT in float.
 
+namespace detail {
+
 /// What Fujii's second model loses of light at an angle, over A r:
 /// \f$ (1 - E(\mu)) / (A r) = k_1 - G(\mu)/\pi \f$.
 /// \param sine    Of the angle to the normal, in [0, 1].
@@ -83,19 +85,7 @@ template <std::floating_point T>
 }
 // [eon]
 
-/// The share of a constant sky that the surface returns, in closed form.
-/// \param surface  The surface.
-/// \param wo       Towards where the light goes.
-/// \return In [0, 1]; 1 for white.
-/// \cite eon2025
-template <std::floating_point T>
-[[nodiscard]] RgbT<T> eon_albedo(const EonT<T>& surface, const Vec3T<T>& wo) noexcept {
-    const T r = surface.roughness;
-    const T ar = r / (T(1) + fon_constant<T> * r);
-    const T loss = ar * eon_loss(std::hypot(wo.x, wo.y), std::abs(wo.z));
-    return surface.albedo * (T(1) - loss) +
-           multiple_scattering(surface.albedo, ar * eon_mean_loss<T>) * loss;
-}
+} // namespace detail
 
 /// What there is: a diffuse part, even if it is black.
 template <std::floating_point T>
@@ -112,7 +102,7 @@ template <std::floating_point T>
 [[nodiscard]] RgbT<T> evaluate(const EonT<T>& surface, const Vec3T<T>& wo,
                                const Vec3T<T>& wi) noexcept {
     if (!same_side(wo, wi)) return RgbT<T>{T(0)};
-    return std::numbers::inv_pi_v<T> * eon_weight(surface, wo, wi);
+    return std::numbers::inv_pi_v<T> * detail::eon_weight(surface, wo, wi);
 }
 
 /// The density of sample().
@@ -126,8 +116,8 @@ template <std::floating_point T>
 [[nodiscard]] T pdf(const EonT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& wi,
                     Lobes which = Lobes::all) noexcept {
     if (!has(which, Lobes::diffuse) || !same_side(wo, wi)) return T(0);
-    return pdf_eon_lobe(eon_lobe(surface.roughness, wo),
-                        Vec3T<T>{wi.x, wi.y, std::abs(wi.z)});
+    return detail::pdf_eon_lobe(detail::eon_lobe(surface.roughness, wo),
+                                Vec3T<T>{wi.x, wi.y, std::abs(wi.z)});
 }
 
 /// A direction of about the density of f cos.
@@ -140,23 +130,21 @@ template <std::floating_point T>
 /// \cost About three times a cosine-weighted direction's; see chapter 14 for what it
 ///       saves.
 /// \cite eon2025
-// [eon sample]
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const EonT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
        Transport /*transport*/, Lobes which = Lobes::all) noexcept {
     if (!has(which, Lobes::diffuse) || is_black(surface.albedo)) return std::nullopt;
     if (!(wo.z > T(0) || wo.z < T(0))) return std::nullopt;
-    const EonLobeT<T> lobe = eon_lobe(surface.roughness, wo);
-    Vec3T<T> wi = sample_eon_lobe(lobe, u);
+    const detail::EonLobeT<T> lobe = detail::eon_lobe(surface.roughness, wo);
+    Vec3T<T> wi = detail::sample_eon_lobe(lobe, u);
     if (!(wi.z > T(0))) return std::nullopt; // on the horizon, by rounding
-    const T density = pdf_eon_lobe(lobe, wi);
+    const T density = detail::pdf_eon_lobe(lobe, wi);
     wi.z = std::copysign(wi.z, wo.z);
-    const RgbT<T> f_cos =
-        std::numbers::inv_pi_v<T> * std::abs(wi.z) * eon_weight(surface, wo, wi);
+    const RgbT<T> f_cos = std::numbers::inv_pi_v<T> * std::abs(wi.z) *
+                          detail::eon_weight(surface, wo, wi);
     return diffuse_sample(wi, f_cos / density, density);
 }
-// [eon sample]
 
 /// Refuses an albedo or a roughness outside [0, 1].
 /// \param surface  The surface.

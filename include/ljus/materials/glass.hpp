@@ -34,6 +34,8 @@ struct GlassT {
 };
 using Glass = GlassT<float>; ///< GlassT in float.
 
+namespace detail {
+
 /// What light meets that comes to the boundary: how much is reflected, and where the
 /// rest goes.
 template <std::floating_point T>
@@ -64,6 +66,8 @@ template <std::floating_point T>
             .eta_scale = transport == Transport::radiance ? eta * eta : T(1)};
 }
 
+} // namespace detail
+
 /// One of the two branches: reflection with probability F, refraction with 1 - F. Each
 /// is chosen as often as it carries light, so that both have the weight 1; radiance
 /// that comes from index n_t is then scaled by (n_i/n_t)^2.
@@ -75,19 +79,17 @@ template <std::floating_point T>
 /// \return The sample; nothing if `wo` lies on the surface or without Lobes::specular.
 /// \cost As boundary().
 /// \report{Section 3.2.5}
-// [glass sample]
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const GlassT<T>& glass, const Vec3T<T>& wo, const Vec3T<T>& u,
        Transport transport, Lobes which = Lobes::all) noexcept {
     if (!has(which, Lobes::specular)) return std::nullopt;
     if (!(wo.z > T(0) || wo.z < T(0))) return std::nullopt;
-    const GlassBoundaryT<T> met = boundary(glass, wo, transport);
+    const detail::GlassBoundaryT<T> met = detail::boundary(glass, wo, transport);
     if (!met.refracted || u.z < met.reflectance)
         return specular_sample(reflect(wo), RgbT<T>{T(1)});
     return specular_sample(*met.refracted, RgbT<T>{T(1)}, met.eta_scale);
 }
-// [glass sample]
 
 /// Both branches, each with its share: for a path that goes both ways. What sample()
 /// makes noise of, a lamp mirrored in a ball, is then the same in each path.
@@ -95,18 +97,16 @@ sample(const GlassT<T>& glass, const Vec3T<T>& wo, const Vec3T<T>& u,
 /// \param wo         Towards where the light goes; z < 0 is inside.
 /// \param transport  Radiance or flux.
 /// \return The reflected and the refracted sample; nothing if there is only one.
-// [both ways]
 template <std::floating_point T>
 [[nodiscard]] std::optional<std::array<BsdfSampleT<T>, 2>>
 both_ways(const GlassT<T>& glass, const Vec3T<T>& wo, Transport transport) noexcept {
-    const GlassBoundaryT<T> met = boundary(glass, wo, transport);
+    const detail::GlassBoundaryT<T> met = detail::boundary(glass, wo, transport);
     if (!met.refracted) return std::nullopt;
     const T f = met.reflectance;
     return std::array{
         specular_sample(reflect(wo), RgbT<T>{f}),
         specular_sample(*met.refracted, RgbT<T>{T(1) - f}, met.eta_scale)};
 }
-// [both ways]
 
 /// The absorption inside, per scene unit; see transmittance().
 /// \param glass  The glass.
@@ -120,7 +120,7 @@ template <std::floating_point T>
 /// \throws std::invalid_argument naming the member.
 template <std::floating_point T>
 void check(const GlassT<T>& glass) {
-    require_index("glass.index", glass.index);
+    detail::require_index("glass.index", glass.index);
     require_radiance("glass.absorption", glass.absorption);
 }
 
@@ -145,6 +145,8 @@ struct ThinGlassT {
                         ///< without its boundaries; in [0, 1].
 };
 using ThinGlass = ThinGlassT<float>; ///< ThinGlassT in float.
+
+namespace detail {
 
 /// What a pane reflects and lets through.
 template <std::floating_point T>
@@ -187,18 +189,18 @@ template <std::floating_point T>
 }
 // [pane]
 
+} // namespace detail
+
 /// What goes straight on through a pane. A material with this function is a thin sheet.
 /// \param pane  The pane.
 /// \param wo    Towards where the light goes.
 /// \return PaneSharesT::transmitted.
-// [pane pass_through]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> pass_through(const ThinGlassT<T>& pane,
                                    const Vec3T<T>& /*position*/,
                                    const Vec3T<T>& wo) noexcept {
-    return pane_shares(pane, std::min(std::abs(wo.z), T(1))).transmitted;
+    return detail::pane_shares(pane, std::min(std::abs(wo.z), T(1))).transmitted;
 }
-// [pane pass_through]
 
 /// The mirror direction, with PaneSharesT::reflected as weight. What goes straight on
 /// is not sampled.
@@ -208,7 +210,6 @@ template <std::floating_point T>
 /// \return The sample; nothing if `wo` lies on the surface or without Lobes::specular.
 /// \cost pane_shares().
 /// \report{Section 3.2.5}
-// [thin glass sample]
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const ThinGlassT<T>& pane, const Vec3T<T>& wo, const Vec3T<T>&,
@@ -216,16 +217,15 @@ sample(const ThinGlassT<T>& pane, const Vec3T<T>& wo, const Vec3T<T>&,
     if (!has(which, Lobes::specular) || !(wo.z > T(0) || wo.z < T(0)))
         return std::nullopt;
     const T cos_theta = std::min(std::abs(wo.z), T(1));
-    return specular_sample(reflect(wo), pane_shares(pane, cos_theta).reflected);
+    return specular_sample(reflect(wo), detail::pane_shares(pane, cos_theta).reflected);
 }
-// [thin glass sample]
 
 /// Refuses an index or a tint that no pane can have.
 /// \param pane  The pane.
 /// \throws std::invalid_argument naming the member.
 template <std::floating_point T>
 void check(const ThinGlassT<T>& pane) {
-    require_index("thin_glass.index", pane.index);
+    detail::require_index("thin_glass.index", pane.index);
     require_unit("thin_glass.tint", pane.tint);
 }
 

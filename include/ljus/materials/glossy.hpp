@@ -18,6 +18,8 @@ namespace ljus {
 /// \brief Section 3.2.4, rough mirrors: one microfacet model, from a mirror to satin.
 /// \{
 
+namespace detail {
+
 /// The reflectance of a facet that is given by its colour straight on: Schlick's.
 /// \param color      At normal incidence, in [0, 1].
 /// \param cos_theta  Cosine between ray and facet, in [0, 1].
@@ -42,6 +44,8 @@ template <std::floating_point T>
 /// small beside alpha.
 template <std::floating_point T>
 inline constexpr T min_roughness = T(0.01);
+
+} // namespace detail
 
 /// A surface of small mirrors, on both sides. Light that hits a second facet is lost:
 /// of white, at roughness 1, more than half.
@@ -84,13 +88,14 @@ template <std::floating_point T, typename F>
     const T alpha = gloss.roughness * gloss.roughness;
     const Vec3T<T> out{wo.x, wo.y, std::abs(wo.z)};
     const Vec3T<T> in{wi.x, wi.y, std::abs(wi.z)};
-    const Vec3T<T> h = half_vector(out, in);
+    const Vec3T<T> h = detail::half_vector(out, in);
     const T cos_facet = std::min(glm::dot(out, h), T(1));
-    const T r_out = ggx_lambda(alpha, out), r_in = ggx_lambda(alpha, in);
+    const T r_out = detail::ggx_lambda(alpha, out),
+            r_in = detail::ggx_lambda(alpha, in);
     const T shadowed = out.z * r_in + in.z * r_out;
-    const T f = ggx_distribution(alpha, h) / (T(2) * shadowed);
+    const T f = detail::ggx_distribution(alpha, h) / (T(2) * shadowed);
     if (!(f <= std::numeric_limits<T>::max())) return RgbT<T>{T(0)};
-    return f * facet_reflectance(gloss.reflectance, cos_facet);
+    return f * detail::facet_reflectance(gloss.reflectance, cos_facet);
 }
 // [glossy]
 
@@ -103,7 +108,6 @@ template <std::floating_point T, typename F>
 ///         side of `wo`; 0 elsewhere. Its integral is below 1: what is missing are
 ///         directions into the surface.
 /// \cite heitz2018
-// [glossy pdf]
 template <std::floating_point T, typename F>
 [[nodiscard]] T pdf(const GlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& wi,
                     Lobes which = Lobes::all) noexcept {
@@ -111,10 +115,9 @@ template <std::floating_point T, typename F>
     const T alpha = gloss.roughness * gloss.roughness;
     const Vec3T<T> out{wo.x, wo.y, std::abs(wo.z)};
     const Vec3T<T> in{wi.x, wi.y, std::abs(wi.z)};
-    return ggx_distribution(alpha, half_vector(out, in)) /
-           (T(2) * (out.z + ggx_lambda(alpha, out)));
+    return detail::ggx_distribution(alpha, detail::half_vector(out, in)) /
+           (T(2) * (out.z + detail::ggx_lambda(alpha, out)));
 }
-// [glossy pdf]
 
 /// A facet that is seen from `wo`, and the mirror direction of it. The weight is
 /// \f$ F\, G_2 / G_1 \f$, at most F.
@@ -126,7 +129,6 @@ template <std::floating_point T, typename F>
 ///         into it, or without the part.
 /// \cost One sine, one cosine, eight square roots.
 /// \cite heitz2018
-// [glossy sample]
 template <std::floating_point T, typename F>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const GlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& u,
@@ -135,22 +137,23 @@ sample(const GlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& u,
     const Vec3T<T> out{wo.x, wo.y, std::abs(wo.z)};
     if (gloss.roughness == T(0))
         return specular_sample(
-            reflect(wo), facet_reflectance(gloss.reflectance, std::min(out.z, T(1))));
+            reflect(wo),
+            detail::facet_reflectance(gloss.reflectance, std::min(out.z, T(1))));
 
     const T alpha = gloss.roughness * gloss.roughness;
-    const Vec3T<T> h = sample_visible_normal(alpha, out, Vec2T<T>{u.x, u.y});
+    const Vec3T<T> h = detail::sample_visible_normal(alpha, out, Vec2T<T>{u.x, u.y});
     Vec3T<T> in = glm::normalize(reflect(-out, h));
     if (!(in.z > T(0))) return std::nullopt; // into the surface: lost
-    const T r_out = ggx_lambda(alpha, out);
+    const T r_out = detail::ggx_lambda(alpha, out);
     const T g2_over_g1 =
-        (out.z + r_out) / (r_out + out.z / in.z * ggx_lambda(alpha, in));
-    const T cos_facet = std::min(glm::dot(out, half_vector(out, in)), T(1));
+        (out.z + r_out) / (r_out + out.z / in.z * detail::ggx_lambda(alpha, in));
+    const T cos_facet = std::min(glm::dot(out, detail::half_vector(out, in)), T(1));
     in.z = std::copysign(in.z, wo.z);
-    const RgbT<T> weight = g2_over_g1 * facet_reflectance(gloss.reflectance, cos_facet);
+    const RgbT<T> weight =
+        g2_over_g1 * detail::facet_reflectance(gloss.reflectance, cos_facet);
     if (is_black(weight)) return std::nullopt;
     return diffuse_sample(in, weight, pdf(gloss, wo, in));
 }
-// [glossy sample]
 
 /// Refuses what no facet can reflect, and a roughness out of range.
 /// \param gloss  The surface.
@@ -160,10 +163,10 @@ void check(const GlossyT<T, F>& gloss) {
     if constexpr (std::same_as<F, RgbT<T>>)
         require_unit("glossy.reflectance", gloss.reflectance);
     else
-        require_conductor("glossy.reflectance", gloss.reflectance);
+        detail::require_conductor("glossy.reflectance", gloss.reflectance);
     const T r = gloss.roughness;
-    require(r == T(0) || (r >= min_roughness<T> && r <= T(1)), "glossy.roughness", r,
-            "0, which is a mirror, or within [0.01, 1]");
+    require(r == T(0) || (r >= detail::min_roughness<T> && r <= T(1)),
+            "glossy.roughness", r, "0, which is a mirror, or within [0.01, 1]");
 }
 
 /// \}

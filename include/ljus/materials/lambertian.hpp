@@ -65,7 +65,6 @@ template <std::floating_point T>
 ///         without Lobes::diffuse.
 /// \cost One sine, one cosine, one square root.
 /// \report{Section 3.2.4}
-// [lambertian sample]
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const LambertianT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
@@ -74,7 +73,6 @@ sample(const LambertianT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
     return sample_cosine_lobe(wo, u, which,
                               [&](const Vec3T<T>&) { return surface.albedo; });
 }
-// [lambertian sample]
 
 /// Refuses an albedo outside [0, 1].
 /// \param surface  The surface.

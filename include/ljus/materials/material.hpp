@@ -192,14 +192,6 @@ material_at(const M& m, const Vec3T<typename M::Scalar>& position,
         return (m);
 }
 
-/// Whether a material has specular parts only, so that shadow rays and photon maps have
-/// nothing to ask there.
-/// \param m  The material.
-template <Material M>
-[[nodiscard]] constexpr bool is_specular(const M& m) noexcept {
-    return lobes(m) == Lobes::specular;
-}
-
 /// Whether two directions leave the same side of the surface; false on the surface.
 template <std::floating_point T>
 [[nodiscard]] constexpr bool same_side(const Vec3T<T>& a, const Vec3T<T>& b) noexcept {

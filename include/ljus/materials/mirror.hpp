@@ -77,7 +77,6 @@ using Metal = MetalT<float>; ///< MetalT in float.
 /// \return The sample; nothing if `wo` lies on the surface or without Lobes::specular.
 /// \cost Three times fresnel_conductor().
 /// \report{Section 3.2.4, Eq. (4)}
-// [metal sample]
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const MetalT<T>& metal, const Vec3T<T>& wo, const Vec3T<T>&,
@@ -87,14 +86,13 @@ sample(const MetalT<T>& metal, const Vec3T<T>& wo, const Vec3T<T>&,
     const T cos_theta = std::min(std::abs(wo.z), T(1));
     return specular_sample(reflect(wo), fresnel_conductor(cos_theta, metal.index));
 }
-// [metal sample]
 
 /// Refuses an index that no metal has.
 /// \param metal  The metal.
 /// \throws std::invalid_argument naming the member.
 template <std::floating_point T>
 void check(const MetalT<T>& metal) {
-    require_conductor("metal.index", metal.index);
+    detail::require_conductor("metal.index", metal.index);
 }
 
 /// \}

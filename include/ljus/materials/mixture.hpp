@@ -60,6 +60,8 @@ template <std::floating_point T>
     return matt ? Lobes::diffuse | Lobes::specular : Lobes::specular;
 }
 
+namespace detail {
+
 /// F: what the boundary reflects of light that travels along a direction.
 /// \param mixture  The material. If it is opaque both of its sides are outside.
 /// \param w        Unit vector; z < 0 is inside a transparent body.
@@ -102,6 +104,8 @@ mixture_shares(const MixtureT<T>& mixture, const Vec3T<T>& wo, Lobes which) noex
             .reflect = specular * (T(1) - entering)};
 }
 
+} // namespace detail
+
 /// The matt part's f: light passes the boundary twice, so that 1 - F stands there
 /// twice, and the roles of the directions can be exchanged.
 /// \param mixture  The material.
@@ -114,10 +118,10 @@ template <std::floating_point T>
 [[nodiscard]] RgbT<T> evaluate(const MixtureT<T>& mixture, const Vec3T<T>& wo,
                                const Vec3T<T>& wi) noexcept {
     if (!same_side(wo, wi)) return RgbT<T>{T(0)};
-    const T ratio = oren_nayar_ratio(mixture.sigma, wo, wi);
+    const T ratio = detail::oren_nayar_ratio(mixture.sigma, wo, wi);
     const RgbT<T> body = mixture.color * (std::numbers::inv_pi_v<T> * ratio);
-    const T out = T(1) - boundary_share(mixture, wo);
-    const T in = T(1) - boundary_share(mixture, wi);
+    const T out = T(1) - detail::boundary_share(mixture, wo);
+    const T in = T(1) - detail::boundary_share(mixture, wi);
     const T clear = mixture.transparency;
     return body * ((T(1) - mixture.reflectivity) * (T(1) - clear) * out * in);
 }
@@ -133,7 +137,7 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] T pdf(const MixtureT<T>& mixture, const Vec3T<T>& wo, const Vec3T<T>& wi,
                     Lobes which = Lobes::all) noexcept {
-    const auto share = mixture_shares(mixture, wo, which);
+    const auto share = detail::mixture_shares(mixture, wo, which);
     if (!(share.diffuse > T(0))) return T(0);
     return share.diffuse / share.sum() * pdf_cosine_lobe(wo, wi, Lobes::diffuse);
 }
@@ -149,13 +153,12 @@ template <std::floating_point T>
 /// \return The sample; nothing if `wo` lies on the surface or all shares are 0.
 /// \cost Fresnel once for `wo`, and for the matt part once for `wi`.
 /// \report{Sections 3.2.1, 3.2.4 and 3.2.5}
-// [mixture sample]
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const MixtureT<T>& mixture, const Vec3T<T>& wo, const Vec3T<T>& u,
        Transport transport, Lobes which = Lobes::all) noexcept {
     if (!(wo.z > T(0) || wo.z < T(0))) return std::nullopt;
-    const auto share = mixture_shares(mixture, wo, which);
+    const auto share = detail::mixture_shares(mixture, wo, which);
     const T sum = share.sum();
     if (!(sum > T(0))) return std::nullopt;
     const T choice = u.z * sum;
@@ -163,8 +166,8 @@ sample(const MixtureT<T>& mixture, const Vec3T<T>& wo, const Vec3T<T>& u,
     if (choice < share.diffuse) {
         auto matt = sample_cosine_lobe(wo, u, Lobes::diffuse, [&](const Vec3T<T>& wi) {
             const RgbT<T> tint = mixture.color / max_component(mixture.color);
-            const T ratio = oren_nayar_ratio(mixture.sigma, wo, wi);
-            return tint * (sum * ratio * (T(1) - boundary_share(mixture, wi)));
+            const T ratio = detail::oren_nayar_ratio(mixture.sigma, wo, wi);
+            return tint * (sum * ratio * (T(1) - detail::boundary_share(mixture, wi)));
         });
         if (matt) matt->pdf *= share.diffuse / sum;
         return matt;
@@ -178,7 +181,6 @@ sample(const MixtureT<T>& mixture, const Vec3T<T>& wo, const Vec3T<T>& u,
     }
     return specular_sample(reflect(wo), RgbT<T>{sum});
 }
-// [mixture sample]
 
 /// The absorption inside, per scene unit; see transmittance().
 /// \param mixture  The material.
@@ -203,11 +205,11 @@ void check(const MixtureT<T>& mixture) {
     require_unit("mixture.color", mixture.color);
     require_unit("mixture.reflectivity", mixture.reflectivity);
     require_unit("mixture.transparency", mixture.transparency);
-    require_index("mixture.index", mixture.index);
+    detail::require_index("mixture.index", mixture.index);
     require_unit("mixture.specularity", mixture.specularity);
     require(std::isfinite(mixture.emissivity) && mixture.emissivity >= T(0),
             "mixture.emissivity", mixture.emissivity, "finite and at least 0");
-    require_roughness("mixture.sigma", mixture.sigma);
+    detail::require_roughness("mixture.sigma", mixture.sigma);
     require_radiance("mixture.absorption", mixture.absorption);
 }
 

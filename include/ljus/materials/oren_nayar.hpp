@@ -35,6 +35,8 @@ template <std::floating_point T>
     return Lobes::diffuse;
 }
 
+namespace detail {
+
 /// The ratio of the qualitative model to Lambert's.
 ///
 /// \f[ A + B\,\max(0, \cos(\phi_i - \phi_o))\,\sin\alpha\,\tan\beta, \quad
@@ -61,6 +63,8 @@ template <std::floating_point T>
 }
 // [oren nayar]
 
+} // namespace detail
+
 /// The BRDF: Lambert's albedo/pi times oren_nayar_ratio(). Light that goes from facet
 /// to facet is left out, so that white returns less than all at most angles; at grazing
 /// ones the model returns up to 1.5 percent too much.
@@ -73,8 +77,8 @@ template <std::floating_point T>
 [[nodiscard]] RgbT<T> evaluate(const OrenNayarT<T>& surface, const Vec3T<T>& wo,
                                const Vec3T<T>& wi) noexcept {
     if (!same_side(wo, wi)) return RgbT<T>{T(0)};
-    return surface.albedo *
-           (std::numbers::inv_pi_v<T> * oren_nayar_ratio(surface.sigma, wo, wi));
+    return surface.albedo * (std::numbers::inv_pi_v<T> *
+                             detail::oren_nayar_ratio(surface.sigma, wo, wi));
 }
 
 /// The density of sample(): pdf_cosine_lobe().
@@ -101,9 +105,11 @@ sample(const OrenNayarT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
        Transport /*transport*/, Lobes which = Lobes::all) noexcept {
     if (is_black(surface.albedo)) return std::nullopt;
     return sample_cosine_lobe(wo, u, which, [&](const Vec3T<T>& wi) {
-        return surface.albedo * oren_nayar_ratio(surface.sigma, wo, wi);
+        return surface.albedo * detail::oren_nayar_ratio(surface.sigma, wo, wi);
     });
 }
+
+namespace detail {
 
 /// Refuses a roughness that is no angle.
 /// \param what   The name of the roughness, e.g. "oren_nayar.sigma".
@@ -115,13 +121,15 @@ void require_roughness(std::string_view what, T sigma) {
             "within [0, 1000] radians (the model saturates near 1)");
 }
 
+} // namespace detail
+
 /// Refuses an albedo outside [0, 1] and a roughness that is no angle.
 /// \param surface  The surface.
 /// \throws std::invalid_argument naming the member.
 template <std::floating_point T>
 void check(const OrenNayarT<T>& surface) {
     require_unit("oren_nayar.albedo", surface.albedo);
-    require_roughness("oren_nayar.sigma", surface.sigma);
+    detail::require_roughness("oren_nayar.sigma", surface.sigma);
 }
 
 /// \}

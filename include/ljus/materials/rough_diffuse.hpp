@@ -35,6 +35,8 @@ using RoughDiffuse = RoughDiffuseT<float>; ///< RoughDiffuseT in float.
 /// \name The formulas, over albedo/pi
 /// \{
 
+namespace detail {
+
 /// As the report's program has it: the cosine between the directions stands for that
 /// between their azimuths, and the sum is cut at 1.
 /// \param sigma  Radians.
@@ -147,7 +149,11 @@ template <std::floating_point T>
 }
 // [fujii]
 
+} // namespace detail
+
 /// \}
+
+namespace detail {
 
 /// Pi times the BRDF: what a cosine-weighted sample is multiplied by.
 /// \param surface  The surface.
@@ -173,6 +179,8 @@ template <std::floating_point T>
     return surface.albedo * rough_fon(surface.sigma, wo, wi);
 }
 
+} // namespace detail
+
 /// What there is: a diffuse part, even if it is black.
 template <std::floating_point T>
 [[nodiscard]] constexpr Lobes lobes(const RoughDiffuseT<T>&) noexcept {
@@ -188,7 +196,7 @@ template <std::floating_point T>
 [[nodiscard]] RgbT<T> evaluate(const RoughDiffuseT<T>& surface, const Vec3T<T>& wo,
                                const Vec3T<T>& wi) noexcept {
     if (!same_side(wo, wi)) return RgbT<T>{T(0)};
-    return std::numbers::inv_pi_v<T> * rough_weight(surface, wo, wi);
+    return std::numbers::inv_pi_v<T> * detail::rough_weight(surface, wo, wi);
 }
 
 /// The density of sample(): pdf_cosine_lobe().
@@ -212,7 +220,7 @@ sample(const RoughDiffuseT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
        Transport /*transport*/, Lobes which = Lobes::all) noexcept {
     if (is_black(surface.albedo)) return std::nullopt;
     return sample_cosine_lobe(wo, u, which, [&](const Vec3T<T>& wi) {
-        return rough_weight(surface, wo, wi);
+        return detail::rough_weight(surface, wo, wi);
     });
 }
 
@@ -226,7 +234,7 @@ void check(const RoughDiffuseT<T>& surface) {
     if (surface.model == RoughModel::fon)
         require_unit("rough_diffuse.sigma", surface.sigma);
     else
-        require_roughness("rough_diffuse.sigma", surface.sigma);
+        detail::require_roughness("rough_diffuse.sigma", surface.sigma);
 }
 
 /// \}

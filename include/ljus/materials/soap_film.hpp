@@ -43,9 +43,13 @@ struct SoapFilmT {
 };
 using SoapFilm = SoapFilmT<float>; ///< SoapFilmT in float.
 
+namespace detail {
+
 /// How thick a film can be here, in nm: 1 mm.
 template <std::floating_point T>
 inline constexpr T max_film_thickness = T(1e6);
+
+} // namespace detail
 
 /// How thick a film is at a point.
 /// \param film      The film.
@@ -59,7 +63,8 @@ template <std::floating_point T>
     const T height = glm::dot(position - film.level, film.up);
     const T thickness = film.thickness * std::exp(-height / film.scale);
     // So that 0 times infinity, far below a film of no thickness, is thick.
-    return thickness < max_film_thickness<T> ? thickness : max_film_thickness<T>;
+    return thickness < detail::max_film_thickness<T> ? thickness
+                                                     : detail::max_film_thickness<T>;
 }
 // [thickness_at]
 
@@ -68,7 +73,6 @@ template <std::floating_point T>
 /// \param cos_theta  Cosine between ray and normal, of either sign.
 /// \param thickness  In nm.
 /// \return R for each channel, in [0, 1].
-// [film_reflectance]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> reflectance(const SoapFilmT<T>& film, T cos_theta,
                                   T thickness) noexcept {
@@ -83,7 +87,8 @@ template <std::floating_point T>
     }
     return into_gamut(film_preintegrated(c, film.index, thickness));
 }
-// [film_reflectance]
+
+namespace detail {
 
 /// A point of a film: what the film is there.
 template <std::floating_point T>
@@ -92,12 +97,15 @@ struct FilmPointT {
     T thickness;              ///< In nm, here.
 };
 
+} // namespace detail
+
 /// A film at a point; see material_at().
 /// \param film      The film; must outlive the result.
 /// \param position  The point.
 template <std::floating_point T>
-[[nodiscard]] FilmPointT<T> at_point(const SoapFilmT<T>& film, const Vec3T<T>& position,
-                                     const Vec2T<T>& /*uv*/) noexcept {
+[[nodiscard]] detail::FilmPointT<T> at_point(const SoapFilmT<T>& film,
+                                             const Vec3T<T>& position,
+                                             const Vec2T<T>& /*uv*/) noexcept {
     return {film, thickness_at(film, position)};
 }
 
@@ -122,23 +130,21 @@ template <std::floating_point T>
 /// \param which  The parts to sample from.
 /// \return The sample; nothing if `wo` lies on the surface or without Lobes::specular.
 /// \report{Figure 4}
-// [film sample]
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
-sample(const FilmPointT<T>& point, const Vec3T<T>& wo, const Vec3T<T>&,
+sample(const detail::FilmPointT<T>& point, const Vec3T<T>& wo, const Vec3T<T>&,
        Transport /*transport*/, Lobes which = Lobes::all) noexcept {
     if (!has(which, Lobes::specular) || !(wo.z > T(0) || wo.z < T(0)))
         return std::nullopt;
     return specular_sample(reflect(wo), reflectance(point.film, wo.z, point.thickness));
 }
-// [film sample]
 
 /// The same for a film as thick as at its level.
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const SoapFilmT<T>& film, const Vec3T<T>& wo, const Vec3T<T>& u,
        Transport transport, Lobes which = Lobes::all) noexcept {
-    return sample(FilmPointT<T>{film, film.thickness}, wo, u, transport, which);
+    return sample(detail::FilmPointT<T>{film, film.thickness}, wo, u, transport, which);
 }
 
 /// Refuses a film that cannot be.
@@ -146,9 +152,9 @@ sample(const SoapFilmT<T>& film, const Vec3T<T>& wo, const Vec3T<T>& u,
 /// \throws std::invalid_argument naming the member.
 template <std::floating_point T>
 void check(const SoapFilmT<T>& film) {
-    require(film.thickness >= T(0) && film.thickness <= max_film_thickness<T>,
+    require(film.thickness >= T(0) && film.thickness <= detail::max_film_thickness<T>,
             "soap_film.thickness", film.thickness, "within [0, 1e6] nm");
-    require_index("soap_film.index", film.index);
+    detail::require_index("soap_film.index", film.index);
     require(film.index >= T(1), "soap_film.index", film.index, "at least 1");
     require(std::isfinite(film.scale) && film.scale >= T(0), "soap_film.scale",
             film.scale, "finite and at least 0");

@@ -25,6 +25,8 @@ struct Textured {
     Texture texture{}; ///< In [0, 1] everywhere.
 };
 
+namespace detail {
+
 /// A material in another colour; its `albedo`, `reflectance`, `tint` or `color` is it.
 /// \param base   The material.
 /// \param color  What its colour is multiplied by.
@@ -43,6 +45,8 @@ colored(Base base, const RgbT<typename Base::Scalar>& color) noexcept {
     return base;
 }
 
+} // namespace detail
+
 /// The material of a place: the base in the texture's colour.
 /// \param textured  The material.
 /// \param position  In scene units.
@@ -54,7 +58,7 @@ template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] Base at_point(const Textured<Base, Texture>& textured,
                             const Vec3T<T>& position, const Vec2T<T>& uv) noexcept {
     const RgbT<T> color = color_at(textured.texture, position, uv);
-    return colored(textured.base, color);
+    return detail::colored(textured.base, color);
 }
 // [at_point]
 

@@ -26,7 +26,6 @@ using Frame = FrameT<float>; ///< FrameT in float.
 /// \param n  Unit vector.
 /// \return A right-handed frame, orthonormal within 2 units of roundoff.
 /// \cost One division, no square root, no branch.
-// [frame]
 template <std::floating_point T>
 [[nodiscard]] FrameT<T> frame_around(const Vec3T<T>& n) noexcept {
     const T sign = std::copysign(T(1), n.z);
@@ -36,7 +35,6 @@ template <std::floating_point T>
             .bitangent{b, sign + n.y * n.y * a, -n.y},
             .normal = n};
 }
-// [frame]
 
 /// A vector of the world, seen in the frame.
 /// \param frame  Orthonormal frame.

@@ -19,6 +19,8 @@ namespace ljus {
 /// than chance.
 /// \{
 
+namespace detail {
+
 /// How many dimensions sobol() has.
 inline constexpr std::uint32_t sobol_dimensions = 16;
 
@@ -30,7 +32,6 @@ using SobolTable = std::array<std::array<std::uint32_t, 32>, sobol_dimensions>;
 /// polynomial (degree s, inner coefficients a) and s odd numbers a dimension.
 /// \return The table; made by the compiler.
 /// \cite joe2008
-// [sobol_table]
 [[nodiscard]] constexpr SobolTable make_sobol_table() noexcept {
     struct Seed {
         unsigned s, a, m[6];
@@ -63,7 +64,6 @@ using SobolTable = std::array<std::array<std::uint32_t, 32>, sobol_dimensions>;
     }
     return table;
 }
-// [sobol_table]
 
 /// The table.
 inline constexpr SobolTable sobol_table = make_sobol_table();
@@ -74,15 +74,13 @@ inline constexpr SobolTable sobol_table = make_sobol_table();
 /// \return The coordinate times 2^32. The first 2^m points are a (t,m,s)-net: t is 0
 ///         in each dimension alone and in dimensions 0 and 1 together.
 /// \cost One exclusive or a bit of the index that is set.
-// [sobol]
 [[nodiscard]] constexpr std::uint32_t sobol(std::uint32_t index,
                                             std::uint32_t dimension) noexcept {
     std::uint32_t bits = 0;
     for (std::size_t i = 0; index != 0; ++i, index >>= 1)
-        if (index & 1u) bits ^= sobol_table[dimension][i];
+        if (index & 1u) bits ^= detail::sobol_table[dimension][i];
     return bits;
 }
-// [sobol]
 
 /// The bits in the opposite order.
 /// \param x  Any number.
@@ -120,6 +118,8 @@ inline constexpr SobolTable sobol_table = make_sobol_table();
 }
 // [owen]
 
+} // namespace detail
+
 /// The numbers of one path out of many that shall be spread evenly together: the first
 /// sobol_dimensions are a scrambled point of Sobol, all further ones are random. Draw
 /// from it as from a RandomStream.
@@ -147,6 +147,8 @@ struct SobolStream {
             .rest = random_stream(seed, pass, iteration, path)};
 }
 
+namespace detail {
+
 /// The stream of one path whose numbers are all random: those of random_stream(), for
 /// code that shall be compiled once for both.
 /// \param rest  Where the numbers come from.
@@ -154,6 +156,8 @@ struct SobolStream {
 [[nodiscard]] constexpr SobolStream without_points(const RandomStream& rest) noexcept {
     return {.dimension = sobol_dimensions, .rest = rest};
 }
+
+} // namespace detail
 
 /// Moves a stream to the start of a bounce. The dimensions of the point go on: paths
 /// that draw equally much in each bounce meet the same ones.
@@ -166,19 +170,18 @@ constexpr void start_bounce(SobolStream& stream, std::uint64_t bounce) noexcept 
 /// The next number, uniform in [0, 1): never 1, in float or in double.
 /// \param stream  Moves on by one dimension.
 /// \return A multiple of 2^-24 (float) or 2^-32 (double, while the dimensions last).
-// [next_sobol]
 template <std::floating_point T = float>
 [[nodiscard]] constexpr T next_1d(SobolStream& stream) noexcept {
     const std::uint32_t d = stream.dimension;
-    if (d >= sobol_dimensions) return next_1d<T>(stream.rest);
+    if (d >= detail::sobol_dimensions) return next_1d<T>(stream.rest);
     ++stream.dimension;
-    const std::uint32_t bits = owen_scrambled(sobol(stream.index, d), stream.seed + d);
+    const std::uint32_t bits =
+        detail::owen_scrambled(detail::sobol(stream.index, d), stream.seed + d);
     if constexpr (sizeof(T) == 4)
         return static_cast<T>(bits >> 8) * T(0x1p-24);
     else
         return static_cast<T>(bits) * T(0x1p-32);
 }
-// [next_sobol]
 
 /// The next point of the unit square [0, 1)^2.
 /// \param stream  Moves on by two dimensions.

@@ -20,17 +20,17 @@ namespace ljus {
 /// \brief Section 2.1: isosurfaces "treated analytically". Chapter: \ref ch_metaballs.
 /// \{
 
+namespace detail {
+
 /// A polynomial of degree N on [0, 1], as its Bernstein coefficients:
 /// \f[ p(u) = \sum_{i=0}^{N} c_i \binom{N}{i} u^i (1 - u)^{N-i}. \f]
 /// The first and the last are the values at the ends; p lies between the least and the
 /// largest; and it has no more roots in (0, 1) than the row changes its sign, and as
 /// many or fewer by an even number \cite farouki2012.
-// [bernstein]
 template <std::floating_point T, std::size_t N>
 struct BernsteinT {
     std::array<T, N + 1> c{}; ///< c_0 to c_N.
 };
-// [bernstein]
 
 /// The coefficients 1, N, ..., N, 1 of (a + b)^N.
 template <std::floating_point T, std::size_t N>
@@ -186,7 +186,6 @@ template <std::floating_point T, std::size_t N>
 /// \return Where it first crosses zero in (0, 1], or touches it within noise() at an
 ///         extremum; nothing if it keeps its sign, and nothing for a NaN.
 /// \cost No evaluation if the coefficients have one sign; one root if they change once.
-// [first_change]
 template <std::floating_point T, std::size_t N>
 [[nodiscard]] std::optional<T> first_change(const BernsteinT<T, N>& p) noexcept {
     const int changes = sign_changes(p);
@@ -204,7 +203,6 @@ template <std::floating_point T, std::size_t N>
     if (sign * p.c[N] < T(0)) return root_between(p, before, T(1));
     return std::nullopt;
 }
-// [first_change]
 
 /// A polynomial in powers, c[0] + c[1] x + ... + c[N] x^N, on an interval: as Bernstein
 /// coefficients over it.
@@ -227,24 +225,7 @@ template <std::floating_point T, std::size_t M>
     return {p};
 }
 
-/// All roots of a polynomial in powers that lie in an interval.
-/// \param p     c[0] to c[N]; leading coefficients may be tiny or 0.
-/// \param low   The interval's lower end, finite.
-/// \param high  Its upper end, finite and above it.
-/// \return As roots() has it, with the tolerance 8 (N + 1) eps times the sum of
-///         |c_i| m^i, m the larger of |low| and |high|: what rounding may have done.
-template <std::floating_point T, std::size_t M>
-[[nodiscard]] RootsT<T, M - 1> roots_in(const std::array<T, M>& p, T low,
-                                        T high) noexcept {
-    const T m = glm::max(std::abs(low), std::abs(high));
-    T size = T(0);
-    for (std::size_t i = M; i-- > 0;) size = size * m + std::abs(p[i]);
-    const T tolerance = T(8 * M) * std::numeric_limits<T>::epsilon() * size;
-    auto result = roots(on_interval(p, low, high), tolerance);
-    for (std::size_t i = 0; i < result.count; ++i)
-        result.at[i] = glm::min(high, low + result.at[i] * (high - low));
-    return result;
-}
+} // namespace detail
 
 /// \}
 

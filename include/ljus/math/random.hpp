@@ -27,13 +27,11 @@ enum class Pass : std::uint32_t {
 /// finaliser of SplitMix64 \cite steele2014, a bijection.
 /// \param x  Any number.
 /// \return The scrambled number.
-// [mix]
 [[nodiscard]] constexpr std::uint64_t mix_bits(std::uint64_t x) noexcept {
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
     x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
     return x ^ (x >> 31);
 }
-// [mix]
 
 /// The numbers of one path. The n-th number is a function of the key and of n alone;
 /// n holds the bounce in its upper and the dimension in its lower 16 bits.
@@ -69,7 +67,6 @@ constexpr void start_bounce(RandomStream& stream, std::uint64_t bounce) noexcept
 /// \param stream  Moves on by one dimension.
 /// \return A multiple of 2^-24 (float) or 2^-53 (double).
 /// \cost Two multiplications and a few shifts; no state is shared.
-// [next]
 template <std::floating_point T = float>
 [[nodiscard]] constexpr T next_1d(RandomStream& stream) noexcept {
     constexpr std::uint64_t odd = 0x9e3779b97f4a7c15u;
@@ -79,7 +76,6 @@ template <std::floating_point T = float>
     else
         return static_cast<T>(bits >> 11) * T(0x1p-53);
 }
-// [next]
 
 /// The next point of the unit square [0, 1)^2.
 /// \param stream  Moves on by two dimensions.

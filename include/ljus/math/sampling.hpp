@@ -23,7 +23,6 @@ namespace ljus {
 /// \param u  Point of [0,1)^2.
 /// \return Point with x^2 + y^2 <= 1; the border itself belongs to it.
 /// \cost One division, one sine, one cosine.
-// [concentric disc]
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> sample_concentric_disc(const Vec2T<T>& u) noexcept {
     constexpr T quarter = std::numbers::pi_v<T> / T(4);
@@ -37,7 +36,6 @@ template <std::floating_point T>
     const T phi = quarter * (a / b); // measured from the y axis
     return {b * std::sin(phi), b * std::cos(phi)};
 }
-// [concentric disc]
 
 /// The density of sample_concentric_disc(), per unit of area.
 /// \param p  Point of the plane.
@@ -87,7 +85,6 @@ template <std::floating_point T>
 /// \param one_minus_cos_max  1 - cos of the half angle, in (0, 2]; 1 is the hemisphere.
 /// \return Unit vector within the cone.
 /// \cost One square root, one sine, one cosine.
-// [cone]
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> sample_uniform_cone(const Vec2T<T>& u,
                                            T one_minus_cos_max) noexcept {
@@ -96,7 +93,6 @@ template <std::floating_point T>
     const T phi = T(2) * std::numbers::pi_v<T> * u.y;
     return {r * std::cos(phi), r * std::sin(phi), T(1) - w};
 }
-// [cone]
 
 /// The density of sample_uniform_cone() for the directions inside, per steradian.
 /// \param one_minus_cos_max  1 - cos of the half angle, in (0, 2].
@@ -107,6 +103,8 @@ template <std::floating_point T>
     return std::numbers::inv_pi_v<T> / (T(2) * one_minus_cos_max);
 }
 
+namespace detail {
+
 /// 1 - cos(theta) from the squared sine, without cancellation.
 /// \param sin_squared  sin^2(theta) in [0, 1], of an angle up to 90 degrees: for a
 ///                     sphere seen from outside, radius^2 / distance^2.
@@ -115,6 +113,8 @@ template <std::floating_point T>
 [[nodiscard]] T one_minus_cosine(T sin_squared) noexcept {
     return sin_squared / (T(1) + std::sqrt(T(1) - sin_squared));
 }
+
+} // namespace detail
 
 /// A direction above the horizon, uniform in solid angle.
 /// \param u  Point of [0,1)^2.
@@ -151,7 +151,6 @@ template <std::floating_point T>
 /// \param u  Point of [0,1)^2.
 /// \return Barycentric coordinates of the three vertices, each >= 0, with sum 1.
 /// \cost Five additions and multiplications.
-// [triangle]
 template <std::floating_point T>
 [[nodiscard]] constexpr Vec3T<T> sample_uniform_triangle(const Vec2T<T>& u) {
     if (u.x < u.y) {
@@ -161,7 +160,6 @@ template <std::floating_point T>
     const T half = u.y / T(2);
     return {u.x - half, half, T(1) - u.x};
 }
-// [triangle]
 
 /// The density of sample_uniform_triangle(), per unit of area.
 /// \param area  The triangle's area, > 0; 1/2 for the barycentric plane itself.

@@ -15,6 +15,8 @@ namespace ljus {
 /// \brief Section 3.2: "stratified grid sampling".
 /// \{
 
+namespace detail {
+
 /// A pixel cut into columns x rows cells, or only into columns and rows.
 struct Strata {
     int columns = 1; ///< Cells side by side.
@@ -49,7 +51,6 @@ struct Strata {
 /// \return The place; each place once, and each as often as any over the keys.
 /// \cost At most two scrambles in the mean.
 /// \cite kensler2013
-// [shuffled]
 [[nodiscard]] constexpr std::uint32_t shuffled(std::uint32_t i, std::uint32_t count,
                                                std::uint64_t key) noexcept {
     std::uint32_t mask = count - 1;
@@ -69,7 +70,6 @@ struct Strata {
     const std::uint64_t step = ((mix_bits(~bits) >> 32) * count) >> 32; // in [0, count)
     return static_cast<std::uint32_t>((i + step) % count);
 }
-// [shuffled]
 
 /// The place of one ray within its pixel.
 /// \param strata  From strata_for().
@@ -79,7 +79,6 @@ struct Strata {
 /// \return Point of the unit square, uniform over all rays and keys; rounding may put
 ///         it onto the far border of its cell, and so onto 1.
 /// \report{Section 3.2}
-// [stratified]
 template <std::floating_point T>
 [[nodiscard]] constexpr Vec2T<T> stratified(const Strata& strata, int ray,
                                             std::uint64_t key,
@@ -92,7 +91,8 @@ template <std::floating_point T>
             : ray / strata.columns;
     return {(T(column) + u.x) / T(strata.columns), (T(row) + u.y) / T(strata.rows)};
 }
-// [stratified]
+
+} // namespace detail
 
 /// \}
 
@@ -114,17 +114,16 @@ enum class Sampling : std::uint8_t {
 struct Pattern {
     Sampling sampling = Sampling::multi_jittered; ///< Which one.
     int points = 1;                               ///< How many there will be.
-    Strata strata{};                              ///< Its cells, if it has any.
+    detail::Strata strata{};                      ///< Its cells, if it has any.
 };
 
 /// Prepares a pattern.
 /// \param sampling  Which one.
 /// \param points    At least 1.
 /// \return The pattern.
-// [make_pattern]
 [[nodiscard]] constexpr Pattern make_pattern(Sampling sampling, int points) noexcept {
     Pattern pattern{.sampling = sampling, .points = points};
-    if (sampling == Sampling::jittered) pattern.strata = strata_for(points);
+    if (sampling == Sampling::jittered) pattern.strata = detail::strata_for(points);
     if (sampling == Sampling::multi_jittered) {
         int columns = 1;
         while (columns + 1 <= points / (columns + 1)) ++columns;
@@ -133,7 +132,8 @@ struct Pattern {
     }
     return pattern;
 }
-// [make_pattern]
+
+namespace detail {
 
 /// A point of a correlated multi-jittered pattern.
 ///
@@ -168,7 +168,6 @@ template <std::floating_point T>
 /// \return Point of the unit square, below 1. The first 2^k points lie one in each cell
 ///         of every dyadic grid of 2^k cells.
 /// \cite owen1995 \cite burley2020
-// [scrambled_sobol]
 template <std::floating_point T>
 [[nodiscard]] constexpr Vec2T<T> scrambled_sobol(int number,
                                                  std::uint64_t key) noexcept {
@@ -176,7 +175,6 @@ template <std::floating_point T>
                        .index = static_cast<std::uint32_t>(number)};
     return next_2d<T>(stream);
 }
-// [scrambled_sobol]
 
 /// The place of one ray within its pixel.
 /// \param pattern  From make_pattern().
@@ -203,6 +201,8 @@ template <std::floating_point T>
     }
 }
 // [spread]
+
+} // namespace detail
 
 /// \}
 

@@ -52,6 +52,8 @@ constexpr void start_bounce(StratifiedStream& stream, std::uint64_t bounce) noex
     start_bounce(stream.rest, bounce);
 }
 
+namespace detail {
+
 /// The ray's number in the order of the next draw, and the draw's key.
 /// \param stream  Moves on by one draw.
 /// \param key     Set to the draw's key.
@@ -70,18 +72,18 @@ template <std::floating_point T>
     return x < last ? x : last;
 }
 
+} // namespace detail
+
 /// The next number, uniform in [0, 1): each of the pixel's rays has a part of its own.
 /// \param stream  Moves on by one draw.
 /// \return The number.
-// [next 1d]
 template <std::floating_point T = float>
 [[nodiscard]] constexpr T next_1d(StratifiedStream& stream) noexcept {
     std::uint64_t key = 0;
-    const T cell = T(next_cell(stream, key)), u = next_1d<T>(stream.rest);
+    const T cell = T(detail::next_cell(stream, key)), u = next_1d<T>(stream.rest);
     if (stream.pattern.sampling == Sampling::random) return u;
-    return below_one((cell + u) / T(stream.pattern.points));
+    return detail::below_one((cell + u) / T(stream.pattern.points));
 }
-// [next 1d]
 
 /// The next point of the unit square: each of the pixel's rays has a place of its own.
 /// \param stream  Moves on by one draw.
@@ -90,9 +92,10 @@ template <std::floating_point T = float>
 template <std::floating_point T = float>
 [[nodiscard]] constexpr Vec2T<T> next_2d(StratifiedStream& stream) noexcept {
     std::uint64_t key = 0;
-    const auto cell = static_cast<int>(next_cell(stream, key));
-    const Vec2T<T> u = spread(stream.pattern, cell, ~key, next_2d<T>(stream.rest));
-    return {below_one(u.x), below_one(u.y)};
+    const auto cell = static_cast<int>(detail::next_cell(stream, key));
+    const Vec2T<T> u =
+        detail::spread(stream.pattern, cell, ~key, next_2d<T>(stream.rest));
+    return {detail::below_one(u.x), detail::below_one(u.y)};
 }
 // [next 2d]
 

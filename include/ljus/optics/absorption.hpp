@@ -25,14 +25,12 @@ namespace ljus {
 /// \param distance  Length of the way, in scene units, >= 0, finite.
 /// \return T in [0, 1] for each channel; 1 without absorption.
 /// \cost Three exponentials, or none if `sigma` is 0.
-// [transmittance]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> transmittance(const RgbT<T>& sigma, T distance) {
     if (is_black(sigma)) return RgbT<T>{T(1)};
     return {std::exp(-sigma.x * distance), std::exp(-sigma.y * distance),
             std::exp(-sigma.z * distance)};
 }
-// [transmittance]
 
 /// The absorption that turns white light into a colour on its way.
 /// \param color     Linear colour after `distance`, each channel in (0, 1]. A channel

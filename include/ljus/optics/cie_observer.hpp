@@ -14,6 +14,8 @@ namespace ljus {
 /// \brief What red, green and blue a spectrum is.
 /// \{
 
+namespace detail {
+
 /// One side of a bell has one width, the other side another.
 /// \param wavelength  In nm.
 /// \param center      In nm.
@@ -26,6 +28,8 @@ template <std::floating_point T>
     return std::exp(-x * x / T(2));
 }
 
+} // namespace detail
+
 /// The colour matching functions of the CIE's standard observer of 1931, for 2 degrees,
 /// by a fit with seven bells: at most 0.03 from the table, where its values go up to
 /// 1.8.
@@ -37,7 +41,7 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> cie_observer(T wavelength) noexcept {
     const auto bell = [&](double center, double left, double right) {
-        return lopsided_bell(wavelength, T(center), T(left), T(right));
+        return detail::lopsided_bell(wavelength, T(center), T(left), T(right));
     };
     return {T(0.362) * bell(442.0, 0.0624, 0.0374) +
                 T(1.056) * bell(599.8, 0.0264, 0.0323) -
@@ -49,13 +53,14 @@ template <std::floating_point T>
 }
 // [observer]
 
+namespace detail {
+
 /// Linear sRGB of a colour, such that light of equal energy at all wavelengths, X = Y =
 /// Z = 1, is the screen's white: what reflects all light has to be (1, 1, 1), whatever
 /// the lamp. (X, Y and Z are scaled by those of the screen's white, and then the
 /// standard's matrix follows.)
 /// \param xyz  Relative to equal energy.
 /// \return Linear sRGB. A pure colour has a channel below 0: no screen shows it.
-// [xyz_to_rgb]
 template <std::floating_point T>
 [[nodiscard]] constexpr RgbT<T> xyz_to_rgb(const Vec3T<T>& xyz) noexcept {
     // The rows of IEC 61966-2-1 times (0.95047, 1, 1.08883); they add up to 1.
@@ -67,7 +72,8 @@ template <std::floating_point T>
     };
     return {row(r), row(g), row(b)};
 }
-// [xyz_to_rgb]
+
+} // namespace detail
 
 /// The colour that a screen can show and a surface can have, nearest to one that it
 /// cannot: mixed with as much grey of the same luminance as brings all channels into

@@ -91,6 +91,8 @@ template <std::floating_point T>
             fresnel_conductor(cos_theta, index.n.z, index.k.z)};
 }
 
+namespace detail {
+
 /// Refuses an index that no metal has.
 /// \param what   The name of the index, e.g. "metal.index".
 /// \param index  The index.
@@ -100,6 +102,8 @@ void require_conductor(std::string_view what, const ConductorIndexT<T>& index) {
     require_radiance(std::string(what) + ".n", index.n);
     require_radiance(std::string(what) + ".k", index.k);
 }
+
+} // namespace detail
 
 /// \}
 

@@ -16,6 +16,8 @@ namespace ljus {
 /// \addtogroup microfacet
 /// \{
 
+namespace detail {
+
 /// What white facets do not return of light at an angle \cite kulla2017, in a table
 /// over the cosine mu, with steps that are small at the horizon, and within alpha of it
 /// smaller still: there the loss is steep.
@@ -71,7 +73,6 @@ template <std::floating_point T>
 /// \param u     In [0, 1).
 /// \return mu in [0, 1].
 /// \cost A binary search and a square root.
-// [sample lost]
 template <std::floating_point T>
 [[nodiscard]] T sample_lost(const EnergyLossT<T>& loss, T u) noexcept {
     const auto above =
@@ -83,13 +84,11 @@ template <std::floating_point T>
     const T share = to > from ? std::clamp((u - from) / (to - from), T(0), T(1)) : T(0);
     return std::sqrt(low * low + share * (high - low) * (high + low));
 }
-// [sample lost]
 
 /// The density of sample_lost(), with an even azimuth.
 /// \param loss       The table, not a mirror's.
 /// \param cos_theta  mu, in [0, 1].
 /// \return Per steradian.
-// [pdf lost]
 template <std::floating_point T>
 [[nodiscard]] T pdf_lost(const EnergyLossT<T>& loss, T cos_theta) noexcept {
     const int i =
@@ -100,9 +99,6 @@ template <std::floating_point T>
     return (loss.below[cell + 1] - loss.below[cell]) * cos_theta *
            std::numbers::inv_pi_v<T> / ((high - low) * (high + low));
 }
-// [pdf lost]
-
-namespace detail {
 
 // The mean of 1 - G2/G1 over the facets that are seen: what reflection into another
 // facet costs. Most of it is at u.y close to 1, where facets are steep; there the grid
@@ -128,14 +124,11 @@ inline double energy_loss(double alpha, double mu) {
     return sum / (rows * columns);
 }
 
-} // namespace detail
-
 /// Makes the table of one roughness, in double.
 /// \param alpha  Roughness; 0 is a mirror, else in [1e-4, 1].
 /// \return The table: below the loss, by 4e-4 at most, so that no step of it makes
 ///         light; above it by less than 1e-5, at the horizon.
 /// \cost 0.6 million visible normals: about 50 ms.
-// [bake facets]
 template <std::floating_point T = float>
 [[nodiscard]] EnergyLossT<T> bake_energy_loss(T alpha) {
     EnergyLossT<T> loss{.alpha = alpha};
@@ -166,7 +159,8 @@ template <std::floating_point T = float>
         loss.below[i] = static_cast<T>(sum[i] / sum.back());
     return loss;
 }
-// [bake facets]
+
+} // namespace detail
 
 /// \}
 

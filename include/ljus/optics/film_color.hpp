@@ -17,6 +17,8 @@ namespace ljus {
 /// be seen by an eye before it is red, green and blue.
 /// \{
 
+namespace detail {
+
 /// The range of wavelengths that is summed over, in nm: what is outside is not seen.
 template <std::floating_point T>
 inline constexpr std::array<T, 2> visible{T(360), T(830)};
@@ -45,6 +47,8 @@ template <std::floating_point T, typename Spectrum>
 }
 // [seen]
 
+} // namespace detail
+
 /// The colour of a film: the reference. Samples of the spectrum are as close as the
 /// film's fringes ask for; the colour may lie outside of what a screen can show.
 /// \param cos_theta  Cosine outside, in [0, 1].
@@ -52,24 +56,26 @@ template <std::floating_point T, typename Spectrum>
 /// \param thickness  In nm, >= 0.
 /// \return R as linear sRGB.
 /// \cost 470 wavelengths for a film of 400 nm, 10 000 times that for one of 1 mm.
-// [film_spectral]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> film_spectral(T cos_theta, T index, T thickness) {
     const T path = thickness * std::sqrt(film_cosine2(cos_theta, index));
     // At the shortest wavelength the phase 4 pi path / lambda moves by 1/2 a sample.
-    const T finest = visible<T>[0] * visible<T>[0] /
+    const T finest = detail::visible<T>[0] * detail::visible<T>[0] /
                      (T(8) * std::numbers::pi_v<T> * std::max(path, T(1)));
-    return seen<T>(
+    return detail::seen<T>(
         [&](T wavelength) {
             return thin_film(cos_theta, index, thickness, wavelength).reflected;
         },
         std::min(T(1), finest));
 }
-// [film_spectral]
+
+namespace detail {
 
 /// The dominant wavelengths of a screen's red, green and blue, in nm.
 template <std::floating_point T>
 inline constexpr Vec3T<T> screen_wavelengths{T(611.4), T(549.1), T(464.3)};
+
+} // namespace detail
 
 /// The colour of a film by three wavelengths, one a channel.
 /// \param cos_theta  Cosine outside, in [0, 1].
@@ -77,16 +83,16 @@ inline constexpr Vec3T<T> screen_wavelengths{T(611.4), T(549.1), T(464.3)};
 /// \param thickness  In nm, >= 0.
 /// \return R in [0, 1] for each channel: fringes never fade, however thick the film.
 /// \cost Three times thin_film().
-// [film_three]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> film_three(T cos_theta, T index, T thickness) noexcept {
     const auto at = [&](T wavelength) {
         return thin_film(cos_theta, index, thickness, wavelength).reflected;
     };
-    const Vec3T<T>& w = screen_wavelengths<T>;
+    const Vec3T<T>& w = detail::screen_wavelengths<T>;
     return {at(w.x), at(w.y), at(w.z)};
 }
-// [film_three]
+
+namespace detail {
 
 /// How much of a wave that comes late an eye still sees swing: the Fourier transform of
 /// its sensitivity, by four Gaussians over the wave number.
@@ -95,7 +101,6 @@ template <std::floating_point T>
 ///         and towards 0 for a large one.
 /// \cost Four cosines and four exponentials.
 /// \cite belcour2017
-// [swing]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> visible_swing(T delay) noexcept {
     struct Gaussian {
@@ -117,7 +122,8 @@ template <std::floating_point T>
         Vec3T<T>{(swing(fit[0]) + swing(fit[3])) / (area(fit[0]) + area(fit[3])),
                  swing(fit[1]) / area(fit[1]), swing(fit[2]) / area(fit[2])});
 }
-// [swing]
+
+} // namespace detail
 
 /// The colour of a film, integrated over the spectrum beforehand. A film's reflectance
 /// is a sum of waves that have been inside k times,
@@ -143,8 +149,9 @@ template <std::floating_point T>
     const T one_surface[] = {square((c - g) / (c + g)),
                              square((n2 * c - g) / (n2 * c + g))};
     const T delay = T(2) * thickness * g;
-    const RgbT<T> swings[] = {visible_swing(delay), visible_swing(T(2) * delay),
-                              visible_swing(T(3) * delay)};
+    const RgbT<T> swings[] = {detail::visible_swing(delay),
+                              detail::visible_swing(T(2) * delay),
+                              detail::visible_swing(T(3) * delay)};
     RgbT<T> sum{T(0)};
     for (const T r : one_surface) {
         // Of what goes through.

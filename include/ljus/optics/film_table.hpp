@@ -30,6 +30,8 @@ struct FilmTableT {
 };
 using FilmTable = FilmTableT<float>; ///< FilmTableT in float.
 
+namespace detail {
+
 /// How fine a table is.
 struct FilmTableSize {
     int cosines = 65;      ///< At least 2.
@@ -37,16 +39,18 @@ struct FilmTableSize {
     double longest = 4000; ///< In nm.
 };
 
+} // namespace detail
+
 /// Makes the table of one index, in double.
 /// \param index  In [1, 1000].
 /// \param size   How fine; by default 42 000 colours, half a megabyte in float.
 /// \return The table.
 /// \throws std::invalid_argument  for an index or a size out of range.
 /// \cost By default 10 million samples: about 0.1 s.
-// [bake]
 template <std::floating_point T = float>
-[[nodiscard]] FilmTableT<T> bake_film_table(T index, const FilmTableSize& size = {}) {
-    require_index("the index of a film", index);
+[[nodiscard]] FilmTableT<T> bake_film_table(T index,
+                                            const detail::FilmTableSize& size = {}) {
+    detail::require_index("the index of a film", index);
     require(index >= T(1), "the index of a film", index, "at least 1");
     require(size.cosines >= 2, "cosines", static_cast<long long>(size.cosines),
             "at least 2");
@@ -55,15 +59,17 @@ template <std::floating_point T = float>
 
     // As close as the fringes of the longest path ask for, see film_spectral().
     const double n = double(index);
-    const double finest =
-        visible<double>[0] * visible<double>[0] / (4 * std::numbers::pi * size.longest);
+    const double finest = detail::visible<double>[0] * detail::visible<double>[0] /
+                          (4 * std::numbers::pi * size.longest);
     const int count = static_cast<int>(
-        std::ceil((visible<double>[1] - visible<double>[0]) / std::min(2.0, finest)));
-    const double step = (visible<double>[1] - visible<double>[0]) / count;
+        std::ceil((detail::visible<double>[1] - detail::visible<double>[0]) /
+                  std::min(2.0, finest)));
+    const double step =
+        (detail::visible<double>[1] - detail::visible<double>[0]) / count;
     std::vector<Vec3T<double>> eye;
     Vec3T<double> white{0};
     const auto wavelength = [&](int i) {
-        return visible<double>[0] + (i + 0.5) * step;
+        return detail::visible<double>[0] + (i + 0.5) * step;
     };
     for (int i = 0; i < count; ++i)
         white += eye.emplace_back(cie_observer(wavelength(i)));
@@ -98,14 +104,13 @@ template <std::floating_point T = float>
             Vec3T<double> sum{0};
             for (std::size_t i = 0; i < eye.size(); ++i)
                 sum += eye[i] * film_shares(c, n, strength * sines[i]).reflected;
-            add(xyz_to_rgb(sum / white));
+            add(detail::xyz_to_rgb(sum / white));
         }
     }
     for (int column = 0; column < size.cosines; ++column)
         add(RgbT<double>{thick_film(cosine(column), n)});
     return table;
 }
-// [bake]
 
 /// The colour of a film from its table: bilinear, and the mean beyond the longest path.
 /// \param table      Of bake_film_table().
@@ -113,7 +118,6 @@ template <std::floating_point T = float>
 /// \param thickness  In nm, >= 0.
 /// \return R as linear sRGB, each channel in [0, 1].
 /// \cost Three square roots, a division and four cells of memory.
-// [look_up]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> look_up(const FilmTableT<T>& table, T cos_theta,
                               T thickness) noexcept {
@@ -131,7 +135,6 @@ template <std::floating_point T>
     const int row = static_cast<int>(y);
     return glm::mix(in_row(row), in_row(row + 1), y - static_cast<T>(row));
 }
-// [look_up]
 
 /// \}
 

@@ -22,6 +22,8 @@ enum class FresnelModel : std::uint8_t {
     schlick, ///< schlick_dielectric()
 };
 
+namespace detail {
+
 /// ((a - b)/(a + b))^2, as 1 - 4ab/(a + b)^2 where that keeps more digits: rounding of
 /// the small second term hardly shows in the result.
 /// \param a  First part, >= 0.
@@ -35,6 +37,8 @@ template <std::floating_point T>
     const T r = (a - b) / sum;
     return r * r;
 }
+
+} // namespace detail
 
 /// The reflectance of the boundary of two transparent media.
 ///
@@ -66,8 +70,8 @@ template <std::floating_point T>
     if (g2 <= T(0)) return T(1); // total internal reflection
     const T g = std::sqrt(g2);   // n_t cos(theta_t)
 
-    const T r_s = squared_contrast(n_i * c, g);
-    const T r_p = squared_contrast(n_t * (n_t * c), n_i * g);
+    const T r_s = detail::squared_contrast(n_i * c, g);
+    const T r_p = detail::squared_contrast(n_t * (n_t * c), n_i * g);
     return (r_s + r_p) / T(2);
 }
 // [fresnel]

@@ -20,6 +20,8 @@ namespace ljus {
 /// unit length; alpha > 0.
 /// \{
 
+namespace detail {
+
 /// The middle of two directions, of unit length: the normal of the facet that mirrors
 /// one into the other. The sum is scaled first, so that its squares do not underflow.
 /// \param wo, wi  With z > 0 both.
@@ -39,7 +41,6 @@ template <std::floating_point T>
 /// \param h      Normal of the facets.
 /// \return Per steradian; 1/(pi alpha^2) at most, or alpha^2/pi beyond alpha = 1.
 /// \cite walter2007
-// [ggx]
 template <std::floating_point T>
 [[nodiscard]] T ggx_distribution(T alpha, const Vec3T<T>& h) noexcept {
     const T x = h.x / alpha;
@@ -47,7 +48,6 @@ template <std::floating_point T>
     const T size = alpha * (x * x + y * y + h.z * h.z);
     return std::numbers::inv_pi_v<T> / (size * size);
 }
-// [ggx]
 
 /// The area that the ellipsoid shows in a direction, times two, less the surface's own.
 ///
@@ -63,12 +63,10 @@ template <std::floating_point T>
 /// \param w      The direction.
 /// \return r(w), from alpha to 1.
 /// \cost One square root.
-// [smith]
 template <std::floating_point T>
 [[nodiscard]] T ggx_lambda(T alpha, const Vec3T<T>& w) noexcept {
     return std::sqrt(w.z * w.z + alpha * alpha * (w.x * w.x + w.y * w.y));
 }
-// [smith]
 
 /// The normal of a facet as `wo` sees them: with the density
 /// \f$ G_1(w_o) \max(0, w_o \cdot h) D(h) / w_{o,z} \f$ \cite heitz2018.
@@ -102,6 +100,8 @@ template <std::floating_point T>
     return glm::normalize(Vec3T<T>{alpha * x, alpha * y, z});
 }
 // [visible normals]
+
+} // namespace detail
 
 /// \}
 

@@ -27,6 +27,8 @@ namespace ljus {
 /// without a refracted ray, sin(theta_1) n_1/n_2 > 1, is not mentioned.}
 /// \{
 
+namespace detail {
+
 /// The difference of two products without cancellation: Kahan's form, by FMA.
 /// \return a b - c d, within 1.5 units of roundoff.
 template <std::floating_point T>
@@ -35,6 +37,8 @@ template <std::floating_point T>
     const T lost = std::fma(-c, d, cd); // what rounding took from c d, exactly
     return std::fma(a, b, -cd) + lost;
 }
+
+} // namespace detail
 
 /// The direction of a ray behind a boundary. Write `ljus::refract`: the compiler finds
 /// GLM's function of that name by itself, and that one knows no total reflection.
@@ -53,9 +57,9 @@ template <std::floating_point T>
 [[nodiscard]] std::optional<Vec3T<T>> refract(const Vec3T<T>& direction,
                                               const Vec3T<T>& normal, T eta) {
     const auto cross = [](const Vec3T<T>& a, const Vec3T<T>& b) {
-        return Vec3T<T>{difference_of_products(a.y, b.z, a.z, b.y),
-                        difference_of_products(a.z, b.x, a.x, b.z),
-                        difference_of_products(a.x, b.y, a.y, b.x)};
+        return Vec3T<T>{detail::difference_of_products(a.y, b.z, a.z, b.y),
+                        detail::difference_of_products(a.z, b.x, a.x, b.z),
+                        detail::difference_of_products(a.x, b.y, a.y, b.x)};
     };
     const Vec3T<T> along = cross(normal, cross(direction, normal)); // P
     const T cos_1 = glm::dot(direction, normal);
@@ -90,6 +94,8 @@ template <std::floating_point T>
 }
 // [refract local]
 
+namespace detail {
+
 /// Refuses an index of refraction that is no number above 0, or none of any substance.
 /// \param what   The name of the index, e.g. "glass.index".
 /// \param index  The index.
@@ -99,6 +105,8 @@ void require_index(std::string_view what, T index) {
     require_positive(what, index);
     require(index >= T(1e-3) && index <= T(1e3), what, index, "within [0.001, 1000]");
 }
+
+} // namespace detail
 
 /// \}
 

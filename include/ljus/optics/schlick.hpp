@@ -52,12 +52,10 @@ template <typename T>
 ///               which gives 1.
 /// \return The reflectance, in [0, 1].
 /// \report{Section 3.2.5}
-// [schlick two sides]
 template <typename T>
 [[nodiscard]] constexpr T schlick(T n_i, T n_t, T cos_i, T cos_t) noexcept {
     return schlick(schlick_r0(n_i, n_t), n_i > n_t ? cos_t : cos_i);
 }
-// [schlick two sides]
 
 /// \}
 

@@ -17,12 +17,16 @@ namespace ljus {
 /// that of the first, and what comes out together adds up as waves do.
 /// \{
 
+namespace detail {
+
 /// What a film does with the light of one wavelength.
 template <std::floating_point T>
 struct FilmSharesT {
     T reflected = T(0);   ///< R.
     T transmitted = T(1); ///< T: R + T = 1.
 };
+
+} // namespace detail
 
 /// \f$ (n_t \cos\theta_t)^2 \f$, which is the square of the cosine *in* the film times
 /// that of the index: \f$ \cos^2\theta + (n - 1)(n + 1) \f$, without cancellation.
@@ -42,15 +46,16 @@ template <std::floating_point T>
 /// \cost Four divisions.
 // [film_shares]
 template <std::floating_point T>
-[[nodiscard]] FilmSharesT<T> film_shares(T cos_theta, T index, T beat) noexcept {
+[[nodiscard]] detail::FilmSharesT<T> film_shares(T cos_theta, T index,
+                                                 T beat) noexcept {
     const T c2 = cos_theta * cos_theta;
     const T sin2 = (T(1) - cos_theta) * (T(1) + cos_theta);
     const T p = beat * (c2 - sin2 / (index * index)); // 0 at Brewster's angle
     const auto shares = [&](T q) {
         // A film of no thickness does nothing, even at the grazing angle.
-        if (q == T(0)) return FilmSharesT<T>{};
+        if (q == T(0)) return detail::FilmSharesT<T>{};
         const T ratio = T(4) * c2 / (q * q);
-        return FilmSharesT<T>{T(1) / (T(1) + ratio), ratio / (T(1) + ratio)};
+        return detail::FilmSharesT<T>{T(1) / (T(1) + ratio), ratio / (T(1) + ratio)};
     };
     const auto s_wave = shares(beat);
     const auto p_wave = shares(p);
@@ -81,8 +86,8 @@ template <std::floating_point T>
 /// \cite bornwolf1999
 // [thin_film]
 template <std::floating_point T>
-[[nodiscard]] FilmSharesT<T> thin_film(T cos_theta, T index, T thickness,
-                                       T wavelength) noexcept {
+[[nodiscard]] detail::FilmSharesT<T> thin_film(T cos_theta, T index, T thickness,
+                                               T wavelength) noexcept {
     const T g2 = film_cosine2(cos_theta, index);
     const T g = std::sqrt(std::abs(g2));
     const T per_g = T(2) * std::numbers::pi_v<T> * thickness / wavelength;

@@ -13,6 +13,8 @@ namespace ljus {
 /// \brief Section 3.2.4: reflected, refracted and indirect rays.
 /// \{
 
+namespace detail {
+
 /// The absorption after a scattering: of the material's inside, if the path went in;
 /// none, if it came out; else what it was.
 /// \param medium    Before, per scene unit.
@@ -33,7 +35,6 @@ template <typename M, std::floating_point T>
 /// \param material  What the surface is made of.
 /// \param next      The direction, its weight, its density.
 /// \param wi        The same direction in the world.
-// [follow]
 template <std::floating_point T, Material M>
 void follow(PathStateT<T>& path, const VertexT<T>& vertex, const M& material,
             const BsdfSampleT<T>& next, const Vec3T<T>& wi) noexcept {
@@ -47,7 +48,8 @@ void follow(PathStateT<T>& path, const VertexT<T>& vertex, const M& material,
     (next.specular ? path.met_specular : path.met_diffuse) = true;
     path.ray = spawn_ray(vertex.point, wi, vertex.time);
 }
-// [follow]
+
+} // namespace detail
 
 /// Continues a path in a direction that the material samples.
 /// \param path       Gets its new ray, throughput and medium.
@@ -58,7 +60,6 @@ void follow(PathStateT<T>& path, const VertexT<T>& vertex, const M& material,
 /// \param stream     Three numbers are drawn.
 /// \return False if the path ends here: its light is absorbed.
 /// \report{Section 3.2.4}
-// [continue_path]
 template <std::floating_point T, Material M, typename Stream>
 [[nodiscard]] bool continue_path(PathStateT<T>& path, const VertexT<T>& vertex,
                                  const M& material, Transport transport, Lobes which,
@@ -66,10 +67,9 @@ template <std::floating_point T, Material M, typename Stream>
     const auto scattered =
         scatter(vertex, material, next_3d<T>(stream), transport, which);
     if (!scattered) return false;
-    follow(path, vertex, material, scattered->sample, scattered->wi);
+    detail::follow(path, vertex, material, scattered->sample, scattered->wi);
     return true;
 }
-// [continue_path]
 
 /// Continues a camera path both ways at a boundary: the path itself is reflected, a
 /// copy of it refracted.
@@ -79,7 +79,6 @@ template <std::floating_point T, Material M, typename Stream>
 /// \return The copy, with random numbers of its own; nothing, and the path as it was,
 ///         where there is one way only.
 /// \report{Section 3.2.5}
-// [split_path]
 template <std::floating_point T, Material M>
 [[nodiscard]] std::optional<PathStateT<T>>
 split_path(PathStateT<T>& path, const VertexT<T>& vertex, const M& material) {
@@ -90,15 +89,15 @@ split_path(PathStateT<T>& path, const VertexT<T>& vertex, const M& material) {
         PathStateT<T> other = path;
         // A path splits once per depth: its place in the tree is a bit for each.
         other.branch += std::uint64_t(1) << (16 + path.depth % 32);
-        follow(other, vertex, material, refracted,
-               to_world(vertex.frame, refracted.wi));
-        follow(path, vertex, material, reflected, to_world(vertex.frame, reflected.wi));
+        detail::follow(other, vertex, material, refracted,
+                       to_world(vertex.frame, refracted.wi));
+        detail::follow(path, vertex, material, reflected,
+                       to_world(vertex.frame, reflected.wi));
         return other;
     } else {
         return std::nullopt;
     }
 }
-// [split_path]
 
 /// \}
 

@@ -29,7 +29,6 @@ namespace ljus {
 /// \report{Section 3.2.3}
 /// \erratum{The report's program divides the sum over the lights by their number, so
 ///          that a second lamp dims the first.}
-// [direct_light]
 template <SceneLike S, std::floating_point T, Material M, typename Weigh>
 [[nodiscard]] RgbT<T> direct_light(const S& scene, const LightT<T>& light,
                                    const VertexT<T>& vertex, const M& material,
@@ -39,7 +38,7 @@ template <SceneLike S, std::floating_point T, Material M, typename Weigh>
     if (!sampled) return RgbT<T>{T(0)};
     const Vec3T<T> wi = to_local(vertex.frame, sampled->wi);
     const RgbT<T> f = evaluate(material, vertex.wo, wi);
-    if (is_black(f) || !agrees(vertex, wi, sampled->wi)) return RgbT<T>{T(0)};
+    if (is_black(f) || !detail::agrees(vertex, wi, sampled->wi)) return RgbT<T>{T(0)};
 
     ++counts.shadow_rays;
     const RgbT<T> visible = visibility(scene, point, sampled->point, vertex.time);
@@ -48,7 +47,8 @@ template <SceneLike S, std::floating_point T, Material M, typename Weigh>
     return std::abs(wi.z) * weigh(*sampled, wi) * f * sampled->weight *
            transmittance(vertex.medium, distance) * visible;
 }
-// [direct_light]
+
+namespace detail {
 
 /// The light of all lights at a surface, by shadow rays to each.
 /// \param scene     The scene.
@@ -63,7 +63,7 @@ template <SceneLike S, std::floating_point T, Material M>
 [[nodiscard]] RgbT<T> sample_all_lights(const S& scene, const VertexT<T>& vertex,
                                         const M& material, int rays,
                                         RandomStream& stream, Counts& counts) {
-    const Strata strata = strata_for(rays);
+    const detail::Strata strata = detail::strata_for(rays);
     const auto unweighted = [](const LightSampleT<T>&, const Vec3T<T>&) {
         return T(1);
     };
@@ -72,11 +72,13 @@ template <SceneLike S, std::floating_point T, Material M>
     for (const LightT<T>& light : scene.lights)
         for (int i = 0; i < rays; ++i) {
             Vec2T<T> u = next_2d<T>(stream);
-            if (rays > 1) u = stratified(strata, i, key, u); // one has all of the light
+            if (rays > 1) u = detail::stratified(strata, i, key, u);
             sum += direct_light(scene, light, vertex, material, u, unweighted, counts);
         }
     return sum / T(rays);
 }
+
+} // namespace detail
 
 /// \}
 

@@ -135,7 +135,6 @@ struct LightPathExpressionReader {
 ///                    usual; at most 63 letters. It must outlive the class.
 /// \return The class; the compiler makes it, if it is constexpr.
 /// \throws std::invalid_argument  for an expression that is none.
-// [light_path_expression]
 [[nodiscard]] constexpr LightPathExpression
 light_path_expression(std::string_view expression) {
     LightPathExpression result{.expression = expression};
@@ -146,7 +145,8 @@ light_path_expression(std::string_view expression) {
     result.last = whole.last | (whole.empty ? 1u : 0u);
     return result;
 }
-// [light_path_expression]
+
+namespace detail {
 
 /// Whether a path belongs to a class.
 /// \param paths  The class.
@@ -161,6 +161,8 @@ light_path_expression(std::string_view expression) {
     return (states & paths.last) != 0;
 }
 // [contains]
+
+} // namespace detail
 
 /// \}
 

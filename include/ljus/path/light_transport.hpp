@@ -35,6 +35,8 @@ template <SceneLike S, std::floating_point T>
 }
 // [transport_factor]
 
+namespace detail {
+
 /// A log that adds up the terms of one class of paths and forgets all others.
 template <std::floating_point T>
 struct ExpressionLog {
@@ -73,6 +75,8 @@ struct Filtered {
     LightPathExpression carried;       ///< Which of its paths count.
 };
 
+} // namespace detail
+
 /// Filters the paths of a renderer by a light path expression. Expressions that share no
 /// path and together hold all of them give pictures that add up to the whole one: the
 /// random paths are the same, only what is added differs.
@@ -81,12 +85,10 @@ struct Filtered {
 /// \return A renderer for render().
 /// \throws std::invalid_argument  as light_path_expression().
 /// \cost As much as the whole renderer: nothing is left out but the sums.
-// [only]
 template <typename R>
-[[nodiscard]] Filtered<R> only(const R& whole, std::string_view carried) {
+[[nodiscard]] detail::Filtered<R> only(const R& whole, std::string_view carried) {
     return {whole, light_path_expression(carried)};
 }
-// [only]
 
 /// The radiance of one camera path, as far as the filter lets it through.
 /// \param renderer  From only().
@@ -94,15 +96,13 @@ template <typename R>
 /// \param stream    The numbers of this path.
 /// \param counts    Counts the rays.
 /// \return Radiance, W/(m^2 sr).
-// [filtered]
 template <typename R, std::floating_point T, typename Log = NoLog>
-[[nodiscard]] RgbT<T> radiance(const Filtered<R>& renderer, const RayT<T>& ray,
+[[nodiscard]] RgbT<T> radiance(const detail::Filtered<R>& renderer, const RayT<T>& ray,
                                typename R::Stream& stream, Counts& counts, Log&& = {}) {
-    ExpressionLog<T> log{.wanted = renderer.carried};
+    detail::ExpressionLog<T> log{.wanted = renderer.carried};
     (void)radiance(renderer.whole, ray, stream, counts, log);
     return log.sum;
 }
-// [filtered]
 
 /// \}
 

@@ -36,6 +36,8 @@ concept ThinSurface = requires(const M& m, const Vec3T<typename M::Scalar>& v) {
     { pass_through(m, v, v) } -> std::same_as<RgbT<typename M::Scalar>>;
 };
 
+namespace detail {
+
 /// Whether a type of scene lists a thin surface among its materials.
 template <SceneLike S>
 inline constexpr bool lists_thin_surfaces = S::any_material([]<typename M>() {
@@ -45,7 +47,7 @@ inline constexpr bool lists_thin_surfaces = S::any_material([]<typename M>() {
 /// Whether a type of scene lists a shape that moves.
 template <SceneLike S>
 inline constexpr bool lists_moving = S::any_shape([]<typename G>() {
-    return is_moving<G>;
+    return detail::is_moving<G>;
 });
 
 /// Whether a scene has a thin surface among its materials: the pass is on.
@@ -105,6 +107,8 @@ template <SceneLike S, std::floating_point T>
 /// A ray passes so many thin surfaces, at most; then its way counts as blocked.
 inline constexpr int max_thin_surfaces = 1000;
 
+} // namespace detail
+
 /// How much of the light from one point arrives at another.
 /// \param scene  The scene.
 /// \param from   A point of a surface.
@@ -118,18 +122,18 @@ inline constexpr int max_thin_surfaces = 1000;
 template <SceneLike S, std::floating_point T>
 [[nodiscard]] RgbT<T> visibility(const S& scene, const SurfacePointT<T>& from,
                                  const SurfacePointT<T>& to, T time = T(0)) {
-    if (!lists_thin_surfaces<S> || !has_thin_surfaces(scene))
+    if (!detail::lists_thin_surfaces<S> || !detail::has_thin_surfaces(scene))
         return RgbT<T>{occluded(scene, spawn_ray_to(from, to, time)) ? T(0) : T(1)};
 
     RgbT<T> through{T(1)};
     SurfacePointT<T> last = from;
-    for (int surfaces = 0; surfaces < max_thin_surfaces; ++surfaces) {
+    for (int surfaces = 0; surfaces < detail::max_thin_surfaces; ++surfaces) {
         const RayT<T> ray = spawn_ray_to(last, to, time);
         const auto hit = closest_hit(scene, ray);
         if (!hit) return through;
         VertexT<T> vertex = vertex_at(scene, ray, *hit);
         vertex.wo = glm::normalize(vertex.wo); // the ray is as long as the way
-        const auto passed = passed_through(scene, vertex);
+        const auto passed = detail::passed_through(scene, vertex);
         if (!passed) break;
         through *= *passed;
         last = vertex.point;
@@ -137,6 +141,8 @@ template <SceneLike S, std::floating_point T>
     return RgbT<T>{T(0)};
 }
 // [visibility]
+
+namespace detail {
 
 /// What thin surfaces have done to a path between two vertices.
 template <std::floating_point T>
@@ -153,7 +159,6 @@ struct PassageT {
 /// \param hit     What the ray meets first; becomes what its last part meets.
 /// \param stream  A number is drawn for each thin surface.
 /// \return What they left.
-// [pass_thin_surfaces]
 template <SceneLike S, std::floating_point T, typename Stream>
 [[nodiscard]] PassageT<T> pass_thin_surfaces(const S& scene, RayT<T>& ray,
                                              std::optional<SceneHitT<T>>& hit,
@@ -176,7 +181,8 @@ template <SceneLike S, std::floating_point T, typename Stream>
     hit.reset();
     return passage;
 }
-// [pass_thin_surfaces]
+
+} // namespace detail
 
 /// Sends a path to its next vertex. Media and thin surfaces on the way take their part
 /// of the throughput.
@@ -194,9 +200,9 @@ template <SceneLike S, std::floating_point T, typename Stream>
                                                     Stream& stream) {
     start_bounce(stream, path.branch + static_cast<std::uint64_t>(++path.depth));
     auto hit = closest_hit(scene, path.ray);
-    PassageT<T> passage;
-    if (lists_thin_surfaces<S> && has_thin_surfaces(scene))
-        passage = pass_thin_surfaces(scene, path.ray, hit, stream);
+    detail::PassageT<T> passage;
+    if (detail::lists_thin_surfaces<S> && detail::has_thin_surfaces(scene))
+        passage = detail::pass_thin_surfaces(scene, path.ray, hit, stream);
     if (!hit) return std::nullopt;
 
     std::optional<VertexT<T>> vertex(vertex_at(scene, path.ray, *hit));

@@ -73,6 +73,8 @@ struct PathLog {
     }
 };
 
+namespace detail {
+
 /// Tells a log of the last scattering of a path.
 /// \param log   The log.
 /// \param path  As continue_path() has left it.
@@ -90,6 +92,8 @@ void log_specular_path(Log& log, const PathStateT<T>& path) {
     log.begin();
     for (int vertex = 0; vertex < path.depth; ++vertex) log_vertex(log, path);
 }
+
+} // namespace detail
 
 /// \}
 

@@ -16,7 +16,6 @@ namespace ljus {
 
 /// A path on its way, from the camera or from a light. Both travel by next_vertex() and
 /// continue_path(); they differ only in what they carry and in what is done at a vertex.
-// [path_state]
 template <std::floating_point T>
 struct PathStateT {
     RayT<T> ray{};             ///< Where it goes, and when.
@@ -33,7 +32,6 @@ struct PathStateT {
     std::uint64_t branch = 0;  ///< Where its random numbers start; see split_path().
 };
 using PathState = PathStateT<float>; ///< PathStateT in float.
-// [path_state]
 
 /// Russian roulette on a camera path: it survives with a probability in proportion to
 /// its throughput, and a survivor is divided by it \cite arvo1990. That radiance is

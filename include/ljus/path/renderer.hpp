@@ -23,13 +23,11 @@ namespace ljus {
 /// and, beside it, a function that returns W/(m^2 sr) and tells a log what it adds:
 ///
 ///     Rgb radiance(const MyRenderer&, const Ray&, Stream&, Counts&, Log&&);
-// [renderer]
 template <typename R, typename T = float>
 concept Renderer = requires(const R& renderer, const RayT<T>& ray,
                             typename R::Stream& stream, Counts& counts, NoLog log) {
     { radiance(renderer, ray, stream, counts, log) } -> std::same_as<RgbT<T>>;
 };
-// [renderer]
 
 /// \}
 

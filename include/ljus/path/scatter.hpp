@@ -23,6 +23,8 @@ namespace ljus {
 /// | sampled, of any other part       | the path ends                                |
 /// \{
 
+namespace detail {
+
 /// Whether a direction lies on the same side of a surface by both its normals.
 /// \param vertex  A point of the surface.
 /// \param local   The direction in the surface's frame.
@@ -40,7 +42,6 @@ template <std::floating_point T>
 /// \param vertex     Where it lands.
 /// \param direction  The photon's direction of travel.
 /// \return \f$ |\omega \cdot N_s| / |\omega \cdot N_g| \f$; 0 if they disagree.
-// [landing_factor]
 template <std::floating_point T>
 [[nodiscard]] T landing_factor(const VertexT<T>& vertex,
                                const Vec3T<T>& direction) noexcept {
@@ -48,7 +49,6 @@ template <std::floating_point T>
     if (!vertex.smooth) return T(1);
     return std::abs(vertex.wo.z / glm::dot(direction, vertex.point.normal));
 }
-// [landing_factor]
 
 /// A scattered direction.
 template <std::floating_point T>
@@ -56,6 +56,8 @@ struct ScatteredT {
     BsdfSampleT<T> sample{}; ///< In the frame; the z of `wi` tells the side.
     Vec3T<T> wi{T(0)};       ///< The direction in the world.
 };
+
+} // namespace detail
 
 /// Samples a direction, with both normals of the surface kept in mind.
 ///
@@ -73,19 +75,19 @@ struct ScatteredT {
 /// \cite veach1997
 // [scatter]
 template <std::floating_point T, Material M>
-[[nodiscard]] std::optional<ScatteredT<T>>
+[[nodiscard]] std::optional<detail::ScatteredT<T>>
 scatter(const VertexT<T>& vertex, const M& material, const Vec3T<T>& u,
         Transport transport, Lobes which = Lobes::all) noexcept {
     const Vec3T<T>& wo = vertex.wo;
     const auto& here = material_at(material, vertex.point.position, vertex.uv);
     const auto next = sample(here, wo, u, transport, which);
     if (!next) return std::nullopt;
-    ScatteredT<T> scattered{*next, to_world(vertex.frame, next->wi)};
+    detail::ScatteredT<T> scattered{*next, to_world(vertex.frame, next->wi)};
     if (!vertex.smooth) return scattered;
 
     const Vec3T<T>& geometric = vertex.point.normal;
     const Vec3T<T> back = to_world(vertex.frame, wo);
-    if (agrees(vertex, next->wi, scattered.wi)) {
+    if (detail::agrees(vertex, next->wi, scattered.wi)) {
         if (transport == Transport::radiance) return scattered;
         const T factor = (wo.z * glm::dot(scattered.wi, geometric)) /
                          (glm::dot(back, geometric) * next->wi.z);
@@ -97,7 +99,7 @@ scatter(const VertexT<T>& vertex, const M& material, const Vec3T<T>& u,
     const FrameT<T> flat = frame_around(geometric);
     const auto again = sample(here, to_local(flat, back), u, transport, which);
     if (!again || !again->specular) return std::nullopt;
-    return ScatteredT<T>{*again, to_world(flat, again->wi)};
+    return detail::ScatteredT<T>{*again, to_world(flat, again->wi)};
 }
 // [scatter]
 

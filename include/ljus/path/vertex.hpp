@@ -14,7 +14,6 @@ namespace ljus {
 /// \{
 
 /// Where a path arrived. Every renderer and the photon pass see a surface as this.
-// [vertex]
 template <std::floating_point T>
 struct VertexT {
     SurfacePointT<T> point{};      ///< Position, rounding error, geometric normal.
@@ -22,7 +21,7 @@ struct VertexT {
     Vec3T<T> wo{T(0), T(0), T(1)}; ///< To the vertex before: unit, in the frame.
     Vec2T<T> uv{T(0)};             ///< Of texture_coordinates(), if a material uses it.
     ObjectId id{};                 ///< Which object.
-    ObjectT<T> object{};           ///< What it is made of, and whether it emits.
+    detail::ObjectT<T> object{};   ///< What it is made of, and whether it emits.
     RgbT<T> medium{T(0)};          ///< Absorption before it, per scene unit.
     T distance = T(0);             ///< From the vertex before, in scene units.
     T time = T(0);                 ///< Of the path, in [0, 1].
@@ -36,7 +35,8 @@ struct VertexT {
     }
 };
 using Vertex = VertexT<float>; ///< VertexT in float.
-// [vertex]
+
+namespace detail {
 
 /// Whether a material looks up by texture coordinates; a comparison in a scene that
 /// lists such a type, and nothing in any other.
@@ -51,6 +51,8 @@ template <SceneLike S>
     else
         return false;
 }
+
+} // namespace detail
 
 /// The vertex at a hit.
 ///
@@ -72,7 +74,7 @@ template <SceneLike S, std::floating_point T>
     Vec3T<T>& geometric = vertex.point.normal;
     Vec3T<T> normal = scene.visit_shape(hit.object, [&](const auto& shape) {
         vertex.point = surface_point(shape, ray, hit.at);
-        if (uses_uv(scene, vertex.object.material))
+        if (detail::uses_uv(scene, vertex.object.material))
             vertex.uv = texture_coordinates(shape, hit.at, vertex.point);
         if constexpr (requires { shading_normal(shape, hit.at, geometric); })
             return shading_normal(shape, hit.at, geometric);

@@ -37,12 +37,14 @@ struct AimedPhotonT {
     ObjectId target;          ///< It counts only if this is what it meets first.
 };
 
+namespace detail {
+
 /// How a point of a light aims at an object.
 template <std::floating_point T>
 struct AimT {
-    ConeT<T> cone{};      ///< In which it sees the object's bounding sphere.
-    bool at_area = false; ///< At points of the object's area instead of the cone.
-    T size = T(0);        ///< About the solid angle over 2 pi: how often it is chosen.
+    detail::ConeT<T> cone{}; ///< In which it sees the object's bounding sphere.
+    bool at_area = false;    ///< At points of the object's area instead of the cone.
+    T size = T(0); ///< About the solid angle over 2 pi: how often it is chosen.
 };
 
 /// How a point of a light aims at an object: at the cone in which it sees the object's
@@ -60,12 +62,13 @@ template <SceneLike S, std::floating_point T>
                              const SurfacePointT<T>& from, ObjectId target) {
     return scene.visit_shape(target, [&](const auto& shape) {
         const SphereT<T> bound = bounding_sphere(shape);
-        const ConeT<T> cone = cone_towards(bound, from.position);
+        const detail::ConeT<T> cone = detail::cone_towards(bound, from.position);
         if (light.kind == LightKind::spot && light.outer < cone.one_minus_cos)
             return AimT<T>{{light.direction, light.outer}, false, light.outer};
         if (cone.one_minus_cos == T(2) && light.object) // inside
             return AimT<T>{{from.normal, T(1)}, false, T(1)};
-        if (cone.one_minus_cos == T(2) || !is_flat<std::remove_cvref_t<decltype(shape)>>)
+        if (cone.one_minus_cos == T(2) ||
+            !detail::is_flat<std::remove_cvref_t<decltype(shape)>>)
             return AimT<T>{cone, false, cone.one_minus_cos};
         const Vec3T<T> way = bound.center - from.position;
         T size = T(0);
@@ -76,6 +79,8 @@ template <SceneLike S, std::floating_point T>
     });
 }
 // [aim_at]
+
+} // namespace detail
 
 /// A photon of a point light, aimed at one ball: the plain twin of aim(). The light
 /// sends \f$1/4\pi\f$ of its flux into each steradian, and the ball is seen in a cone of
@@ -90,13 +95,15 @@ template <std::floating_point T>
 [[nodiscard]] EmittedPhotonT<T> aim_at_ball(const LightT<T>& light,
                                             const SphereT<T>& ball,
                                             const Vec2T<T>& u) noexcept {
-    const ConeT<T> cone = cone_towards(ball, light.position);
+    const detail::ConeT<T> cone = detail::cone_towards(ball, light.position);
     const Vec3T<T> local = sample_uniform_cone(u, cone.one_minus_cos);
     return {.ray{.origin = light.position,
                  .direction = to_world(frame_around(cone.axis), local)},
             .flux = light.flux * (cone.one_minus_cos / T(2))};
 }
 // [aim_at_ball]
+
+namespace detail {
 
 /// A target that was chosen.
 template <std::floating_point T>
@@ -110,7 +117,6 @@ struct ChosenTargetT {
 /// \param size_of   Called with each; 0 leaves it out.
 /// \param u_target  In [0, 1).
 /// \return The target; nothing if none has a size.
-// [choose_target]
 template <std::floating_point T, typename SizeOf>
 [[nodiscard]] std::optional<ChosenTargetT<T>>
 choose_target(const std::vector<ObjectId>& targets, SizeOf size_of, T u_target) {
@@ -132,7 +138,6 @@ choose_target(const std::vector<ObjectId>& targets, SizeOf size_of, T u_target) 
     if (!(chosen.sum > T(0))) return std::nullopt;
     return chosen;
 }
-// [choose_target]
 
 /// How much of its flux a light's point sends around a direction, per steradian; aimed
 /// photons are paid for with it.
@@ -140,18 +145,18 @@ choose_target(const std::vector<ObjectId>& targets, SizeOf size_of, T u_target) 
 /// \param point      The point of it.
 /// \param direction  Unit, away from it.
 /// \return cos / pi, 1 / (4 pi) or a spot's intensity over its flux; 0 behind a lamp.
-// [emitted_share]
 template <std::floating_point T>
 [[nodiscard]] T emitted_share(const LightT<T>& light, const SurfacePointT<T>& point,
                               const Vec3T<T>& direction) noexcept {
     if (light.kind == LightKind::spot)
-        return spot_share(light, direction) * std::numbers::inv_pi_v<T> /
+        return detail::spot_share(light, direction) * std::numbers::inv_pi_v<T> /
                (light.inner + light.outer);
     if (!light.object) return pdf_uniform_sphere(direction);
     const T cosine = glm::dot(direction, point.normal);
     return cosine > T(0) ? cosine * std::numbers::inv_pi_v<T> : T(0);
 }
-// [emitted_share]
+
+} // namespace detail
 
 /// A photon aimed at one of several objects: at the cone in which the light's point
 /// sees the object's bounding sphere, uniformly; a wide cone is chosen more often, so
@@ -180,12 +185,13 @@ template <SceneLike S, typename Stream>
 aim(const S& scene, const LightChoice& choice, const std::vector<ObjectId>& targets,
     Stream& stream) {
     using T = typename S::Scalar;
-    const ChosenLightT<T> chosen = choose_light(choice, next_1d<T>(stream));
+    const detail::ChosenLightT<T> chosen =
+        detail::choose_light(choice, next_1d<T>(stream));
     const LightT<T>& light = scene.lights[chosen.light];
     const Vec2T<T> u_point = next_2d<T>(stream);
     const T u_target = next_1d<T>(stream);
     const Vec2T<T> u_direction = next_2d<T>(stream);
-    const T time = path_time(scene, stream);
+    const T time = detail::path_time(scene, stream);
     EmittedPhotonT<T> photon{.light = static_cast<std::uint16_t>(chosen.light)};
 
     if (light.kind == LightKind::sun) {
@@ -197,24 +203,24 @@ aim(const S& scene, const LightChoice& choice, const std::vector<ObjectId>& targ
             const T radius = bound_of(id).radius;
             return std::numbers::pi_v<T> * radius * radius;
         };
-        const auto aimed = choose_target(targets, disc_of, u_target);
+        const auto aimed = detail::choose_target(targets, disc_of, u_target);
         if (!aimed) return std::nullopt;
         const SphereT<T> bound = bound_of(aimed->target);
-        photon.ray = sun_ray(light, bound.center, bound.radius, u_point);
+        photon.ray = detail::sun_ray(light, bound.center, bound.radius, u_point);
         photon.ray.time = time;
         photon.flux = light.emission * (aimed->sum / chosen.probability);
         return AimedPhotonT<T>{photon, aimed->target};
     }
 
     SurfacePointT<T> point{.position = light.position};
-    if (light.object) point = light_point(scene, light, u_point, time);
+    if (light.object) point = detail::light_point(scene, light, u_point, time);
     const auto size_of = [&](ObjectId id) {
-        return aim_at(scene, light, point, id).size;
+        return detail::aim_at(scene, light, point, id).size;
     };
-    const auto aimed = choose_target(targets, size_of, u_target);
+    const auto aimed = detail::choose_target(targets, size_of, u_target);
     if (!aimed) return std::nullopt;
 
-    const AimT<T> at = aim_at(scene, light, point, aimed->target);
+    const detail::AimT<T> at = detail::aim_at(scene, light, point, aimed->target);
     Vec3T<T> direction =
         to_world(frame_around(at.cone.axis),
                  sample_uniform_cone(u_direction, at.cone.one_minus_cos));
@@ -228,7 +234,7 @@ aim(const S& scene, const LightChoice& choice, const std::vector<ObjectId>& targ
     }
     pdf *= at.size / aimed->sum; // of the choice
     if (!(pdf < std::numeric_limits<T>::infinity())) return std::nullopt; // edge-on
-    const T emitted = emitted_share(light, point, direction);
+    const T emitted = detail::emitted_share(light, point, direction);
     if (!(emitted > T(0))) return std::nullopt;
     photon.flux = light.flux * (emitted / (pdf * chosen.probability));
     photon.ray = light.object

@@ -21,6 +21,8 @@ struct EmittedPhotonT {
     std::uint16_t light = 0; ///< The number of its light.
 };
 
+namespace detail {
+
 /// A point of an emissive object, uniform over its area, the normal where it shines to.
 /// \param scene  The scene.
 /// \param light  One of its lights that is an object.
@@ -43,7 +45,6 @@ template <SceneLike S, std::floating_point T>
 /// \param radius  Of the disc.
 /// \param u       Point of the unit square: where in the disc.
 /// \return The ray.
-// [sun_ray]
 template <std::floating_point T>
 [[nodiscard]] RayT<T> sun_ray(const LightT<T>& sun, const Vec3T<T>& center, T radius,
                               const Vec2T<T>& u) {
@@ -53,7 +54,8 @@ template <std::floating_point T>
     return {.origin = center + to_world(frame, Vec3T<T>{disc.x, disc.y, -back}),
             .direction = sun.direction};
 }
-// [sun_ray]
+
+} // namespace detail
 
 /// The way of a photon that leaves a light, with the density of what the light sends:
 /// uniform over an object's area and with cos / pi in direction; uniform over the
@@ -71,14 +73,14 @@ template <SceneLike S, std::floating_point T>
                                 const Vec2T<T>& u_point, const Vec2T<T>& u_direction,
                                 T time = T(0)) {
     if (light.object) {
-        const SurfacePointT<T> point = light_point(scene, light, u_point, time);
+        const SurfacePointT<T> point = detail::light_point(scene, light, u_point, time);
         const FrameT<T> frame = frame_around(point.normal);
         return spawn_ray(point, to_world(frame, sample_cosine_hemisphere(u_direction)));
     }
     if (light.kind == LightKind::sun)
-        return sun_ray(light, light.position, light.radius, u_point);
+        return detail::sun_ray(light, light.position, light.radius, u_point);
     if (light.kind == LightKind::spot) {
-        const T share = sample_spot(light, u_direction.x) / light.outer;
+        const T share = detail::sample_spot(light, u_direction.x) / light.outer;
         const Vec3T<T> local =
             sample_uniform_cone(Vec2T<T>{share, u_direction.y}, light.outer);
         return {.origin = light.position,
@@ -105,11 +107,12 @@ template <SceneLike S, typename Stream>
 [[nodiscard]] EmittedPhotonT<typename S::Scalar>
 emit(const S& scene, const LightChoice& choice, Stream& stream) {
     using T = typename S::Scalar;
-    const ChosenLightT<T> chosen = choose_light(choice, next_1d<T>(stream));
+    const detail::ChosenLightT<T> chosen =
+        detail::choose_light(choice, next_1d<T>(stream));
     const LightT<T>& light = scene.lights[chosen.light];
     const Vec2T<T> u_point = next_2d<T>(stream);
     const Vec2T<T> u_direction = next_2d<T>(stream);
-    const T time = path_time(scene, stream);
+    const T time = detail::path_time(scene, stream);
     RayT<T> ray = light_ray(scene, light, u_point, u_direction, time);
     ray.time = time;
     return {.ray = ray,

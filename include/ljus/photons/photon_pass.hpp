@@ -65,6 +65,8 @@ struct TracedPhotonsT {
     std::string remark{}; ///< Why it gave up, if it did: one sentence.
 };
 
+namespace detail {
+
 /// The photons of some paths, next to each other in the order of emission.
 template <std::floating_point T>
 struct PhotonBlockT {
@@ -84,14 +86,12 @@ inline constexpr long long pilot_paths = 4 * photon_block;
 /// \param photons  Paths in all.
 /// \param mean     Photons stored a path, as seen so far.
 /// \return Bytes.
-// [expected_bytes]
 template <std::floating_point T>
 [[nodiscard]] double expected_bytes(long long photons, double mean) noexcept {
     const auto blocks = static_cast<double>(block_count(photons, photon_block));
     return 2 * static_cast<double>(photons) * mean * sizeof(PhotonT<T>) +
            blocks * sizeof(PhotonBlockT<T>);
 }
-// [expected_bytes]
 
 /// Refuses a pass that will need more memory than it may take.
 /// \param pass  The pass.
@@ -139,6 +139,8 @@ void require_memory(const PhotonPassSettings& pass, double mean) {
                   percent(audit.escaped), percent(audit.absorbed + audit.roulette));
     return text;
 }
+
+} // namespace detail
 
 /// \}
 

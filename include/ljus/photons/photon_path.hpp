@@ -46,6 +46,8 @@ template <std::floating_point T>
 }
 // [roulette]
 
+namespace detail {
+
 /// Stores shadow photons on the matt surfaces behind the first one that a photon meets.
 ///
 /// A surface has two sides, and what a side does not get is the light whose cosine with
@@ -99,7 +101,6 @@ template <std::floating_point T>
 /// \param light     The number of its light.
 /// \param map       For which map.
 /// \param out       Takes it.
-// [store]
 template <std::floating_point T, Material M>
 void store_photon(const PathStateT<T>& path, const VertexT<T>& vertex,
                   const M& material, std::uint16_t light, MapType map,
@@ -108,12 +109,11 @@ void store_photon(const PathStateT<T>& path, const VertexT<T>& vertex,
     const bool caustics = map == MapType::caustics;
     const bool owned = (kind == PhotonKind::caustic) == caustics;
     if (!owned || !has(lobes(material), Lobes::non_specular)) return;
-    const T landing = landing_factor(vertex, path.ray.direction);
+    const T landing = detail::landing_factor(vertex, path.ray.direction);
     if (!(landing > T(0))) return;
     out.push_back({vertex.point.position, path.ray.direction, landing * path.throughput,
                    light, kind, small_normal(vertex.point.normal)});
 }
-// [store]
 
 /// Scatters a photon at a vertex, unless roulette ends it there.
 /// \param path      Gets its new ray, flux and medium.
@@ -123,7 +123,6 @@ void store_photon(const PathStateT<T>& path, const VertexT<T>& vertex,
 /// \param stream    Four numbers are drawn.
 /// \param audit     Takes what was absorbed, and what roulette moved.
 /// \return Whether it goes on.
-// [scatter_photon]
 template <std::floating_point T, Material M, typename Stream>
 [[nodiscard]] bool scatter_photon(PathStateT<T>& path, const VertexT<T>& vertex,
                                   const M& material, MapType map, Stream& stream,
@@ -142,7 +141,6 @@ template <std::floating_point T, Material M, typename Stream>
     path.throughput = *survivor;
     return true;
 }
-// [scatter_photon]
 
 /// Follows one photon and stores it at every diffuse surface where its map keeps it.
 ///
@@ -190,6 +188,8 @@ void trace_photon(const S& scene, MapType map, const EmittedPhotonT<T>& photon,
     audit.cut += RgbT<double>(path.throughput);
 }
 // [trace]
+
+} // namespace detail
 
 /// \}
 

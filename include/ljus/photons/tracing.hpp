@@ -18,6 +18,8 @@ namespace ljus {
 /// \brief Section 3.2.2: photons bounce "until Russian roulette decides otherwise".
 /// \{
 
+namespace detail {
+
 /// Sends and traces the paths of one block.
 /// \param scene    The scene.
 /// \param map      For which map.
@@ -26,7 +28,6 @@ namespace ljus {
 /// \param pass     How many in all, and with which seed.
 /// \param paths    Which of them.
 /// \param block    Takes the photons and the account.
-// [trace_block]
 template <SceneLike S, std::floating_point T>
 void trace_block(const S& scene, MapType map, const LightChoice& choice,
                  const std::vector<ObjectId>& targets, const PhotonPassSettings& pass,
@@ -35,10 +36,10 @@ void trace_block(const S& scene, MapType map, const LightChoice& choice,
         map == MapType::caustics ? Pass::caustics_photons : Pass::general_photons;
     for (long long i = paths.first; i < paths.last; ++i) {
         const auto path = static_cast<std::uint64_t>(i);
-        SobolStream stream =
-            pass.numbers == PhotonSampling::sobol
-                ? sobol_stream(pass.seed, part, pass.iteration, path)
-                : without_points(random_stream(pass.seed, part, pass.iteration, path));
+        SobolStream stream = pass.numbers == PhotonSampling::sobol
+                                 ? sobol_stream(pass.seed, part, pass.iteration, path)
+                                 : detail::without_points(random_stream(
+                                       pass.seed, part, pass.iteration, path));
         EmittedPhotonT<T> photon;
         std::optional<ObjectId> target;
         if (map == MapType::caustics) {
@@ -57,7 +58,6 @@ void trace_block(const S& scene, MapType map, const LightChoice& choice,
                      block.audit);
     }
 }
-// [trace_block]
 
 /// Joins the photons of blocks, in their order, and frees them.
 /// \param blocks  The blocks.
@@ -79,6 +79,8 @@ long long join_blocks(std::vector<PhotonBlockT<T>>& blocks, TracedPhotonsT<T>& r
     return unsent;
 }
 
+} // namespace detail
+
 /// Emits and traces the photons of one map, by several threads.
 ///
 /// Some 2000 paths tell how many photons are stored in the mean; a pass that would need
@@ -90,7 +92,6 @@ long long join_blocks(std::vector<PhotonBlockT<T>>& blocks, TracedPhotonsT<T>& r
 /// \return The photons in the order of emission, the same for any number of threads.
 /// \throws std::invalid_argument  if the scene has no light or more than 65536, a
 ///         number of the pass is out of range, or the memory would not do.
-// [trace_photons]
 template <SceneLike S>
 [[nodiscard]] TracedPhotonsT<typename S::Scalar>
 trace_photons(const S& scene, MapType map, const PhotonPassSettings& pass) {
@@ -104,26 +105,28 @@ trace_photons(const S& scene, MapType map, const PhotonPassSettings& pass) {
     const LightChoice choice = light_choice(scene.lights);
     require(choice.cumulative.back() > 0, "the power of all lights",
             choice.cumulative.back(), "above 0: a sun needs objects to shine on");
-    require_memory<T>(pass, 0);
+    detail::require_memory<T>(pass, 0);
 
-    const IndexedT<S> indexed(scene);
+    const detail::IndexedT<S> indexed(scene);
     TracedPhotonsT<T> result{.emitted = pass.photons};
     const bool caustics = map == MapType::caustics;
     const auto targets = caustics ? specular_objects(scene) : std::vector<ObjectId>{};
     if (caustics && targets.empty()) return result;
 
-    std::vector<PhotonBlockT<T>> blocks;
-    const long long count = block_count(pass.photons, photon_block);
+    std::vector<detail::PhotonBlockT<T>> blocks;
+    const long long count = detail::block_count(pass.photons, detail::photon_block);
     long long done = 0;  // blocks
     bool nothing = true; // has been stored so far
-    for (const long long paths : {pilot_paths, pass.give_up, pass.photons}) {
-        const long long last = std::min(block_count(paths, photon_block), count);
+    for (const long long paths : {detail::pilot_paths, pass.give_up, pass.photons}) {
+        const long long last =
+            std::min(detail::block_count(paths, detail::photon_block), count);
         if (last <= done) continue;
         blocks.resize(static_cast<std::size_t>(last));
         const auto body = [&](long long i) {
-            const BlockRange range = block_range(done + i, photon_block, pass.photons);
-            trace_block(indexed, map, choice, targets, pass, range,
-                        blocks[static_cast<std::size_t>(done + i)]);
+            const detail::BlockRange range =
+                detail::block_range(done + i, detail::photon_block, pass.photons);
+            detail::trace_block(indexed, map, choice, targets, pass, range,
+                                blocks[static_cast<std::size_t>(done + i)]);
         };
         const auto progress = [&](long long now, long long) {
             return pass.progress(done + now, count);
@@ -131,22 +134,23 @@ trace_photons(const S& scene, MapType map, const PhotonPassSettings& pass) {
         result.complete = parallel_blocks(
             last - done, body, {.threads = pass.threads, .progress = progress});
         done = last;
-        result.emitted = std::min(last * photon_block, pass.photons);
+        result.emitted = std::min(last * detail::photon_block, pass.photons);
         std::size_t stored = 0;
         for (const auto& block : blocks) stored += block.photons.size();
         nothing = stored == 0;
         if (!result.complete) break;
-        require_memory<T>(pass, double(stored) / double(std::max(result.emitted, 1LL)));
+        detail::require_memory<T>(pass, double(stored) /
+                                            double(std::max(result.emitted, 1LL)));
         if (nothing && result.emitted >= pass.give_up) break;
     }
-    const long long unsent = join_blocks(blocks, result);
+    const long long unsent = detail::join_blocks(blocks, result);
     if (nothing && result.complete && result.emitted < pass.photons) {
         result.audit *= double(pass.photons) / double(result.emitted);
-        result.remark = why_nothing(pass, map, result.emitted, unsent, result.audit);
+        result.remark =
+            detail::why_nothing(pass, map, result.emitted, unsent, result.audit);
     }
     return result;
 }
-// [trace_photons]
 
 /// \}
 

@@ -73,8 +73,6 @@ struct EdgeRule {
     return glm::dot(u, v) * sum;
 }
 
-} // namespace detail
-
 /// The integral of the logarithm of the distance over two edges, times the cosine of
 /// their angle.
 ///
@@ -88,7 +86,6 @@ struct EdgeRule {
 /// \param v     along this: the second edge.
 /// \param unit  Distances are measured in it: some length of this size.
 /// \return \f$\cos\varphi \int\!\!\int \ln(r / \text{unit})\, ds\, dt\f$
-// [edge_pair]
 [[nodiscard]] inline double edge_pair(const glm::dvec3& a, const glm::dvec3& u,
                                       const glm::dvec3& b, const glm::dvec3& v,
                                       double unit) noexcept {
@@ -135,7 +132,8 @@ struct EdgeRule {
     }
     return cosine * length_u * sum;
 }
-// [edge_pair]
+
+} // namespace detail
 
 /// The exchange area of two facets between which nothing stands: the area of either,
 /// times the form factor from it to the other.
@@ -154,12 +152,12 @@ struct EdgeRule {
 /// \report{Section 2.2}
 // [exchange_area]
 [[nodiscard]] inline double exchange_area(const Facet& one, const Facet& two) noexcept {
-    const glm::dvec3 n1 = glm::normalize(area_vector(one));
-    const glm::dvec3 n2 = glm::normalize(area_vector(two));
+    const glm::dvec3 n1 = glm::normalize(detail::area_vector(one));
+    const glm::dvec3 n2 = glm::normalize(detail::area_vector(two));
     const double unit = glm::distance(one.corners[0], two.corners[0]) +
                         glm::distance(one.corners[0], one.corners[1]);
-    const Facet a = clipped(one, two.corners[0], n2, 1e-13 * unit);
-    const Facet b = clipped(two, one.corners[0], n1, 1e-13 * unit);
+    const Facet a = detail::clipped(one, two.corners[0], n2, 1e-13 * unit);
+    const Facet b = detail::clipped(two, one.corners[0], n1, 1e-13 * unit);
     double sum = 0;
     for (int i = 0; i < a.count; ++i) {
         const glm::dvec3& from = a.corners[static_cast<std::size_t>(i)];
@@ -168,7 +166,7 @@ struct EdgeRule {
             const glm::dvec3& start = b.corners[static_cast<std::size_t>(k)];
             const glm::dvec3& end =
                 b.corners[static_cast<std::size_t>((k + 1) % b.count)];
-            sum += edge_pair(from, to - from, start, end - start, unit);
+            sum += detail::edge_pair(from, to - from, start, end - start, unit);
         }
     }
     return sum > 0 ? sum * std::numbers::inv_pi / 2 : 0;

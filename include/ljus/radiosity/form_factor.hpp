@@ -40,6 +40,8 @@ template <std::floating_point T>
 }
 /// \}
 
+namespace detail {
+
 /// The other side of a facet.
 [[nodiscard]] constexpr Facet turned(const Facet& facet) noexcept {
     Facet other{.count = facet.count};
@@ -68,7 +70,6 @@ template <std::floating_point T>
 /// \param normal  Unit; points to the side that stays.
 /// \param width   What lies as near as this to the plane counts as on it.
 /// \return The part, with at most one corner more; no corner if nothing stays.
-// [clipped]
 [[nodiscard]] inline Facet clipped(const Facet& facet, const glm::dvec3& point,
                                    const glm::dvec3& normal,
                                    double width = 0) noexcept {
@@ -91,7 +92,8 @@ template <std::floating_point T>
     }
     return part.count < 3 ? Facet{} : part;
 }
-// [clipped]
+
+} // namespace detail
 
 /// The form factor from a point of a surface to a facet: the share of what the point
 /// sends out, or of what could come to it, that the facet takes.
@@ -111,7 +113,7 @@ template <std::floating_point T>
 [[nodiscard]] inline double form_factor_at(const glm::dvec3& point,
                                            const glm::dvec3& normal,
                                            const Facet& facet) noexcept {
-    const Facet seen = clipped(facet, point, normal);
+    const Facet seen = detail::clipped(facet, point, normal);
     double sum = 0;
     for (int i = 0; i < seen.count; ++i) {
         const glm::dvec3 a = seen.corners[static_cast<std::size_t>(i)] - point;
@@ -126,31 +128,12 @@ template <std::floating_point T>
 }
 // [form_factor_at]
 
-/// The form factor between two equal rectangles that face each other.
-/// \param a         Their one side.
-/// \param b         Their other side.
-/// \param distance  Between them, above 0.
-/// \return The same in both directions: 0.1998249 for unit squares at distance 1.
-/// \cite howell2010
-// [facing]
-[[nodiscard]] inline double form_factor_facing(double a, double b,
-                                               double distance) noexcept {
-    const double x = a / distance, y = b / distance;
-    const double x1 = std::sqrt(1 + x * x), y1 = std::sqrt(1 + y * y);
-    const double corners = std::log(x1 * x1 * y1 * y1 / (1 + x * x + y * y)) / 2;
-    const double sides = x * y1 * std::atan(x / y1) + y * x1 * std::atan(y / x1) -
-                         x * std::atan(x) - y * std::atan(y);
-    return 2 * std::numbers::inv_pi / (x * y) * (corners + sides);
-}
-// [facing]
-
 /// The form factor from a floor to a wall that stands on one of its edges.
 /// \param edge    Length of the common edge, above 0.
 /// \param floor   The floor's other side.
 /// \param height  The wall's other side.
 /// \return From the floor to the wall: 0.2000438 for two unit squares.
 /// \cite howell2010
-// [corner]
 [[nodiscard]] inline double form_factor_corner(double edge, double floor,
                                                double height) noexcept {
     const double w = floor / edge, h = height / edge;
@@ -162,7 +145,6 @@ template <std::floating_point T>
                         h2 * std::log(h2 * (1 + s) / ((1 + h2) * s));
     return std::numbers::inv_pi / w * (angles + logs / 4);
 }
-// [corner]
 
 /// \}
 

@@ -34,7 +34,7 @@ struct FormFactors {
     /// The share of what patch i sends out that arrives at any patch: 1 in a closed
     /// room.
     [[nodiscard]] double row_sum(std::size_t i) const noexcept {
-        return pairwise_sum(row(i)) / area[i];
+        return detail::pairwise_sum(row(i)) / area[i];
     }
 };
 
@@ -49,13 +49,14 @@ struct FormFactorSettings {
     Progress progress = {}; ///< Called with (done, total); false stops.
 };
 
+namespace detail {
+
 /// Scales form factors until each row's sum is 1, as in a room that no light leaves;
 /// symmetry is kept \cite sinkhorn1967. Then the rays' noise neither makes light nor
 /// swallows it, which matters when the albedo is near 1.
 /// \param factors  Changed: each exchange area by a factor of its row and one of its
 ///                 column.
 /// \return Whether it could be done: not if a patch sees no other.
-// [close_rows]
 inline bool close_rows(FormFactors& factors) {
     const std::size_t n = factors.size();
     std::vector<double> scale(n, 1.0);
@@ -76,7 +77,8 @@ inline bool close_rows(FormFactors& factors) {
             factors.exchange[i * n + j] *= scale[i] * scale[j];
     return worst <= 1e-10;
 }
-// [close_rows]
+
+} // namespace detail
 
 /// Finds the form factors between all patches: the closed form between flat ones, times
 /// the visible share; else by rays from both, weighted so that their noise is least.
@@ -89,7 +91,6 @@ inline bool close_rows(FormFactors& factors) {
 ///         closed.
 /// \cost n^2 numbers of 8 bytes; of time see the chapter.
 /// \report{Section 2.2}
-// [make_form_factors]
 template <SceneLike S>
 [[nodiscard]] std::optional<FormFactors>
 make_form_factors(const S& scene, const Patches& all,
@@ -98,7 +99,7 @@ make_form_factors(const S& scene, const Patches& all,
             "at least 1");
     require(settings.shadow_rays >= 1, "shadow_rays",
             static_cast<long long>(settings.shadow_rays), "at least 1");
-    const IndexedT<S> indexed(scene);
+    const detail::IndexedT<S> indexed(scene);
     const std::size_t n = all.patches.size();
     FormFactors factors{.area = std::vector<double>(n),
                         .exchange = std::vector<double>(n * n)};
@@ -111,16 +112,17 @@ make_form_factors(const S& scene, const Patches& all,
         double* const row = factors.exchange.data() + i * n;
         const auto number = static_cast<std::uint32_t>(i);
         if (!closed_form(i)) {
-            shoot_rays(indexed, all, number, settings.rays, settings.seed, {row, n});
+            detail::shoot_rays(indexed, all, number, settings.rays, settings.seed,
+                               {row, n});
             return;
         }
         for (std::size_t j = i + 1; j < n; ++j) {
             if (!closed_form(j)) continue;
             row[j] = exchange_area(all.patches[i].facet, all.patches[j].facet);
             if (row[j] > 0 && !all.convex)
-                row[j] *=
-                    visible_share(indexed, all, number, static_cast<std::uint32_t>(j),
-                                  settings.shadow_rays, settings.seed);
+                row[j] *= detail::visible_share(indexed, all, number,
+                                                static_cast<std::uint32_t>(j),
+                                                settings.shadow_rays, settings.seed);
         }
     };
     if (!parallel_blocks(static_cast<long long>(n), fill,
@@ -139,11 +141,10 @@ make_form_factors(const S& scene, const Patches& all,
             back = there;
         }
     if (settings.closed)
-        require(close_rows(factors), "closed", 1LL,
+        require(detail::close_rows(factors), "closed", 1LL,
                 "false in a room with a patch that sees no other");
     return factors;
 }
-// [make_form_factors]
 
 /// \}
 

@@ -28,11 +28,12 @@ struct LightMap {
     std::vector<RgbT<double>> irradiance{}; ///< Of each patch, W/m^2.
 };
 
+namespace detail {
+
 /// The vertices of a cell, by their numbers within the grid: four of a quad, three of a
 /// triangle. On a ball the first column has one vertex, the pole, and so has the last.
 /// \param grid   The grid.
 /// \param place  Of the cell.
-// [cell_vertices]
 [[nodiscard]] constexpr std::array<std::uint32_t, 4>
 cell_vertices(const PatchGrid& grid, const CellPlace& place) noexcept {
     const auto vertex = [&](std::uint32_t right, std::uint32_t up) {
@@ -50,28 +51,28 @@ cell_vertices(const PatchGrid& grid, const CellPlace& place) noexcept {
     if (place.upper) return {vertex(1, 1), vertex(0, 1), vertex(1, 0), no_grid};
     return {vertex(0, 0), vertex(1, 0), vertex(0, 1), no_grid};
 }
-// [cell_vertices]
+
+} // namespace detail
 
 /// The light at the vertices of a grid: the mean of the patches that meet there, after
 /// Gouraud \cite gouraud1971.
 /// \param grid        The grid.
 /// \param irradiance  Of its cells.
 /// \return Of its vertices.
-// [vertex_light]
 [[nodiscard]] inline std::vector<RgbT<double>>
 vertex_light(const PatchGrid& grid, std::span<const RgbT<double>> irradiance) {
     std::vector<RgbT<double>> sum(grid.vertices(), RgbT<double>(0));
     std::vector<double> count(grid.vertices(), 0.0);
     for (std::uint32_t cell = 0; cell < grid.size(); ++cell)
-        for (const std::uint32_t vertex : cell_vertices(grid, place_of(grid, cell))) {
-            if (vertex == no_grid) continue;
+        for (const std::uint32_t vertex :
+             detail::cell_vertices(grid, place_of(grid, cell))) {
+            if (vertex == detail::no_grid) continue;
             sum[vertex] += irradiance[cell];
             count[vertex] += 1;
         }
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] /= count[i];
     return sum;
 }
-// [vertex_light]
 
 /// What a picture of a light map looks like.
 struct LightMapSettings {
@@ -82,7 +83,7 @@ struct LightMapSettings {
 template <SceneLike S>
 struct LightMapView {
     using Stream = RandomStream; ///< It draws nothing.
-    IndexedT<S> scene;           ///< Which scene; it must outlive the view.
+    detail::IndexedT<S> scene;   ///< Which scene; it must outlive the view.
     LightMap map;                ///< Its light.
     LightMapSettings look{};     ///< How it is drawn.
     std::vector<std::vector<std::array<std::uint32_t, 2>>> grid_of; ///< As in Patches.
@@ -101,9 +102,10 @@ template <SceneLike S>
     require(map.objects == scene.size(), "the number of objects of the light map",
             static_cast<long long>(map.objects),
             std::to_string(scene.size()) + ", as in the scene");
-    LightMapView<S> view{IndexedT<S>(scene), std::move(map), look, {}, {}};
+    LightMapView<S> view{detail::IndexedT<S>(scene), std::move(map), look, {}, {}};
     for (const auto& list : scene.objects)
-        view.grid_of.emplace_back(list.size(), std::array{no_grid, no_grid});
+        view.grid_of.emplace_back(list.size(),
+                                  std::array{detail::no_grid, detail::no_grid});
     std::size_t next = 0;
     for (std::uint32_t number = 0; number < view.map.grids.size(); ++number) {
         const PatchGrid& grid = view.map.grids[number];
@@ -132,21 +134,19 @@ template <SceneLike S>
 /// \param at        The place, see place_on().
 /// \param vertices  vertex_light() of the grid.
 /// \return W/m^2.
-// [blend]
 [[nodiscard]] inline RgbT<double>
 blended_light(const PatchGrid& grid, const glm::dvec2& at,
               std::span<const RgbT<double>> vertices) noexcept {
     glm::dvec2 t;
     const CellPlace place = place_of(grid, cell_of(grid, at, &t));
-    const auto v = cell_vertices(grid, place);
-    if (grid.kind != GridKind::triangle)
+    const auto v = detail::cell_vertices(grid, place);
+    if (grid.kind != detail::GridKind::triangle)
         return (1 - t.y) * ((1 - t.x) * vertices[v[0]] + t.x * vertices[v[1]]) +
                t.y * ((1 - t.x) * vertices[v[2]] + t.x * vertices[v[3]]);
     if (place.upper) t = 1.0 - t;
     return (1 - t.x - t.y) * vertices[v[0]] + t.x * vertices[v[1]] +
            t.y * vertices[v[2]];
 }
-// [blend]
 
 /// The radiance that a ray finds: one intersection and one look into the map.
 /// \param view    The scene and its light map.
@@ -173,10 +173,10 @@ template <SceneLike S, std::floating_point T, typename Log = NoLog>
     log.term("emission", "L", sum);
     const std::uint32_t number =
         view.grid_of[hit->object.type][hit->object.index][back];
-    if (number == no_grid) return sum;
+    if (number == detail::no_grid) return sum;
 
     const PatchGrid& grid = view.map.grids[number];
-    const glm::dvec2 at = place_on(grid.kind, hit->at, outer);
+    const glm::dvec2 at = detail::place_on(grid.kind, hit->at, outer);
     const RgbT<double> irradiance =
         view.look.smooth ? blended_light(grid, at, view.vertices[number])
                          : view.map.irradiance[grid.first + cell_of(grid, at)];

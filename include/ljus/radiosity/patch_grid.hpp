@@ -20,6 +20,8 @@ namespace ljus {
 /// the height and the angle around it, in which equal squares are equal areas.
 /// \{
 
+namespace detail {
+
 /// How a shape is cut.
 enum class GridKind : std::uint8_t {
     quad,     ///< Into columns along u and rows along v.
@@ -27,15 +29,17 @@ enum class GridKind : std::uint8_t {
     ball,     ///< As a quad whose first and last row meet.
 };
 
+} // namespace detail
+
 /// The cells of one side of a shape.
 struct PatchGrid {
-    ObjectId object{};              ///< Of the scene.
-    GridKind kind = GridKind::quad; ///< How it is cut.
-    bool back = false;              ///< The side that emission does not leave.
-    bool inward = false;            ///< The side against the shape's own normal.
-    std::uint32_t columns = 1;      ///< At least 1.
-    std::uint32_t rows = 1;         ///< At least 1; as the columns for a triangle.
-    std::uint32_t first = 0;        ///< The number of its first patch.
+    ObjectId object{};                              ///< Of the scene.
+    detail::GridKind kind = detail::GridKind::quad; ///< How it is cut.
+    bool back = false;         ///< The side that emission does not leave.
+    bool inward = false;       ///< The side against the shape's own normal.
+    std::uint32_t columns = 1; ///< At least 1.
+    std::uint32_t rows = 1;    ///< At least 1; as the columns for a triangle.
+    std::uint32_t first = 0;   ///< The number of its first patch.
 
     /// How many cells there are.
     [[nodiscard]] constexpr std::uint32_t size() const noexcept {
@@ -43,9 +47,10 @@ struct PatchGrid {
     }
     /// How many vertices they have.
     [[nodiscard]] constexpr std::uint32_t vertices() const noexcept {
-        if (kind == GridKind::triangle) return (columns + 1) * (columns + 2) / 2;
-        return kind == GridKind::ball ? (columns - 1) * rows + 2
-                                      : (columns + 1) * (rows + 1);
+        if (kind == detail::GridKind::triangle)
+            return (columns + 1) * (columns + 2) / 2;
+        return kind == detail::GridKind::ball ? (columns - 1) * rows + 2
+                                              : (columns + 1) * (rows + 1);
     }
     friend bool operator==(const PatchGrid&, const PatchGrid&) = default; ///< Equal?
 };
@@ -76,12 +81,12 @@ template <std::floating_point T>
                                              glm::distance(shape.v2, shape.v3),
                                              glm::distance(shape.v3, shape.v1)});
     const std::uint32_t cells = detail::cells_along(double(longest), size);
-    return {.kind = GridKind::triangle, .columns = cells, .rows = cells};
+    return {.kind = detail::GridKind::triangle, .columns = cells, .rows = cells};
 }
 template <std::floating_point T>
 [[nodiscard]] PatchGrid patch_grid(const SphereT<T>& shape, double size) noexcept {
     const double half = std::numbers::pi * double(shape.radius);
-    return {.kind = GridKind::ball,
+    return {.kind = detail::GridKind::ball,
             .columns = std::max(2u, detail::cells_along(half, size)),
             .rows = std::max(3u, detail::cells_along(2 * half, size))};
 }
@@ -97,7 +102,7 @@ struct CellPlace {
 /// Where a cell lies.
 [[nodiscard]] constexpr CellPlace place_of(const PatchGrid& grid,
                                            std::uint32_t cell) noexcept {
-    if (grid.kind != GridKind::triangle)
+    if (grid.kind != detail::GridKind::triangle)
         return {cell % grid.columns, cell / grid.columns};
     std::uint32_t row = 0;
     while (cell >= 2 * (grid.columns - row) - 1) cell -= 2 * (grid.columns - row++) - 1;
@@ -109,14 +114,13 @@ struct CellPlace {
 /// \param at    The place; what rounding put outside belongs to the border.
 /// \param local Takes where in the cell's own square it lies, unless it is null.
 /// \return Its number within the grid.
-// [cell_of]
 [[nodiscard]] inline std::uint32_t cell_of(const PatchGrid& grid, const glm::dvec2& at,
                                            glm::dvec2* local = nullptr) noexcept {
     const double u = std::clamp(at.x, 0.0, 1.0) * grid.columns;
     const double v = std::clamp(at.y, 0.0, 1.0) * grid.rows;
     std::uint32_t column = std::min(static_cast<std::uint32_t>(u), grid.columns - 1);
     const std::uint32_t row = std::min(static_cast<std::uint32_t>(v), grid.rows - 1);
-    const bool triangle = grid.kind == GridKind::triangle;
+    const bool triangle = grid.kind == detail::GridKind::triangle;
     if (triangle) column = std::min(column, grid.columns - 1 - row);
     const glm::dvec2 inside{u - column, v - row};
     if (local != nullptr) *local = inside;
@@ -124,7 +128,8 @@ struct CellPlace {
     const bool upper = inside.x + inside.y > 1 && column + row + 1 < grid.columns;
     return row * (2 * grid.columns - row) + 2 * column + (upper ? 1 : 0);
 }
-// [cell_of]
+
+namespace detail {
 
 /// The place of a hit on its shape.
 /// \param kind          Of the grid.
@@ -185,6 +190,8 @@ template <typename S, std::floating_point T>
                             : Facet{{at(0, 0), at(1, 0), at(0, 1)}, 3};
     return grid.inward ? turned(facet) : facet;
 }
+
+} // namespace detail
 
 /// \}
 

@@ -19,6 +19,8 @@ namespace ljus {
 /// \ref ch_radiosity.
 /// \{
 
+namespace detail {
+
 /// A point of a patch, uniform over its area.
 /// \param scene   The scene.
 /// \param all     Its patches.
@@ -75,18 +77,19 @@ template <SceneLike S>
 void shoot_rays(const S& scene, const Patches& all, std::uint32_t number, int rays,
                 std::uint64_t seed, std::span<double> row) {
     using T = typename S::Scalar;
-    const Strata strata = strata_for(rays);
+    const detail::Strata strata = detail::strata_for(rays);
     const std::uint64_t key = mix_bits(seed) ^ number;
     const double share = all.patches[number].area / rays;
     for (int i = 0; i < rays; ++i) {
         RandomStream stream = random_stream(seed, Pass::form_factors, number,
                                             static_cast<std::uint64_t>(i));
         // Places and directions are spread evenly, and paired in a random order.
-        const auto other = static_cast<int>(shuffled(
+        const auto other = static_cast<int>(detail::shuffled(
             static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(rays), key));
-        const Vec2T<T> place = stratified(strata, other, ~key, next_2d<T>(stream));
+        const Vec2T<T> place =
+            detail::stratified(strata, other, ~key, next_2d<T>(stream));
         const auto point = sample_patch(scene, all, number, place);
-        const Vec2T<T> u = stratified(strata, i, key, next_2d<T>(stream));
+        const Vec2T<T> u = detail::stratified(strata, i, key, next_2d<T>(stream));
         const Vec3T<T> way =
             to_world(frame_around(point.normal), sample_cosine_hemisphere(u));
         const RayT<T> ray = spawn_ray(point, way);
@@ -106,23 +109,22 @@ void shoot_rays(const S& scene, const Patches& all, std::uint32_t number, int ra
 /// \param rays    How many, at least 1.
 /// \param seed    Of the random streams.
 /// \return In [0, 1]: the weights cancel, and the closed form knows them better.
-// [visible_share]
 template <SceneLike S>
 [[nodiscard]] double visible_share(const S& scene, const Patches& all,
                                    std::uint32_t one, std::uint32_t two, int rays,
                                    std::uint64_t seed) {
     using T = typename S::Scalar;
-    const Strata strata = strata_for(rays);
+    const detail::Strata strata = detail::strata_for(rays);
     const std::uint64_t pair = (std::uint64_t(one) << 32) + two;
     double total = 0, visible = 0;
     for (int i = 0; i < rays; ++i) {
         RandomStream stream = random_stream(seed, Pass::form_factors, pair,
                                             static_cast<std::uint64_t>(i));
-        const Vec2T<T> u = stratified(strata, i, pair, next_2d<T>(stream));
+        const Vec2T<T> u = detail::stratified(strata, i, pair, next_2d<T>(stream));
         // The same squares on the other patch, in another order.
-        const auto other = static_cast<int>(shuffled(
+        const auto other = static_cast<int>(detail::shuffled(
             static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(rays), ~pair));
-        const Vec2T<T> v = stratified(strata, other, ~pair, next_2d<T>(stream));
+        const Vec2T<T> v = detail::stratified(strata, other, ~pair, next_2d<T>(stream));
         const auto a = sample_patch(scene, all, one, u);
         const auto b = sample_patch(scene, all, two, v);
         const Vec3T<T> way = b.position - a.position;
@@ -136,7 +138,8 @@ template <SceneLike S>
     }
     return total > 0 ? visible / total : 0;
 }
-// [visible_share]
+
+} // namespace detail
 
 /// \}
 

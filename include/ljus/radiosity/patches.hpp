@@ -28,8 +28,12 @@ struct Patch {
 };
 // [patch]
 
+namespace detail {
+
 /// The number of "no grid".
 inline constexpr std::uint32_t no_grid = 0xffffffffu;
+
+} // namespace detail
 
 /// A scene, cut up.
 struct Patches {
@@ -172,7 +176,7 @@ template <SceneLike S>
     long long unknown = 0, shiny = 0, lamps = 0;
     const auto cut = [&]<typename G>(const G& shape, ObjectId id) {
         const auto& object = scene.object(id);
-        std::array<std::uint32_t, 2> sides{no_grid, no_grid};
+        std::array<std::uint32_t, 2> sides{detail::no_grid, detail::no_grid};
         std::array<bool, 2> open{};
         for (const bool back : {false, true})
             open[back] = detail::anything_before(

@@ -41,11 +41,10 @@ struct Radiosity {
 /// \return Emitted = absorbed + escaped, if the equations are solved and the form
 ///         factors reciprocal: to rounding, however large the patches and however few
 ///         the rays.
-// [energy_balance]
 [[nodiscard]] inline EnergyBalance
 energy_balance(const Patches& patches, const FormFactors& factors,
                const std::vector<RgbT<double>>& radiosity) {
-    const auto irradiance = multiply(factors, radiosity);
+    const auto irradiance = detail::multiply(factors, radiosity);
     EnergyBalance sum;
     for (std::size_t i = 0; i < radiosity.size(); ++i) {
         const Patch& patch = patches.patches[i];
@@ -55,7 +54,6 @@ energy_balance(const Patches& patches, const FormFactors& factors,
     }
     return sum;
 }
-// [energy_balance]
 
 /// The light map of a solution.
 /// \param scene      The scene.
@@ -70,7 +68,7 @@ template <SceneLike S>
                                       const std::vector<RgbT<double>>& radiosity) {
     return {.objects = scene.size(),
             .grids = patches.grids,
-            .irradiance = multiply(factors, radiosity)};
+            .irradiance = detail::multiply(factors, radiosity)};
 }
 
 /// Radiosity of a scene, from the patches to the light map.
@@ -81,7 +79,6 @@ template <SceneLike S>
 /// \throws std::invalid_argument  as make_patches(), make_form_factors() and
 ///         solve_radiosity().
 /// \report{Section 2.2}
-// [make_radiosity]
 template <SceneLike S>
 [[nodiscard]] std::optional<Radiosity>
 make_radiosity(const S& scene, const RadiositySettings& settings = {}) {
@@ -93,7 +90,6 @@ make_radiosity(const S& scene, const RadiositySettings& settings = {}) {
     all.map = make_light_map(scene, all.patches, all.factors, all.solution.radiosity);
     return all;
 }
-// [make_radiosity]
 
 /// \}
 

@@ -44,14 +44,11 @@ inline void eliminate(std::vector<double>& a, std::vector<RgbT<double>>& b) {
     }
 }
 
-} // namespace detail
-
 /// Solves by elimination: all channels at once if every patch is grey, else one by one.
 /// \param factors  The form factors.
 /// \param patches  Albedo and emission.
 /// \return Radiosity, W/m^2.
 /// \cost n^2 numbers of memory, n^3/3 multiplications: 10 s for 3000 patches.
-// [solve_lu]
 [[nodiscard]] inline std::vector<RgbT<double>>
 solve_lu(const FormFactors& factors, const std::vector<Patch>& patches) {
     const std::size_t n = patches.size();
@@ -77,7 +74,8 @@ solve_lu(const FormFactors& factors, const std::vector<Patch>& patches) {
     }
     return radiosity;
 }
-// [solve_lu]
+
+} // namespace detail
 
 /// \}
 

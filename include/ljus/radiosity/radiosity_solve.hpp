@@ -39,13 +39,14 @@ struct RadiositySolution {
     bool converged = true;                 ///< Whether the tolerance was reached.
 };
 
+namespace detail {
+
 /// The irradiance of all patches.
 /// \param factors    The form factors.
 /// \param radiosity  Of each patch, W/m^2.
 /// \param threads    As in ParallelSettings.
 /// \return \f$ H_i = \sum_j F_{ij} B_j \f$, in W/m^2.
 /// \cost n^2 multiplications for each channel.
-// [gather]
 [[nodiscard]] inline std::vector<RgbT<double>>
 multiply(const FormFactors& factors, const std::vector<RgbT<double>>& radiosity,
          int threads = 0) {
@@ -61,9 +62,6 @@ multiply(const FormFactors& factors, const std::vector<RgbT<double>>& radiosity,
     parallel_blocks(static_cast<long long>(n), body, {.threads = threads});
     return irradiance;
 }
-// [gather]
-
-namespace detail {
 
 // The flux of a residual as a share of the emitted flux, in the channel where it is
 // the largest.
@@ -78,8 +76,6 @@ namespace detail {
         if (emitted[c] > 0) share = std::max(share, sum[c] / emitted[c]);
     return share;
 }
-
-} // namespace detail
 
 /// Sends the waiting light of one patch to all others. Gauss-Seidel and shooting are
 /// this step, in different orders.
@@ -107,7 +103,6 @@ inline void relax(const FormFactors& factors, const std::vector<Patch>& patches,
 /// \param factors  The form factors.
 /// \param unsent   Radiosity that waits on each patch.
 /// \return Its number; the first one of equals.
-// [brightest]
 [[nodiscard]] inline std::size_t brightest(const FormFactors& factors,
                                            const std::vector<RgbT<double>>& unsent) {
     std::size_t best = 0;
@@ -119,7 +114,8 @@ inline void relax(const FormFactors& factors, const std::vector<Patch>& patches,
     }
     return best;
 }
-// [brightest]
+
+} // namespace detail
 
 /// Solves the equations of radiosity.
 ///
@@ -134,7 +130,6 @@ inline void relax(const FormFactors& factors, const std::vector<Patch>& patches,
 ///         albedo of 1 in a closed room, or a row sum above 1 by the noise of few rays.
 /// \cost n^2 multiplications a sweep and channel.
 /// \report{Section 2.2}
-// [solve]
 [[nodiscard]] inline RadiositySolution
 solve_radiosity(const FormFactors& factors, const std::vector<Patch>& patches,
                 const SolveSettings& settings = {}) {
@@ -151,8 +146,9 @@ solve_radiosity(const FormFactors& factors, const std::vector<Patch>& patches,
     require(most < 1 - 1e-12, "the largest share of its light that a patch gets back",
             most, "below 1: take smaller albedos, more rays, or `closed` factors");
     if (settings.solver == RadiositySolver::lu) {
-        solution.radiosity = solve_lu(factors, patches);
-        const auto irradiance = multiply(factors, solution.radiosity, settings.threads);
+        solution.radiosity = detail::solve_lu(factors, patches);
+        const auto irradiance =
+            detail::multiply(factors, solution.radiosity, settings.threads);
         for (std::size_t i = 0; i < n; ++i)
             unsent[i] += patches[i].albedo * irradiance[i] - solution.radiosity[i];
         solution.residual.push_back(detail::unsent_share(factors, unsent, flux));
@@ -160,7 +156,7 @@ solve_radiosity(const FormFactors& factors, const std::vector<Patch>& patches,
     }
     const auto jacobi = [&] {
         for (std::size_t i = 0; i < n; ++i) solution.radiosity[i] += unsent[i];
-        const auto arrives = multiply(factors, unsent, settings.threads);
+        const auto arrives = detail::multiply(factors, unsent, settings.threads);
         for (std::size_t i = 0; i < n; ++i) unsent[i] = patches[i].albedo * arrives[i];
     };
     const auto rest = [&] { return detail::unsent_share(factors, unsent, flux); };
@@ -174,16 +170,15 @@ solve_radiosity(const FormFactors& factors, const std::vector<Patch>& patches,
             jacobi();
         else
             for (std::size_t step = 0; step < n; ++step)
-                relax(factors, patches,
-                      settings.solver == RadiositySolver::shooting
-                          ? brightest(factors, unsent)
-                          : step,
-                      solution.radiosity, unsent);
+                detail::relax(factors, patches,
+                              settings.solver == RadiositySolver::shooting
+                                  ? detail::brightest(factors, unsent)
+                                  : step,
+                              solution.radiosity, unsent);
         solution.residual.push_back(rest());
     }
     return solution;
 }
-// [solve]
 
 /// \}
 

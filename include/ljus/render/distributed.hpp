@@ -29,7 +29,7 @@ struct DistributedSettings {
 template <SceneLike S>
 struct DistributedTracer {
     using Stream = StratifiedStream; ///< What render() gives it to draw from.
-    IndexedT<S> scene;               ///< What is rendered.
+    detail::IndexedT<S> scene;       ///< What is rendered.
     DistributedSettings settings;    ///< How.
 };
 
@@ -45,12 +45,14 @@ template <SceneLike S>
 make_distributed(const S& scene, const DistributedSettings& settings = {}) {
     require(settings.max_depth >= 0, "max_depth",
             static_cast<long long>(settings.max_depth), "at least 0");
-    return {IndexedT<S>(scene), settings};
+    return {detail::IndexedT<S>(scene), settings};
 }
 /// Not of a temporary: the scene would be gone before it is rendered.
 template <SceneLike S>
 DistributedTracer<S> make_distributed(const S&& scene,
                                       const DistributedSettings& = {}) = delete;
+
+namespace detail {
 
 /// The light of all lights at a surface, by one shadow ray to a random point of each.
 /// In gloss a lamp is seen by the reflected ray, so that none is sent to it: each path
@@ -62,7 +64,6 @@ DistributedTracer<S> make_distributed(const S&& scene,
 /// \param counts    Counts the rays.
 /// \return Radiance towards wo.
 /// \report{Section 2.1}
-// [soft shadow]
 template <SceneLike S, std::floating_point T, Material M, typename Stream>
 [[nodiscard]] RgbT<T> soft_light(const S& scene, const VertexT<T>& vertex,
                                  const M& material, Stream& stream, Counts& counts) {
@@ -76,7 +77,8 @@ template <SceneLike S, std::floating_point T, Material M, typename Stream>
     }
     return sum;
 }
-// [soft shadow]
+
+} // namespace detail
 
 /// The radiance that one camera ray finds, at a random time, by one ray at each mirror,
 /// glass or gloss and one to each light.
@@ -95,7 +97,7 @@ template <SceneLike S, std::floating_point T, typename Stream, typename Log = No
                                Stream& stream, Counts& counts, Log&& log = {}) {
     const auto& scene = tracer.scene;
     RgbT<T> sum{T(0)};
-    auto path = camera_path(scene, ray, stream);
+    auto path = detail::camera_path(scene, ray, stream);
     log.begin();
     while (const auto vertex = next_vertex(scene, path, stream)) {
         const auto add = [&](const char* owner, const char* letters,
@@ -109,7 +111,7 @@ template <SceneLike S, std::floating_point T, typename Stream, typename Log = No
             const Lobes parts = lobes(material);
             if (has(parts, Lobes::non_specular))
                 add("shadow ray", "DL",
-                    soft_light(scene, *vertex, material, stream, counts));
+                    detail::soft_light(scene, *vertex, material, stream, counts));
             if (path.depth > tracer.settings.max_depth) return false;
             const Lobes which =
                 has(parts, Lobes::glossy) ? Lobes::all : Lobes::specular;
@@ -117,7 +119,7 @@ template <SceneLike S, std::floating_point T, typename Stream, typename Log = No
                                  stream);
         };
         if (!visit_material_at(scene, *vertex, at_material)) break;
-        log_vertex(log, path);
+        detail::log_vertex(log, path);
         if (is_black(path.throughput)) break;
         ++counts.bounce_rays;
     }

@@ -19,7 +19,7 @@ namespace ljus {
 /// How the light of a lamp that both a shadow ray and the path itself can find is divided
 /// between the two: the weights of multiple importance sampling.
 enum class MisHeuristic : std::uint8_t {
-    balance,    ///< In proportion to each one's pdf: balance().
+    balance,    ///< In proportion to each one's pdf: balance_heuristic().
     power,      ///< In proportion to the square of the pdf: power_heuristic().
     shadow_rays ///< All to the shadow ray: next-event estimation alone.
 };
@@ -38,7 +38,7 @@ struct PathTracingSettings {
 template <SceneLike S>
 struct PathTracer {
     using Stream = RandomStream;  ///< What render() gives it to draw from.
-    IndexedT<S> scene;            ///< What is rendered.
+    detail::IndexedT<S> scene;    ///< What is rendered.
     PathTracingSettings settings; ///< How.
     LightChoice lights;           ///< Its lights, by power.
 };
@@ -58,7 +58,7 @@ template <SceneLike S>
             settings.roulette_threshold, "at least 0");
     require(settings.roulette_max > 0 && settings.roulette_max <= 1, "roulette_max",
             settings.roulette_max, "in (0, 1]");
-    return {IndexedT<S>(scene), settings, light_choice(scene.lights)};
+    return {detail::IndexedT<S>(scene), settings, light_choice(scene.lights)};
 }
 /// Not of a temporary: the scene would be gone before it is rendered.
 template <SceneLike S>
@@ -72,7 +72,7 @@ PathTracer<S> make_path_tracer(const S&& scene,
 /// \return In [0, 1].
 // [heuristics]
 template <std::floating_point T>
-[[nodiscard]] constexpr T balance(T pdf, T other) noexcept {
+[[nodiscard]] constexpr T balance_heuristic(T pdf, T other) noexcept {
     // Not pdf / (pdf + other), which is NaN for two infinities.
     return pdf > other ? T(1) / (T(1) + other / pdf)
                        : pdf / other / (T(1) + pdf / other);
@@ -91,6 +91,8 @@ template <std::floating_point T>
 }
 // [heuristics]
 
+namespace detail {
+
 /// The weight of one of two strategies, as the settings have it.
 /// \param heuristic  balance or power.
 /// \param pdf        Of the strategy that made the sample.
@@ -99,7 +101,7 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] constexpr T mis_weight(MisHeuristic heuristic, T pdf, T other) noexcept {
     return heuristic == MisHeuristic::power ? power_heuristic(pdf, other)
-                                            : balance(pdf, other);
+                                            : balance_heuristic(pdf, other);
 }
 
 /// The density with which the tracer's shadow rays from the vertex before choose the
@@ -114,7 +116,7 @@ template <SceneLike S, std::floating_point T>
     const T pdf = tracer.scene.visit_shape(vertex.id, [&](const auto& shape) {
         return pdf_towards(at_time(shape, vertex.time), path.previous, vertex.point);
     });
-    return pdf * probability_of<T>(tracer.lights, vertex.object.light);
+    return pdf * detail::probability_of<T>(tracer.lights, vertex.object.light);
 }
 
 /// The light of a lamp that a path has met, with the weight that the shadow ray from
@@ -153,7 +155,7 @@ template <SceneLike S, std::floating_point T, Material M>
                                        const PathStateT<T>& path,
                                        const VertexT<T>& vertex, const M& material,
                                        RandomStream& stream, Counts& counts) {
-    const auto chosen = choose_light(tracer.lights, next_1d<T>(stream));
+    const auto chosen = detail::choose_light(tracer.lights, next_1d<T>(stream));
     const auto weigh = [&](const LightSampleT<T>& light, const Vec3T<T>& wi) {
         const MisHeuristic heuristic = tracer.settings.heuristic;
         if (heuristic == MisHeuristic::shadow_rays) return T(1);
@@ -167,6 +169,8 @@ template <SceneLike S, std::floating_point T, Material M>
            chosen.probability;
 }
 // [sampled]
+
+} // namespace detail
 
 /// The radiance that one random path finds.
 ///
@@ -193,17 +197,19 @@ template <SceneLike S, std::floating_point T, typename Log = NoLog>
         sum += term;
     };
 
-    auto path = camera_path(scene, ray, stream);
+    auto path = detail::camera_path(scene, ray, stream);
     log.begin();
     while (const auto vertex = next_vertex(scene, path, stream)) {
-        if (vertex->emits()) add("emission", "L", emitted(tracer, path, *vertex));
+        if (vertex->emits())
+            add("emission", "L", detail::emitted(tracer, path, *vertex));
         if (path.depth > settings.max_depth) break;
 
         const auto at_material = [&](const auto& material) {
             if (has(lobes(material), Lobes::non_specular) && settings.sample_lights &&
                 !scene.lights.empty())
                 add("shadow ray", "DL",
-                    sample_one_light(tracer, path, *vertex, material, stream, counts));
+                    detail::sample_one_light(tracer, path, *vertex, material, stream,
+                                             counts));
             return continue_path(path, *vertex, material, Transport::radiance,
                                  Lobes::all, stream);
         };
@@ -211,7 +217,7 @@ template <SceneLike S, std::floating_point T, typename Log = NoLog>
         // From the last surface a path goes on to the lamp that its shadow ray left a
         // part of, and to nothing else.
         if (path.depth == settings.max_depth && path.specular) break;
-        log_vertex(log, path);
+        detail::log_vertex(log, path);
         if (is_black(path.throughput)) break;
         if (path.depth >= settings.roulette_depth &&
             !survives(path.throughput, path.eta_scale, next_1d<T>(stream),

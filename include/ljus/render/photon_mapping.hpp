@@ -70,7 +70,7 @@ make_photon_maps(const S& scene, const PhotonMappingSettings& settings = {}) {
 template <SceneLike S>
 struct PhotonMapper {
     using Stream = RandomStream; ///< What render() gives it to draw from.
-    IndexedT<S> scene;           ///< What is rendered.
+    detail::IndexedT<S> scene;   ///< What is rendered.
     const PhotonMapsT<typename S::Scalar>& maps; ///< Of the first pass.
     PhotonMappingSettings settings;              ///< How.
     bool indirect_rays; ///< Whether the plan has rays between diffuse surfaces.
@@ -88,7 +88,7 @@ template <SceneLike S>
 make_photon_mapper(const S& scene, const PhotonMapsT<typename S::Scalar>& maps,
                    const PhotonMappingSettings& settings = {}) {
     check(settings);
-    return {IndexedT<S>(scene), maps, settings,
+    return {detail::IndexedT<S>(scene), maps, settings,
             survey(scene, settings).indirect_rays.on};
 }
 /// Not of a temporary: the scene would be gone before it is rendered.
@@ -130,8 +130,8 @@ void light_at(const PhotonMapper<S>& mapper, const VertexT<T>& vertex,
             ask(mapper.maps.general, settings.general_estimate, light_kinds));
     else
         add("shadow ray", "DL",
-            sample_all_lights(mapper.scene, vertex, material, settings.shadow_rays,
-                              stream, counts));
+            detail::sample_all_lights(mapper.scene, vertex, material,
+                                      settings.shadow_rays, stream, counts));
     if (settings.indirect == IndirectLight::photons)
         add("general map", "D..DL",
             ask(mapper.maps.general, settings.general_estimate,
@@ -142,6 +142,8 @@ void light_at(const PhotonMapper<S>& mapper, const VertexT<T>& vertex,
 }
 // [light_at]
 
+namespace detail {
+
 /// A camera path goes both ways at glass so many times, at most.
 inline constexpr std::size_t max_splits = 8;
 
@@ -149,6 +151,8 @@ inline constexpr std::size_t max_splits = 8;
 /// throughput says. It is faint: by its throughput alone it would survive rarely, and
 /// then be as bright as if it were the only one. Any number keeps the mean.
 inline constexpr int split_survival = 16;
+
+} // namespace detail
 
 /// The radiance that one camera path finds with the help of the photon maps.
 ///
@@ -195,7 +199,7 @@ template <SceneLike S, std::floating_point T, typename Log = NoLog>
                     light_at(mapper, *vertex, material, gather, stream, counts, add);
                 if (path.depth == settings.max_depth) return false;
                 if (settings.split_glass && !path.met_diffuse &&
-                    branches.size() < max_splits)
+                    branches.size() < detail::max_splits)
                     if (const auto other = split_path(path, *vertex, material)) {
                         branches.push_back(*other);
                         return true;
@@ -206,10 +210,10 @@ template <SceneLike S, std::floating_point T, typename Log = NoLog>
                                      by_rays ? Lobes::all : Lobes::specular, stream);
             };
             if (!visit_material_at(mapper.scene, *vertex, at_material)) return;
-            log_vertex(log, path);
+            detail::log_vertex(log, path);
             if (is_black(path.throughput)) return;
             const T eta_scale = !branches.empty() && !path.met_diffuse
-                                    ? path.eta_scale / T(split_survival)
+                                    ? path.eta_scale / T(detail::split_survival)
                                     : path.eta_scale;
             if (path.depth >= settings.roulette_depth &&
                 !survives(path.throughput, eta_scale, next_1d<T>(stream)))
@@ -218,11 +222,11 @@ template <SceneLike S, std::floating_point T, typename Log = NoLog>
         }
     };
     log.begin();
-    follow_path(camera_path(mapper.scene, ray, stream));
+    follow_path(detail::camera_path(mapper.scene, ray, stream));
     for (std::size_t i = 0; i < branches.size(); ++i) {
         const PathStateT<T> branch = branches[i];
         ++counts.bounce_rays;
-        log_specular_path(log, branch);
+        detail::log_specular_path(log, branch);
         follow_path(branch);
     }
     return sum;

@@ -17,7 +17,7 @@ namespace ljus {
 template <SceneLike S>
 struct PlainPathTracer {
     using Stream = RandomStream; ///< What render() gives it to draw from.
-    IndexedT<S> scene;           ///< What is rendered.
+    detail::IndexedT<S> scene;   ///< What is rendered.
     int max_depth = 100;         ///< Surfaces on a camera path.
 };
 
@@ -30,7 +30,7 @@ template <SceneLike S>
                                                         int max_depth = 100) {
     require(max_depth >= 1, "max_depth", static_cast<long long>(max_depth),
             "at least 1");
-    return {IndexedT<S>(scene), max_depth};
+    return {detail::IndexedT<S>(scene), max_depth};
 }
 /// Not of a temporary: the scene would be gone before it is rendered.
 template <SceneLike S>

@@ -51,6 +51,8 @@ constexpr void start_ray(RandomStream& stream, std::uint64_t seed, std::uint64_t
                                static_cast<std::uint64_t>(ray));
 }
 
+namespace detail {
+
 /// The radiance of one primary ray, as the pixel loop asks for it.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    A CameraT, or anything with a camera_ray().
@@ -73,13 +75,15 @@ template <typename R, template <std::floating_point> typename AnyCamera,
         static_cast<std::uint64_t>(x);
     typename R::Stream stream;
     start_ray(stream, picture.seed, pixel, number, pattern);
-    const Vec2T<T> place =
-        spread(pattern, number, mix_bits(picture.seed) ^ pixel, next_2d<T>(stream));
+    const Vec2T<T> place = detail::spread(
+        pattern, number, mix_bits(picture.seed) ^ pixel, next_2d<T>(stream));
     const RayT<T> ray = camera_ray(camera, Vec2T<T>{T(x), T(y)} + place, picture.width,
                                    picture.height, stream);
     ++counts.camera_rays;
     return radiance(renderer, ray, stream, counts, log);
 }
+
+} // namespace detail
 
 /// Renders a picture, row by row, by several threads.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
@@ -88,7 +92,6 @@ template <typename R, template <std::floating_point> typename AnyCamera,
 /// \return The picture, the same for any number of threads. A sample that is not finite
 ///         is left out and counted.
 /// \throws std::invalid_argument  if the size or the number of rays is below 1.
-// [render]
 template <typename R, template <std::floating_point> typename AnyCamera,
           std::floating_point T>
 requires Renderer<R, T>
@@ -108,8 +111,8 @@ requires Renderer<R, T>
         for (int x = first; x < std::min(first + 16, picture.width); ++x) {
             RgbT<double> sum{0}; // a float would lose the last of 100 000 samples
             for (int i = 0; i < picture.samples; ++i) {
-                const RgbT<T> sample =
-                    sample_pixel(renderer, camera, picture, pattern, x, y, i, cost);
+                const RgbT<T> sample = detail::sample_pixel(renderer, camera, picture,
+                                                            pattern, x, y, i, cost);
                 if (is_finite(sample))
                     sum += RgbT<double>(sample);
                 else
@@ -125,7 +128,6 @@ requires Renderer<R, T>
     for (const Counts& cost : counts) result.counts += cost;
     return result;
 }
-// [render]
 
 /// \}
 

@@ -71,7 +71,7 @@ template <SceneLike S>
 [[nodiscard]] SceneNeeds needs(const S& scene) {
     SceneNeeds found{.objects = scene.size(),
                      .lights = scene.lights.size(),
-                     .films = has_thin_surfaces(scene)};
+                     .films = detail::has_thin_surfaces(scene)};
     for (const auto& objects : scene.objects)
         for (const auto& object : objects) {
             const Lobes parts = scene.visit_material(
@@ -82,6 +82,8 @@ template <SceneLike S>
     return found;
 }
 
+namespace detail {
+
 /// Says which passes a scene requires.
 /// \param found     What the scene is made of.
 /// \param settings  What the user asks for.
@@ -90,7 +92,11 @@ template <SceneLike S>
 [[nodiscard]] LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
                                               const PhotonMappingSettings& settings);
 
+} // namespace detail
+
 #ifndef LJUS_CORE // else it is there already
+namespace detail {
+
 // [survey]
 LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
                                 const PhotonMappingSettings& settings) {
@@ -138,7 +144,7 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
     plan.thin_film = item("thin film", found.films,
                           found.films ? "paths pass through the listed films"
                                       : "no material is one");
-    const bool tree = needs_tree(found.objects);
+    const bool tree = detail::needs_tree(found.objects);
     plan.tree = item("tree", tree,
                      std::to_string(found.objects) +
                          (tree ? " objects, a tree finds the first on a ray"
@@ -146,6 +152,9 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
     return plan;
 }
 // [survey]
+
+} // namespace detail
+
 #endif
 
 /// Says which passes a scene requires.
@@ -154,7 +163,7 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
 /// \return As make_plan().
 template <SceneLike S>
 [[nodiscard]] Plan survey(const S& scene, const PhotonMappingSettings& settings) {
-    return make_plan(needs(scene), settings);
+    return detail::make_plan(needs(scene), settings);
 }
 
 /// \}

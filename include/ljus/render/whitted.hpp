@@ -33,7 +33,7 @@ struct WhittedSettings {
 template <SceneLike S>
 struct WhittedTracer {
     using Stream = RandomStream; ///< What render() gives it to draw from.
-    IndexedT<S> scene;           ///< What is rendered.
+    detail::IndexedT<S> scene;   ///< What is rendered.
     WhittedSettings settings;    ///< How.
 };
 
@@ -49,7 +49,7 @@ template <SceneLike S>
     require(settings.max_depth >= 0, "max_depth",
             static_cast<long long>(settings.max_depth), "at least 0");
     require_radiance("whitted.ambient", settings.ambient);
-    return {IndexedT<S>(scene), settings};
+    return {detail::IndexedT<S>(scene), settings};
 }
 /// Not of a temporary: the scene would be gone before it is rendered.
 template <SceneLike S>
@@ -70,6 +70,8 @@ template <std::floating_point T>
     return Vec2T<T>{T(0)};
 }
 /// \}
+
+namespace detail {
 
 /// The light that a diffuse surface sends back: of each light by one shadow ray, which
 /// is not sent where the surface faces away, and of the ambient light without any.
@@ -134,7 +136,7 @@ void trace_branch(const WhittedTracer<S>& tracer, PathStateT<T> path, Stream& st
                                       Lobes::specular, stream);
     };
     if (!visit_material_at(tracer.scene, *vertex, at_material)) return;
-    log_vertex(log, path);
+    detail::log_vertex(log, path);
     const auto grow = [&](const PathStateT<T>& branch) {
         if (is_black(branch.throughput)) return;
         ++counts.bounce_rays;
@@ -142,10 +144,12 @@ void trace_branch(const WhittedTracer<S>& tracer, PathStateT<T> path, Stream& st
     };
     grow(path);
     if (!other) return;
-    log_specular_path(log, *other);
+    detail::log_specular_path(log, *other);
     grow(*other);
 }
 // [trace_branch]
+
+} // namespace detail
 
 /// The radiance that the tree of one primary ray finds.
 ///
@@ -159,17 +163,15 @@ void trace_branch(const WhittedTracer<S>& tracer, PathStateT<T> path, Stream& st
 /// \return Radiance, W/(m^2 sr).
 /// \cost Up to 2^max_depth rays, if every ray meets glass.
 /// \report{Section 2.1}
-// [radiance]
 template <SceneLike S, std::floating_point T, typename Stream, typename Log = NoLog>
 [[nodiscard]] RgbT<T> radiance(const WhittedTracer<S>& tracer, const RayT<T>& ray,
                                Stream& stream, Counts& counts, Log&& log = {}) {
     RgbT<T> sum{T(0)};
     log.begin();
-    trace_branch(tracer, camera_path(tracer.scene, ray, stream), stream, counts, log,
-                 sum);
+    detail::trace_branch(tracer, detail::camera_path(tracer.scene, ray, stream), stream,
+                         counts, log, sum);
     return sum;
 }
-// [radiance]
 
 /// \}
 

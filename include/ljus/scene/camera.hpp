@@ -113,7 +113,6 @@ template <std::floating_point T, typename Stream>
 /// \return From the upper left corner, in pixels; it may lie outside of the picture.
 ///         Nothing for a point beside or behind the camera, or one that is not finite.
 /// \report{Section 3.2, Fig. 3}
-// [project]
 template <std::floating_point T>
 [[nodiscard]] std::optional<Vec2T<T>> project(const CameraT<T>& camera,
                                               const Vec3T<T>& point, int width,
@@ -127,7 +126,6 @@ template <std::floating_point T>
         return std::nullopt;
     return pixel;
 }
-// [project]
 
 /// \}
 

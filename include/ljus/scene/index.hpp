@@ -13,6 +13,8 @@ namespace ljus {
 /// partition". Chapter: \ref ch_bvh.
 /// \{
 
+namespace detail {
+
 /// So many shapes, at most, are asked in turn; of more, a tree says which ones to ask.
 /// Measured (benchmarks/rays_room.cpp): in the report's room, cut down to its first 2,
 /// 3, 4, ... objects, the loop takes 34, 45, 53, ... ns a ray and the tree 35, 41, 45.
@@ -35,6 +37,8 @@ template <Shape S>
         return bounds(bounding_sphere(shape));
 }
 
+} // namespace detail
+
 /// A scene with an index over all its shapes, of all types \cite rubin1980. It stands
 /// for the scene wherever one is asked for, and refers to it: the scene must outlive
 /// it, unchanged.
@@ -54,13 +58,13 @@ struct IndexedScene {
     IndexedScene(const S& of)
         : scene(of), shapes(of.shapes), objects(of.objects), materials(of.materials),
           lights(of.lights) {
-        if (!needs_tree(scene.size())) return;
+        if (!detail::needs_tree(scene.size())) return;
         std::vector<BoxT<Scalar>> boxes;
         std::vector<ObjectId> all;
         std::uint32_t type = 0;
         const auto add = [&](const auto& list) {
             for (std::uint32_t i = 0; i < list.size(); ++i) {
-                boxes.push_back(box_around(list[i]));
+                boxes.push_back(detail::box_around(list[i]));
                 all.push_back({type, i});
             }
             ++type;
@@ -83,7 +87,7 @@ struct IndexedScene {
     std::vector<ObjectId> ids{}; ///< Of the shapes, in the tree's order.
 
     /// As the scene does.
-    [[nodiscard]] const ObjectT<Scalar>& object(ObjectId id) const noexcept {
+    [[nodiscard]] const detail::ObjectT<Scalar>& object(ObjectId id) const noexcept {
         return scene.object(id);
     }
     /// As the scene does.
@@ -121,6 +125,8 @@ template <typename Compute = void, typename S>
 template <typename Compute = void, typename S>
 IndexedScene<S, Compute> index_scene(const S&& scene) = delete;
 
+namespace detail {
+
 /// What a renderer keeps of the scene that it is given: an index of its own, or the one
 /// that it was given.
 template <typename S>
@@ -136,6 +142,8 @@ struct Indexed<IndexedScene<S, Compute>> {
 template <typename S>
 using IndexedT = typename Indexed<S>::Type;
 
+} // namespace detail
+
 /// The first object that a ray meets, by the index.
 /// \param scene  The scene.
 /// \param ray    Hits count in [t_min, t_max].
@@ -148,8 +156,9 @@ closest_hit(const IndexedScene<S, Compute>& scene, const RayT<T>& ray) {
     ObjectId object;
     scene.tree.closest(ray, [&](std::uint32_t place, RayT<T>& rest) {
         const ObjectId id = scene.ids[place];
-        const auto hit = scene.scene.visit_shape(
-            id, [&](const auto& shape) { return hit_of<Compute>(rest, shape); });
+        const auto hit = scene.scene.visit_shape(id, [&](const auto& shape) {
+            return detail::hit_of<Compute>(rest, shape);
+        });
         if (hit && nearest.offer(*hit, scene.tree.primitive_ids()[place], rest))
             object = id;
     });
@@ -166,7 +175,7 @@ template <typename S, typename Compute, std::floating_point T>
     if (scene.ids.empty()) return occluded<Compute>(scene.scene, ray);
     return scene.tree.any(ray, [&](std::uint32_t place) {
         return scene.scene.visit_shape(scene.ids[place], [&](const auto& shape) {
-            return is_met<Compute>(ray, shape);
+            return detail::is_met<Compute>(ray, shape);
         });
     });
 }

@@ -73,11 +73,12 @@ struct LightT {
 };
 using Light = LightT<float>; ///< LightT in float.
 
+namespace detail {
+
 /// The share of its intensity that a spot light sends into a direction.
 /// \param light  The spot light.
 /// \param wo     Unit direction away from it.
 /// \return 1 within the inner cone, 0 outside of the outer one.
-// [spot_share]
 template <std::floating_point T>
 [[nodiscard]] T spot_share(const LightT<T>& light, const Vec3T<T>& wo) noexcept {
     // As |a - b|^2 / 2, which keeps the digits of a narrow cone; 1 - cos would not.
@@ -86,7 +87,6 @@ template <std::floating_point T>
     if (w <= light.inner) return T(1);
     return w < light.outer ? (light.outer - w) / (light.outer - light.inner) : T(0);
 }
-// [spot_share]
 
 /// 1 - cos of the angle of a spot light's photon from the axis, with the density of its
 /// intensity: even up to `inner`, then falling to 0 at `outer`.
@@ -112,6 +112,8 @@ template <std::floating_point T>
     return std::numbers::pi_v<T> * area * radiance;
 }
 
+} // namespace detail
+
 /// What arrives at a point from one sampled point of a light, if nothing is between.
 template <std::floating_point T>
 struct LightSampleT {
@@ -134,7 +136,6 @@ struct LightSampleT {
 /// \report{Section 3.2.3}
 /// \erratum{The program behind the report leaves out the light's area and the inverse
 ///          square: a wall ten times as far was lit as brightly.}
-// [sample_light]
 template <typename S, std::floating_point T>
 [[nodiscard]] std::optional<LightSampleT<T>>
 sample_light(const S& scene, const LightT<T>& light, const Vec3T<T>& from,
@@ -152,7 +153,8 @@ sample_light(const S& scene, const LightT<T>& light, const Vec3T<T>& from,
         const T distance2 = glm::dot(way, way);
         if (!(distance2 > T(0))) return std::nullopt;
         const Vec3T<T> wi = way / std::sqrt(distance2);
-        const T share = light.kind == LightKind::spot ? spot_share(light, -wi) : T(1);
+        const T share =
+            light.kind == LightKind::spot ? detail::spot_share(light, -wi) : T(1);
         if (!(share > T(0))) return std::nullopt;
         return LightSampleT<T>{.point{.position = light.position, .normal = -wi},
                                .wi = wi,
@@ -173,7 +175,6 @@ sample_light(const S& scene, const LightT<T>& light, const Vec3T<T>& from,
                            .weight = light.emission / seen.pdf,
                            .pdf = seen.pdf};
 }
-// [sample_light]
 
 /// \}
 

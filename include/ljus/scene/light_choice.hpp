@@ -22,12 +22,16 @@ struct LightChoice {
     std::vector<double> cumulative; ///< Sums of the powers up to each light, in W.
 };
 
+namespace detail {
+
 /// One chosen light.
 template <std::floating_point T>
 struct ChosenLightT {
     std::uint32_t light = 0; ///< Its number.
     T probability = T(0);    ///< Of choosing this one.
 };
+
+} // namespace detail
 
 /// The sums that choose_light() needs; a light's power is the sum of its channels.
 /// \param lights  The lights of a scene.
@@ -42,6 +46,8 @@ template <std::floating_point T>
     }
     return choice;
 }
+
+namespace detail {
 
 /// The probability with which choose_light() returns a light.
 /// \param choice  Of the scene's lights.
@@ -71,6 +77,8 @@ template <std::floating_point T>
     return {light,
             std::max(probability_of<T>(choice, light), std::numeric_limits<T>::min())};
 }
+
+} // namespace detail
 
 /// \}
 

@@ -13,6 +13,8 @@ namespace ljus {
 /// \addtogroup light
 /// \{
 
+namespace detail {
+
 /// Refuses a light whose flux is beyond the range of T, though its parts are not.
 /// \param flux  W.
 /// \throws std::invalid_argument  with the value.
@@ -99,7 +101,6 @@ template <std::floating_point T>
 /// \param low   The least corner of the box.
 /// \param high  The greatest one.
 /// \throws std::invalid_argument  if the flux is beyond the range of T.
-// [widen]
 template <std::floating_point T>
 void widen(LightT<T>& sun, const Vec3T<T>& low, const Vec3T<T>& high) {
     const Vec3T<T> half = high / T(2) - low / T(2);
@@ -108,7 +109,6 @@ void widen(LightT<T>& sun, const Vec3T<T>& low, const Vec3T<T>& high) {
     sun.flux = std::numbers::pi_v<T> * sun.radius * sun.radius * sun.emission;
     require_flux(sun.flux);
 }
-// [widen]
 
 /// Any of the lights that are no objects, made ready; they turn into it by themselves.
 template <std::floating_point T>
@@ -122,6 +122,8 @@ struct LightSourceT {
     LightSourceT(const SunLightT<T>& light) : made(make_light(light)) {}   ///< A sun.
     /// \}
 };
+
+} // namespace detail
 
 /// \}
 

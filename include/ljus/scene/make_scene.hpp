@@ -44,6 +44,8 @@ placed(const S& shape, const M& material,
     return {shape, material, emission, inside_out};
 }
 
+namespace detail {
+
 /// Types in order of first appearance.
 template <typename... T>
 struct TypeList {};
@@ -123,21 +125,23 @@ template <typename... S, typename... M>
     return {};
 }
 
+} // namespace detail
+
 /// A scene of these parts, added in their order; each type is listed where it first
 /// appears. Each placed() shape has a material of its own: to share one, use
 /// Scene::add().
 /// \param parts  placed() shapes, at least one, and lights; of one precision.
 /// \return The scene.
 /// \throws std::invalid_argument  as Scene::add().
-// [make_scene]
-template <ScenePart... Part>
-requires(PlacedPart<Part> || ...) [[nodiscard]] auto make_scene(const Part&... parts) {
-    auto scene = scene_of((TypeList<>{} + ... + typename PartOf<Part>::Shape{}),
-                          (TypeList<>{} + ... + typename PartOf<Part>::Material{}));
-    (add_part(scene, parts), ...);
+template <detail::ScenePart... Part>
+requires(detail::PlacedPart<Part> || ...)
+    [[nodiscard]] auto make_scene(const Part&... parts) {
+    auto scene = detail::scene_of(
+        (detail::TypeList<>{} + ... + typename detail::PartOf<Part>::Shape{}),
+        (detail::TypeList<>{} + ... + typename detail::PartOf<Part>::Material{}));
+    (detail::add_part(scene, parts), ...);
     return scene;
 }
-// [make_scene]
 
 /// \}
 

@@ -30,6 +30,8 @@ struct ObjectId {
     friend bool operator==(const ObjectId&, const ObjectId&) = default;
 };
 
+namespace detail {
+
 /// The number of the light that an object is, if it is none.
 inline constexpr std::uint32_t no_light = 0xffffffffu;
 
@@ -41,6 +43,8 @@ struct ObjectT {
     bool inside_out = false; ///< The normal points inwards: a room made of a sphere.
     std::uint32_t light = no_light; ///< Its number among the lights, if it emits.
 };
+
+} // namespace detail
 
 /// \}
 

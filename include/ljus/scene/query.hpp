@@ -21,6 +21,8 @@ struct SceneHitT {
     ObjectId object{}; ///< Which object.
 };
 
+namespace detail {
+
 /// Where a ray meets a shape of any type, in the arithmetic that is asked for, if the
 /// shape has a choice.
 /// \tparam Compute  As for intersect().
@@ -45,7 +47,6 @@ template <typename Compute, std::floating_point T, typename S>
 /// \param ray    Hits count in [t_min, t_max].
 /// \param shape  The shape.
 /// \return Whether hit_of() would return a hit.
-// [is_met]
 template <typename Compute, std::floating_point T, typename S>
 [[nodiscard]] bool is_met(const RayT<T>& ray, const S& shape) {
     if constexpr (requires { meets<Compute>(ray, shape); })
@@ -53,7 +54,8 @@ template <typename Compute, std::floating_point T, typename S>
     else
         return hit_of<Compute>(ray, shape).has_value();
 }
-// [is_met]
+
+} // namespace detail
 
 /// The first object that a ray meets, by asking every shape in turn: the exact twin of
 /// the tree in an IndexedScene.
@@ -62,7 +64,6 @@ template <typename Compute, std::floating_point T, typename S>
 /// \param ray    Hits count in [t_min, t_max].
 /// \return The nearest hit, the earlier object on a tie; nothing for a miss.
 /// \cost One intersection a shape.
-// [closest_hit]
 template <typename Compute = void, typename G, typename M, std::floating_point T>
 [[nodiscard]] std::optional<SceneHitT<T>> closest_hit(const Scene<G, M>& scene,
                                                       RayT<T> ray) {
@@ -70,7 +71,7 @@ template <typename Compute = void, typename G, typename M, std::floating_point T
     std::uint32_t type = 0;
     const auto ask_all = [&](const auto& shapes) {
         for (std::uint32_t i = 0; i < shapes.size(); ++i) {
-            const auto found = hit_of<Compute>(ray, shapes[i]);
+            const auto found = detail::hit_of<Compute>(ray, shapes[i]);
             if (!found || (closest && !(found->t < ray.t_max))) continue;
             ray.t_max = found->t;
             closest = SceneHitT<T>{*found, {type, i}};
@@ -80,7 +81,6 @@ template <typename Compute = void, typename G, typename M, std::floating_point T
     std::apply([&](const auto&... shapes) { (ask_all(shapes), ...); }, scene.shapes);
     return closest;
 }
-// [closest_hit]
 
 /// Whether anything lies on a ray: the question of a shadow ray.
 /// \tparam Compute  The arithmetic, as for intersect().
@@ -91,7 +91,7 @@ template <typename Compute = void, typename G, typename M, std::floating_point T
 [[nodiscard]] bool occluded(const Scene<G, M>& scene, const RayT<T>& ray) {
     const auto any = [&](const auto& shapes) {
         for (const auto& shape : shapes)
-            if (is_met<Compute>(ray, shape)) return true;
+            if (detail::is_met<Compute>(ray, shape)) return true;
         return false;
     };
     return std::apply([&](const auto&... shapes) { return (any(shapes) || ...); },
@@ -99,20 +99,20 @@ template <typename Compute = void, typename G, typename M, std::floating_point T
 }
 
 /// What the renderers ask of a scene: a Scene, or one with an index over it.
-// [scene_like]
 template <typename S>
 concept SceneLike = requires(const S& scene, const RayT<typename S::Scalar>& ray,
                              ObjectId object) {
     scene.lights;
     scene.materials;
     { scene.size() } -> std::same_as<std::size_t>;
-    { scene.object(object) } -> std::same_as<const ObjectT<typename S::Scalar>&>;
+    {
+        scene.object(object)
+        } -> std::same_as<const detail::ObjectT<typename S::Scalar>&>;
     {
         closest_hit(scene, ray)
         } -> std::same_as<std::optional<SceneHitT<typename S::Scalar>>>;
     { occluded(scene, ray) } -> std::same_as<bool>;
 };
-// [scene_like]
 
 /// \}
 

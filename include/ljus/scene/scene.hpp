@@ -25,6 +25,8 @@ struct Shapes {};
 template <Material... M>
 struct Materials {};
 
+namespace detail {
+
 /// Whether no type is listed twice.
 template <typename... T>
 inline constexpr bool each_once = true;
@@ -32,6 +34,8 @@ inline constexpr bool each_once = true;
 template <typename First, typename... T>
 inline constexpr bool each_once<First, T...> =
     !(std::is_same_v<First, T> || ...) && each_once<T...>;
+
+} // namespace detail
 
 /// A scene; see the specialisation.
 template <typename ShapeList, typename MaterialList>
@@ -53,12 +57,12 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
     static_assert((std::is_same_v<Scalar, typename M::Scalar> && ...),
                   "A scene's materials must have the precision of its shapes.");
     static_assert(sizeof...(M) > 0, "A scene lists at least one type of material.");
-    static_assert(each_once<FirstShape, S...> && each_once<M...>,
+    static_assert(detail::each_once<FirstShape, S...> && detail::each_once<M...>,
                   "A scene lists each type once.");
 
     std::tuple<std::vector<FirstShape>, std::vector<S>...> shapes; ///< An array a type.
     /// What each shape is made of, in the order of `shapes`.
-    std::array<std::vector<ObjectT<Scalar>>, 1 + sizeof...(S)> objects;
+    std::array<std::vector<detail::ObjectT<Scalar>>, 1 + sizeof...(S)> objects;
     std::tuple<std::vector<M>...> materials; ///< An array a type.
     std::vector<LightT<Scalar>> lights;      ///< Emissive objects, and the others.
     Vec3T<Scalar> low{Scalar(0)};    ///< Least corner of a box around all shapes.
@@ -115,8 +119,8 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
                     radiance, "black: it can be lit, but cannot be a light");
         else if (!is_black(radiance)) {
             require_positive("the area of a light", area(shape));
-            const RgbT<Scalar> flux = diffuse_flux(radiance, area(shape));
-            require_flux(flux);
+            const RgbT<Scalar> flux = detail::diffuse_flux(radiance, area(shape));
+            detail::require_flux(flux);
             lights.push_back({.kind = LightKind::object,
                               .object = id,
                               .emission = radiance,
@@ -125,7 +129,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
         reach(bounding_sphere(shape));
         array.push_back(shape);
         const std::uint32_t light = is_black(radiance)
-                                        ? no_light
+                                        ? detail::no_light
                                         : static_cast<std::uint32_t>(lights.size() - 1);
         objects[id.type].push_back({material, radiance, inside_out, light});
         return id;
@@ -135,18 +139,18 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
     /// all shapes; it grows with each that is added, before or after.
     /// \param light  A PointLight, a SpotLight or a SunLight.
     /// \throws std::invalid_argument  as make_light().
-    void add(const LightSourceT<Scalar>& light) {
+    void add(const detail::LightSourceT<Scalar>& light) {
         LightT<Scalar> made = light.made;
         if (is_black(made.emission)) return;
         if (made.kind == LightKind::sun) {
-            if (size() > 0) widen(made, low, high);
+            if (size() > 0) detail::widen(made, low, high);
             suns.push_back(static_cast<std::uint32_t>(lights.size()));
         }
         lights.push_back(made);
     }
 
     /// What the scene knows of a shape besides its geometry.
-    [[nodiscard]] const ObjectT<Scalar>& object(ObjectId id) const noexcept {
+    [[nodiscard]] const detail::ObjectT<Scalar>& object(ObjectId id) const noexcept {
         return objects[id.type][id.index];
     }
 
@@ -197,7 +201,7 @@ private:
         const Vec3T<Scalar> to = bound.center + bound.radius;
         low = first ? from : glm::min(low, from);
         high = first ? to : glm::max(high, to);
-        for (const std::uint32_t sun : suns) widen(lights[sun], low, high);
+        for (const std::uint32_t sun : suns) detail::widen(lights[sun], low, high);
     }
 
     bool has(MaterialId id) const noexcept {

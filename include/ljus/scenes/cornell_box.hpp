@@ -42,6 +42,8 @@ void add_cornell_walls(S& scene) {
     scene.add(QuadT<T>{corner + x, z, y}, green); // right
 }
 
+namespace detail {
+
 /// Where the box is looked at from: the whole of it fills the picture.
 /// \return The camera.
 template <std::floating_point T = float>
@@ -63,9 +65,10 @@ void add_cornell_lamp(S& scene) {
               RgbT<T>{T(17), T(13), T(8)});
 }
 
+} // namespace detail
+
 /// The box with its lamp and its balls.
 /// \return The scene and its camera.
-// [cornell_box]
 template <std::floating_point T = float>
 [[nodiscard]] Room<CornellSceneT<T>> cornell_box() {
     Room<CornellSceneT<T>> room;
@@ -75,11 +78,10 @@ template <std::floating_point T = float>
               scene.add(MirrorT<T>{.reflectance = RgbT<T>{T(0.95)}}));
     scene.add(SphereT<T>{.center{T(0.42), T(0.38), T(0.3)}, .radius = T(0.38)},
               scene.add(GlassT<T>{.index = T(1.5)}));
-    add_cornell_lamp(scene);
-    room.camera = cornell_camera<T>();
+    detail::add_cornell_lamp(scene);
+    room.camera = detail::cornell_camera<T>();
     return room;
 }
-// [cornell_box]
 
 /// The same box with two matt balls in the places of mirror and glass: nothing but
 /// diffuse surfaces, so that all renderers of this book could carry all of its light.
@@ -94,8 +96,8 @@ template <std::floating_point T = float>
               scene.add(LambertianT<T>{.albedo{T(0.2), T(0.35), T(0.7)}}));
     scene.add(SphereT<T>{.center{T(0.42), T(0.38), T(0.3)}, .radius = T(0.38)},
               scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0.7)}}));
-    add_cornell_lamp(scene);
-    room.camera = cornell_camera<T>();
+    detail::add_cornell_lamp(scene);
+    room.camera = detail::cornell_camera<T>();
     return room;
 }
 // [matt_cornell_box]

@@ -18,6 +18,8 @@ namespace ljus {
 /// the same brightness stands in it.
 /// \{
 
+namespace detail {
+
 /// A room within a sphere of radius 1 around the origin.
 template <std::floating_point T>
 using SphereFurnaceT = Scene<Shapes<SphereT<T>>, Materials<LambertianT<T>>>;
@@ -36,8 +38,6 @@ template <std::floating_point T>
     return emission / (RgbT<T>{T(1)} - albedo);
 }
 
-namespace detail {
-
 template <std::floating_point T>
 CameraT<T> furnace_camera() {
     return look_at(ViewT<T>{.position{T(0.3), T(-0.2), T(0.5)},
@@ -54,9 +54,9 @@ CameraT<T> furnace_camera() {
 /// \return The scene, and a camera within it.
 /// \throws std::invalid_argument  for a negative emission or an albedo outside [0, 1].
 template <std::floating_point T>
-[[nodiscard]] Room<SphereFurnaceT<T>> sphere_furnace(const RgbT<T>& emission,
-                                                     const RgbT<T>& albedo) {
-    Room<SphereFurnaceT<T>> room{.camera = detail::furnace_camera<T>()};
+[[nodiscard]] Room<detail::SphereFurnaceT<T>> sphere_furnace(const RgbT<T>& emission,
+                                                             const RgbT<T>& albedo) {
+    Room<detail::SphereFurnaceT<T>> room{.camera = detail::furnace_camera<T>()};
     const MaterialId wall = room.scene.add(LambertianT<T>{.albedo = albedo});
     room.scene.add(SphereT<T>{}, wall, emission, true);
     return room;
@@ -69,9 +69,9 @@ template <std::floating_point T>
 /// \return The scene, and a camera within it.
 /// \throws std::invalid_argument  for a negative emission or an albedo outside [0, 1].
 template <std::floating_point T>
-[[nodiscard]] Room<BoxFurnaceT<T>> box_furnace(const RgbT<T>& emission,
-                                               const RgbT<T>& albedo) {
-    Room<BoxFurnaceT<T>> room{.camera = detail::furnace_camera<T>()};
+[[nodiscard]] Room<detail::BoxFurnaceT<T>> box_furnace(const RgbT<T>& emission,
+                                                       const RgbT<T>& albedo) {
+    Room<detail::BoxFurnaceT<T>> room{.camera = detail::furnace_camera<T>()};
     const MaterialId wall = room.scene.add(LambertianT<T>{.albedo = albedo});
     const Vec3T<T> x{T(2), T(0), T(0)};
     const Vec3T<T> y{T(0), T(2), T(0)};

@@ -26,7 +26,6 @@ namespace ljus {
 /// \param cuts    How often, 0 to 10: 20 * 4^cuts triangles.
 /// \return The data.
 /// \throws std::invalid_argument  for another number of cuts.
-// [icosphere]
 template <std::floating_point T>
 [[nodiscard]] MeshDataT<T> icosphere(const SphereT<T>& sphere, int cuts) {
     require(cuts >= 0 && cuts <= 10, "the number of cuts", static_cast<long long>(cuts),
@@ -78,7 +77,6 @@ template <std::floating_point T>
     }
     return data;
 }
-// [icosphere]
 
 /// A ring around the y axis, with its normals.
 /// \param center  Its centre.

@@ -31,13 +31,13 @@ namespace ljus {
 /// | a lamp 0.00001 below the ceiling    | 0.001 below                              |
 /// \{
 
+namespace detail {
+
 /// Everything that the report's rooms are made of.
 template <std::floating_point T>
 using ReportSceneT =
     Scene<Shapes<QuadT<T>, SphereT<T>, TriangleT<T>>,
           Materials<LambertianT<T>, GlassT<T>, MirrorT<T>, MixtureT<T>>>;
-
-namespace detail {
 
 // The program tints at both boundaries, so that the way through the middle of a ball
 // leaves the square of the colour: the colour itself belongs to the radius.
@@ -96,10 +96,9 @@ void add_report_matt_objects(ReportSceneT<T>& scene) {
 /// The room of figures 1 and 15: two lamps, and every material.
 /// \return The scene and its camera.
 /// \report{Figures 1 and 15}
-// [final_room]
 template <std::floating_point T = float>
-[[nodiscard]] Room<ReportSceneT<T>> final_room() {
-    Room<ReportSceneT<T>> room{.camera = report_camera<T>()};
+[[nodiscard]] Room<detail::ReportSceneT<T>> final_room() {
+    Room<detail::ReportSceneT<T>> room{.camera = report_camera<T>()};
     add_report_room(room.scene);
     detail::add_report_matt_objects(room.scene);
     detail::add_report_mixture<T>(room.scene, {{T(6), T(-3.5), T(-3.5)}, T(1.15)},
@@ -114,14 +113,13 @@ template <std::floating_point T = float>
     detail::add_ceiling_lamp(room.scene, T(4), T(2), T(1), RgbT<T>{1, 1, T(0.65)});
     return room;
 }
-// [final_room]
 
 /// The room of figure 12: one lamp, and one of each material.
 /// \return The scene and its camera.
 /// \report{Figure 12, Table 3}
 template <std::floating_point T = float>
-[[nodiscard]] Room<ReportSceneT<T>> all_materials_room() {
-    Room<ReportSceneT<T>> room{.camera = report_camera<T>()};
+[[nodiscard]] Room<detail::ReportSceneT<T>> all_materials_room() {
+    Room<detail::ReportSceneT<T>> room{.camera = report_camera<T>()};
     add_report_room(room.scene);
     detail::add_report_matt_objects(room.scene);
     detail::add_report_mixture<T>(room.scene, {{T(6), T(-3.5), T(-3.5)}, T(1.15)}, T(1),
@@ -137,8 +135,8 @@ template <std::floating_point T = float>
 /// \return The scene and its camera.
 /// \report{Figures 11 and 13, Tables 2 and 4}
 template <std::floating_point T = float>
-[[nodiscard]] Room<ReportSceneT<T>> four_glass_room() {
-    Room<ReportSceneT<T>> room{.camera = report_camera<T>()};
+[[nodiscard]] Room<detail::ReportSceneT<T>> four_glass_room() {
+    Room<detail::ReportSceneT<T>> room{.camera = report_camera<T>()};
     add_report_room(room.scene);
     detail::add_report_glass<T>(room.scene, {{T(6), T(-4), T(1.75)}, T(1.5)}, T(1.97),
                                 RgbT<T>{T(1)});

@@ -22,6 +22,8 @@ namespace ljus {
 /// Chapter: \ref ch_metaballs.
 /// \{
 
+namespace detail {
+
 /// All numbers from `low` to `high`.
 template <std::floating_point T>
 struct IntervalT {
@@ -46,6 +48,8 @@ concept SlopeOnRay = FieldOnRay<L, T> && requires(const L& line, T t) {
     { line.slope(t, t) } -> std::same_as<IntervalT<T>>;
 };
 
+} // namespace detail
+
 /// Solver: steps along the ray that can never jump over the surface \cite hart1996.
 struct SphereTracing {
     double tolerance = 1e-9; ///< A hit is where |f| falls to this.
@@ -57,6 +61,8 @@ struct SphereTracing {
 struct Bisection {
     int max_parts = 4096; ///< Then it gives up: a miss.
 };
+
+namespace detail {
 
 /// Where a ray first meets f = 0, by sphere tracing: |f| divided by the largest slope
 /// is a distance in which f cannot get to 0.
@@ -154,6 +160,8 @@ template <std::floating_point T, FieldOnRay<T> Line>
     return std::nullopt;
 }
 // [bisection]
+
+} // namespace detail
 
 /// \}
 

@@ -30,7 +30,10 @@ struct BlobT {
     T radius = T(1);       ///< R, above 0: where its field ends, in scene units.
     T weight = T(1);       ///< w; negative carves.
 };
+
 using Blob = BlobT<float>; ///< BlobT in float.
+
+namespace detail {
 
 /// The largest slope of \f$ (1 - q^2)^2 \f$, at \f$ q = 1/\sqrt 3 \f$.
 template <std::floating_point T>
@@ -38,24 +41,21 @@ inline constexpr T steepest_blob = T(8) / (T(3) * std::numbers::sqrt3_v<T>);
 
 /// A blob as a ray sees it: \f$ s(t) = h - k (t - m)^2 \f$, and its field is w s^2
 /// where s > 0.
-// [strand]
 template <std::floating_point C>
 struct StrandT {
-    C enter = C(0);             ///< Where s becomes positive.
-    C leave = C(0); ///< Where it ends to be.
-    C middle = C(0);            ///< m, where the ray is nearest to the centre.
-    C height = C(0);            ///< h = 1 - p^2/R^2 there.
-    C bend = C(0);              ///< k = D.D / R^2.
-    C weight = C(1);            ///< w.
+    C enter = C(0);  ///< Where s becomes positive.
+    C leave = C(0);  ///< Where it ends to be.
+    C middle = C(0); ///< m, where the ray is nearest to the centre.
+    C height = C(0); ///< h = 1 - p^2/R^2 there.
+    C bend = C(0);   ///< k = D.D / R^2.
+    C weight = C(1); ///< w.
 };
-// [strand]
 
 /// A blob on a ray, in the way of chord(): the difference of vectors before the square.
 /// \param ray   The ray; its range is ignored.
 /// \param blob  The blob.
 /// \return In double; nothing if the ray passes by, and nothing for data that are not
 ///         finite, a zero direction, or a radius not above 0.
-// [on_ray]
 template <std::floating_point T>
 [[nodiscard]] std::optional<StrandT<WideT<T>>> strand(const RayT<T>& ray,
                                                       const BlobT<T>& blob) noexcept {
@@ -76,7 +76,6 @@ template <std::floating_point T>
     return StrandT<C>{middle - half, middle + half, middle,
                       height,        bend,          C(blob.weight)};
 }
-// [on_ray]
 
 /// The strands of a ray: without the heap for up to 16.
 template <std::floating_point C>
@@ -107,7 +106,7 @@ struct MetaballLineT {
     std::span<const StrandT<C>> strands{}; ///< The blobs that the ray meets.
     C level = C(0);                        ///< L.
     C enter = C(0);                        ///< Where the first of them begins.
-    C leave = C(-1);           ///< Where the last of them ends.
+    C leave = C(-1);                       ///< Where the last of them ends.
 
     /// f(O + tD).
     [[nodiscard]] C value(C t) const noexcept {
@@ -183,6 +182,8 @@ template <std::floating_point C>
     }
     return line;
 }
+
+} // namespace detail
 
 /// \}
 

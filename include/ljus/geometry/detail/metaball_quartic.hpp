@@ -26,6 +26,8 @@ struct QuarticPieces {};
 /// Solver: the same quartics by the formula, quartic_formula(). For the lesson.
 struct Radicals {};
 
+namespace detail {
+
 /// The quartic of a span, as a function of u in [0, 1] from its begin to its end.
 ///
 /// On [a, b] the Bernstein coefficients of \f$ s = h - k\tau^2 \f$, with
@@ -101,8 +103,7 @@ requires(std::same_as<Solver, QuarticPieces> || std::same_as<Solver, Radicals>)
         C b = end; // the next border
         for (const auto& strand : line.strands) {
             if (a < strand.enter && strand.enter < b) b = strand.enter;
-            if (a < strand.leave && strand.leave < b)
-                b = strand.leave;
+            if (a < strand.leave && strand.leave < b) b = strand.leave;
             if constexpr (std::same_as<Solver,
                                        QuarticPieces>) // at most one change each
                 if (a < strand.middle && strand.middle < b) b = strand.middle;
@@ -116,6 +117,8 @@ requires(std::same_as<Solver, QuarticPieces> || std::same_as<Solver, Radicals>)
     return std::nullopt;
 }
 // [spans]
+
+} // namespace detail
 
 /// \}
 

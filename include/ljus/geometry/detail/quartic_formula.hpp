@@ -18,6 +18,8 @@ namespace ljus {
 /// \ref ch_metaballs.
 /// \{
 
+namespace detail {
+
 /// Real roots, in no order.
 template <std::floating_point T>
 struct QuarticRootsT {
@@ -43,7 +45,6 @@ struct QuarticRootsT {
 ///         coefficient is not small, the roots to about half of T's digits or better.
 /// \cost One cosine or cube root, up to 4 square roots. No loop.
 /// \report{Section 2.1} \cite schwarze1990
-// [quartic_formula]
 template <std::floating_point T>
 [[nodiscard]] QuarticRootsT<T> quartic_formula(const std::array<T, 5>& c) noexcept {
     const T b = c[3] / c[4], d = c[2] / c[4], e = c[1] / c[4], f = c[0] / c[4];
@@ -81,7 +82,8 @@ template <std::floating_point T>
     }
     return result;
 }
-// [quartic_formula]
+
+} // namespace detail
 
 /// \}
 

@@ -12,6 +12,8 @@ namespace ljus {
 /// \addtogroup flip
 /// \{
 
+namespace detail {
+
 /// The shares of red, green and blue in X, Y and Z, by the primaries of Rec. 709; each
 /// row adds up to 1, because all three are in units of the white point's.
 inline constexpr Vec3T<double> xyz_shares[3] = {
@@ -60,7 +62,6 @@ inline constexpr Vec3T<double> xyz_shares[3] = {
 /// \param c  Linear sRGB.
 /// \return L*, and a* and b* times L*/100.
 /// \cite andersson2020
-// [hunt_lab]
 [[nodiscard]] inline Vec3T<double> hunt_lab(const RgbT<double>& c) noexcept {
     const auto root = [](double t) {
         constexpr double d = 6.0 / 29;
@@ -72,7 +73,6 @@ inline constexpr Vec3T<double> xyz_shares[3] = {
     return {lightness, 0.01 * lightness * 500 * (x - y),
             0.01 * lightness * 200 * (y - z)};
 }
-// [hunt_lab]
 
 /// The distance HyAB, made for large differences: lightness by its amount, colour by
 /// its length.
@@ -84,6 +84,8 @@ inline constexpr Vec3T<double> xyz_shares[3] = {
                                  const Vec3T<double>& b) noexcept {
     return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
 }
+
+} // namespace detail
 
 /// \}
 

@@ -15,6 +15,8 @@ namespace ljus {
 /// \addtogroup flip
 /// \{
 
+namespace detail {
+
 /// One Gaussian of a contrast sensitivity: a sqrt(pi / b) exp(-pi^2 x^2 / b), x in
 /// degrees.
 struct EyeGaussian {
@@ -56,7 +58,6 @@ inline void make_unit(Weights& weights) noexcept {
 /// \param along_x  An odd number of weights.
 /// \param along_y  The same.
 /// \return A number for each pixel.
-// [blurred]
 [[nodiscard]] inline std::vector<double> blurred(const ImageT<double>& image,
                                                  int channel, const Weights& along_x,
                                                  const Weights& along_y) {
@@ -83,7 +84,6 @@ inline void make_unit(Weights& weights) noexcept {
         }
     return result;
 }
-// [blurred]
 
 /// A picture in YCxCz, as a screen shows it: within [0, 1] of sRGB; NaN is black.
 /// \param image  Linear sRGB.
@@ -105,7 +105,6 @@ template <std::floating_point T>
 /// \param ppd    Pixels in a degree.
 /// \return Linear sRGB within [0, 1].
 /// \cite andersson2020
-// [as_seen]
 [[nodiscard]] inline ImageT<double> as_seen(const ImageT<double>& image, double ppd) {
     constexpr double pi = std::numbers::pi;
     // Three standard deviations of the broadest of them.
@@ -133,7 +132,6 @@ template <std::floating_point T>
         c = glm::clamp(rgb_of_opponent(c), RgbT<double>(0), RgbT<double>(1));
     return seen;
 }
-// [as_seen]
 
 /// The strength of edges and of points at each pixel: the length of the first and of
 /// the second derivative of its light, over the breadth of what the eye takes for an
@@ -142,7 +140,6 @@ template <std::floating_point T>
 /// \param ppd    Pixels in a degree.
 /// \return Edges in the first channel, points in the second.
 /// \cite andersson2020
-// [features]
 [[nodiscard]] inline ImageT<double> features(const ImageT<double>& image, double ppd) {
     const double deviation = 0.5 * 0.082 * ppd;
     const int radius = static_cast<int>(std::ceil(3 * deviation));
@@ -167,7 +164,8 @@ template <std::floating_point T>
     }
     return found;
 }
-// [features]
+
+} // namespace detail
 
 /// \}
 

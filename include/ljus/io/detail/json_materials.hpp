@@ -153,7 +153,6 @@ Textured<LambertianT<T>, Texture> white(Texture texture) {
 
 // The table: a new material is a new row, and nothing else. The types that a scene of
 // a file lists, the reader of a name and the names in a message all follow from it.
-// [materials]
 template <std::floating_point T>
 constexpr auto material_rows() {
     using In = const MaterialFields<T>&;
@@ -210,7 +209,6 @@ constexpr auto material_rows() {
         row("picture", {"file", "map", "origin", "edge_u", "edge_v", "center", "scale"},
             [](In in) { return white<T>(read_picture<T>(in.field)); })};
 }
-// [materials]
 
 // The types of the rows, each once: several names may stand for one type.
 template <typename... Listed, typename M>
@@ -228,13 +226,9 @@ constexpr auto materials_of(const std::tuple<Row...>&) {
         std::type_identity<decltype(std::declval<Row>().read(std::declval<In>()))>{});
 }
 
-} // namespace detail
-
 /// Whatever a scene file may name.
 template <std::floating_point T>
 using FileMaterialsT = decltype(detail::materials_of<T>(detail::material_rows<T>()));
-
-namespace detail {
 
 template <typename Scene, std::floating_point T = typename Scene::Scalar>
 MaterialId read_material(const JsonField& field, Scene& scene) {

@@ -29,6 +29,8 @@ namespace ljus {
 /// \f$(V_2 - V_1) \times (V_3 - V_1)\f$.
 /// \{
 
+namespace detail {
+
 /// A scene of whatever a scene file may hold.
 template <std::floating_point T>
 using FileSceneT =
@@ -45,8 +47,6 @@ struct NoMeshes {
             "ljus/io/load_obj.hpp, which needs tinyobjloader.");
     }
 };
-
-namespace detail {
 
 // The triangles of an object, as quads where two of them are one.
 template <std::floating_point T>

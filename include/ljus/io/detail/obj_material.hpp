@@ -17,6 +17,8 @@ namespace ljus {
 /// \addtogroup obj_reader
 /// \{
 
+namespace detail {
+
 /// The largest file that load_obj() takes, in bytes.
 inline constexpr std::size_t max_obj_file = std::size_t(1) << 30;
 
@@ -43,8 +45,6 @@ struct ObjMaterial {
         return illumination == 3 || illumination == 5 || illumination == 8;
     }
 };
-
-namespace detail {
 
 inline ObjMaterial material_of(const tinyobj::material_t& from) {
     const auto within = [](double x, double low, double high) { // NaN: low

@@ -20,7 +20,6 @@ namespace ljus::detail {
 // corners, and there are n - 2 of them: none for fewer than three corners, or for a
 // polygon without an area. O(n^2): an ear that is cut off can make or end an ear at its
 // two neighbours only, so that no other corner is asked again.
-// [cut_polygon]
 [[nodiscard]] inline std::vector<std::array<std::uint32_t, 3>>
 cut_polygon(std::span<const glm::dvec3> corners) {
     std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -68,6 +67,5 @@ cut_polygon(std::span<const glm::dvec3> corners) {
     triangles.push_back({left[0], left[1], left[2]});
     return triangles;
 }
-// [cut_polygon]
 
 } // namespace ljus::detail

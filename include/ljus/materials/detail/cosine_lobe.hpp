@@ -35,7 +35,6 @@ template <std::floating_point T>
 /// \return The sample; nothing if `wo` lies on the surface or without Lobes::diffuse.
 /// \cost One sine, one cosine, one square root, and weight().
 /// \report{Section 3.2.4}
-// [cosine lobe]
 template <std::floating_point T, typename Weight>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample_cosine_lobe(const Vec3T<T>& wo, const Vec3T<T>& u, Lobes which,
@@ -47,7 +46,6 @@ sample_cosine_lobe(const Vec3T<T>& wo, const Vec3T<T>& u, Lobes which,
     wi.z = std::copysign(wi.z, wo.z);
     return diffuse_sample(wi, weight(wi), density);
 }
-// [cosine lobe]
 
 /// \}
 

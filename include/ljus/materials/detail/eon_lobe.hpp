@@ -13,6 +13,8 @@ namespace ljus {
 /// \addtogroup eon
 /// \{
 
+namespace detail {
+
 /// A cosine lobe, sheared towards where the light goes, and cut at the horizon: M takes
 /// directions of a clamped cosine to directions of about the density of f cos.
 ///
@@ -33,7 +35,6 @@ struct EonLobeT {
 /// \param roughness  In [0, 1].
 /// \param wo         Towards where the light goes.
 /// \return The lobe.
-// [eon lobe]
 template <std::floating_point T>
 [[nodiscard]] EonLobeT<T> eon_lobe(T roughness, const Vec3T<T>& wo) noexcept {
     const T r = roughness, mu = std::abs(wo.z);
@@ -56,13 +57,11 @@ template <std::floating_point T>
         sine > T(0) ? Vec2T<T>{wo.x / sine, wo.y / sine} : Vec2T<T>{T(1), T(0)};
     return lobe;
 }
-// [eon lobe]
 
 /// The density of a direction above the horizon: the lobe's and the uniform one's.
 /// \param lobe  The lobe.
 /// \param wi    Unit vector with z > 0.
 /// \return Per steradian, above 0.
-// [eon pdf]
 template <std::floating_point T>
 [[nodiscard]] T pdf_eon_lobe(const EonLobeT<T>& lobe, const Vec3T<T>& wi) noexcept {
     const T x = lobe.along.x * wi.x + lobe.along.y * wi.y;
@@ -79,7 +78,6 @@ template <std::floating_point T>
     const T even = std::numbers::inv_pi_v<T> / T(2);
     return lobe.uniform * even + (T(1) - lobe.uniform) * bent;
 }
-// [eon pdf]
 
 /// A direction with the density pdf_eon_lobe().
 /// \param lobe  The lobe.
@@ -104,6 +102,8 @@ template <std::floating_point T>
             lobe.along.y * unit.x + lobe.along.x * unit.y, unit.z};
 }
 // [eon lobe sample]
+
+} // namespace detail
 
 /// \}
 

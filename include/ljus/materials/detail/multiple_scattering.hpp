@@ -23,18 +23,20 @@ namespace ljus {
 /// be exchanged. EON and full gloss are such surfaces.
 /// \{
 
+namespace detail {
+
 /// What light that is lost once will bring back, over all its further ways.
 /// \param reflectance  Of a facet, the mean over the angles, in [0, 1].
 /// \param loss         1 minus the mean of E, in [0, 1).
 /// \return rho_m in [0, 1]; 1 for white.
 /// \cite kulla2017
-// [light again]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> multiple_scattering(const RgbT<T>& reflectance, T loss) noexcept {
     return reflectance * reflectance * (T(1) - loss) /
            (RgbT<T>{T(1)} - reflectance * loss);
 }
-// [light again]
+
+} // namespace detail
 
 /// \}
 
