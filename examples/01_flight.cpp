@@ -59,7 +59,6 @@ auto make_place() {
 /// The camera at a moment of the flight: once around, rising and sinking; the end is
 /// the beginning.
 /// \param moment  In [0, 1).
-// [flight]
 ljus::Camera camera_at(float moment) {
     const float turn = 2 * std::numbers::pi_v<float> * moment;
     return ljus::look_at(
@@ -67,8 +66,6 @@ ljus::Camera camera_at(float moment) {
          .target{0, 0.7f, 0},
          .vfov_degrees = 42 - 6 * std::cos(turn)});
 }
-// [flight]
-
 /// Places a frame on the contact sheet.
 void paste(Image& sheet, const Image& frame, int column, int row) {
     for (int y = 0; y < frame.height; ++y)

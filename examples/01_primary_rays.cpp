@@ -38,7 +38,6 @@ constexpr Sampling patterns[] = {Sampling::random, Sampling::jittered,
 constexpr const char* names[] = {"random", "jittered", "multi-jittered", "Sobol"};
 
 /// A camera with its picture as somebody sees it who stands beside.
-// [figure 3]
 struct Onlooker {
     Camera eye;
     int width, height;
@@ -136,8 +135,6 @@ void draw_figure_3(const std::string& folder) {
     draw_label(figure, {see(corners[1]).x - 60, see(corners[1]).y + 160}, "3D scene");
     save_drawing(folder, figure);
 }
-// [figure 3]
-
 /// The four patterns, for 64 rays and for a prime.
 void draw_patterns(const std::string& folder) {
     Drawing drawing{.name = "patterns",
@@ -180,7 +177,6 @@ void draw_patterns(const std::string& folder) {
 
 /// A renderer that sees a picture in the plane at distance 1: a disc, and light that
 /// changes smoothly.
-// [test card]
 struct TestCard {
     using Stream = ljus::RandomStream;
     bool edges = true;
@@ -197,8 +193,6 @@ Rgb radiance(const TestCard& card, const Ray& ray, ljus::RandomStream&, ljus::Co
     const Vec3 d = ray.direction / -ray.direction.z;
     return Rgb(float(card.value(double(d.x), double(d.y))));
 }
-// [test card]
-
 /// The rms error of pixels that are not all black or all white.
 double error(const TestCard& card, Sampling sampling, int rays, int pixels,
              const Image& truth, int seeds) {

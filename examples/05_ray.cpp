@@ -51,7 +51,6 @@ float step(float x, int count) {
 
 /// Waechter and Binder 2019: a count of neighbours in proportion to the normal's
 /// coordinate; near 0, where neighbours crowd, a fixed length.
-// [integer_ulps]
 Vec3 leave_by_integers(const Vec3& p, const Vec3& n) {
     Vec3 result;
     for (int k = 0; k < 3; ++k)
@@ -60,10 +59,7 @@ Vec3 leave_by_integers(const Vec3& p, const Vec3& n) {
                         : step(p[k], static_cast<int>(256 * n[k]));
     return result;
 }
-// [integer_ulps]
-
 /// By the bound of the error, and one neighbour outward; as pbrt does.
-// [bound_alone]
 Vec3 leave_by_bound(const SurfacePoint& point, const Vec3& n) {
     const Vec3 offset = glm::dot(glm::abs(n), point.error) * n;
     Vec3 result = point.position + offset;
@@ -72,8 +68,6 @@ Vec3 leave_by_bound(const SurfacePoint& point, const Vec3& n) {
             result[k] = std::nextafter(result[k], offset[k] > 0 ? 1e38f : -1e38f);
     return result;
 }
-// [bound_alone]
-
 Vec3 offset_ray_origin(Way way, const SurfacePoint& point, const Vec3& direction) {
     const float side = glm::dot(direction, point.normal) < 0 ? -1.0f : 1.0f;
     switch (way) {
@@ -293,7 +287,6 @@ Found first_hit(const Room& room, Ray ray) {
 
 /// Direct light, each lamp by one shadow ray. A fixed start lies so far along the ray,
 /// from the point O + tD, as in the report's program; ours is spawn_ray_to().
-// [shade]
 ljus::Rgb shade(const Room& room, const Ray& ray, const Found& found, float fixed) {
     const ljus::Rgb colors[] = {{0.8f, 0.3f, 0.25f},
                                 {0.7f, 0.7f, 0.7f},
@@ -322,8 +315,6 @@ ljus::Rgb shade(const Room& room, const Ray& ray, const Found& found, float fixe
     add(room.low_lamp, 0.35f * ljus::Rgb{1, 0.55f, 0.15f});
     return color * light;
 }
-// [shade]
-
 ljus::Image picture(int width, double size, float fixed) {
     constexpr int height_by_3 = 2;
     const int height = std::max(1, width * height_by_3 / 3);

@@ -34,15 +34,12 @@ using examples::Numbers;
 
 /// A ray of float numbers from `distance` radii away towards the disc of `reach` radii
 /// around the centre of the unit sphere.
-// [random_ray]
 Ray random_ray(Numbers& numbers, double distance, double reach) {
     const Point origin = distance * numbers.direction();
     const Point across = glm::normalize(glm::cross(origin, numbers.direction()));
     const Point aim = reach * std::sqrt(numbers.next()) * across;
     return {.origin = Vec3(origin), .direction = Vec3(glm::normalize(aim - origin))};
 }
-// [random_ray]
-
 /// The ways to intersect that are compared.
 enum Way { printed, glms, robust, in_double, way_count };
 constexpr const char* way_names[] = {"as printed", "glm", "robust", "robust in double"};
@@ -140,7 +137,6 @@ void plot_errors(const std::string& folder, std::size_t count) {
 }
 
 /// A picture of the unit sphere through a telescope, from `distance` radii away.
-// [telescope]
 template <Way way>
 ljus::Image telescope(int size, double distance) {
     const Point eye = distance * glm::normalize(Point{1, 0.7, 0.8});
@@ -168,8 +164,6 @@ ljus::Image telescope(int size, double distance) {
         }
     return image;
 }
-// [telescope]
-
 /// Nanoseconds for one intersection in the loop of a small scene: the nearest of eight
 /// spheres; the best of 21 runs, for whatever else runs only adds.
 template <Way way>

@@ -97,7 +97,6 @@ Room glass_room(const MeshData& glass) {
 /// The photons that a glass mesh sends to the floor, and the share of the flux that met
 /// the glass which they carry. Scattered as radiance, a photon goes the same way, and
 /// has no factor; the n^2 of radiance is left out, too.
-// [photons]
 std::vector<Photon> glass_photons(const Room& room, long long count, bool factor,
                                   std::uint64_t seed, double& share) {
     const LightChoice choice = light_choice(room.lights);
@@ -138,8 +137,6 @@ std::vector<Photon> glass_photons(const Room& room, long long count, bool factor
     share = landed / met;
     return photons;
 }
-// [photons]
-
 void caustic_pictures(const examples::Options& options, const Sizes& sizes) {
     const Camera camera = look_at(
         {.position{0.6f, 2.6f, 4.6f}, .target{0.3f, 0.6f, 0}, .vfov_degrees = 34});

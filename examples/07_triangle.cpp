@@ -39,7 +39,6 @@ using examples::Numbers;
 // --- Ways to meet a triangle ----------------------------------------------------------
 
 /// Section 3.1.5 to the letter: t, and t >= 0.
-// [as_printed]
 std::optional<float> intersect_as_printed(const Ray& ray, const Triangle& triangle) {
     const Vec3 e1 = triangle.v2 - triangle.v1, e2 = triangle.v3 - triangle.v1;
     const Vec3 p = glm::cross(ray.direction, e2);
@@ -48,8 +47,6 @@ std::optional<float> intersect_as_printed(const Ray& ray, const Triangle& triang
     if (!(t >= 0)) return std::nullopt;
     return t;
 }
-// [as_printed]
-
 /// With the usual guard against parallel rays: an epsilon with a unit, volume.
 std::optional<float> intersect_guarded(const Ray& ray, const Triangle& triangle) {
     const Vec3 e1 = triangle.v2 - triangle.v1, e2 = triangle.v3 - triangle.v1;
@@ -278,7 +275,6 @@ ljus::Image tetrahedron(int size, bool printed) {
 /// A vertex of six triangles under the microscope: each cell is one direction, one step
 /// of float from its neighbours. Its colour says which triangle is hit; none is white,
 /// and where two are hit they are mixed.
-// [microscope]
 template <Way way>
 ljus::Image microscope(int cells, int cell_size) {
     const Vec3 hub{0.37f, 0.21f, -3.1f}, from{-0.62f, 0.83f, 1.9f};
@@ -318,8 +314,6 @@ ljus::Image microscope(int cells, int cell_size) {
         }
     return image;
 }
-// [microscope]
-
 } // namespace
 
 /// Makes the chapter's figures.

@@ -131,7 +131,6 @@ Case pair(Numbers& n) {
 }
 
 /// A ray that dips into a ball by `depth` radii, or passes it by as much.
-// [graze]
 Case graze(Numbers& n, double depth) {
     Case result{.ray{}, .balls{.blobs{{Point{0}, 1, 1}}}};
     const double r = std::sqrt(0.5); // of the ball, at level 1/4
@@ -140,8 +139,6 @@ Case graze(Numbers& n, double depth) {
     result.ray = {.origin = side * (r * (1 + in)) - 3.0 * way, .direction = way};
     return result;
 }
-// [graze]
-
 /// The truth: the same in long double.
 double truth(const Case& c) {
     using Long = long double;

@@ -31,7 +31,6 @@ Point from(const Point& origin, const Vec3& v) {
 }
 
 /// Figure 9: D, I and R, as reflect() has them.
-// [figure 9]
 void draw_figure_9(const std::string& folder) {
     const Vec3 normal{0, 1, 0};
     const Vec3 d = 1.7f * glm::normalize(Vec3{1.0f, -0.75f, 0});
@@ -64,10 +63,7 @@ void draw_figure_9(const std::string& folder) {
     draw_label(figure, {1.5 * double(along.x), -0.34}, "I", examples::colors::green);
     save_drawing(folder, figure);
 }
-// [figure 9]
-
 /// Two facing mirrors, `width` apart, under a lamp that spans all of the gap.
-// [corridor]
 auto corridor(const Rgb& reflectance, float width, float height) {
     const ljus::Mirror mirror{.reflectance = reflectance};
     const float depth = 4;
@@ -78,8 +74,6 @@ auto corridor(const Rgb& reflectance, float width, float height) {
         placed(Quad{{0, height, -depth}, {width, 0, 0}, {0, 0, 2 * depth}},
                ljus::Lambertian{.albedo = Rgb{0}}, Rgb{1}));
 }
-// [corridor]
-
 /// Plot: the lamp after n reflections, traced, beside R to the power of n.
 void plot_powers(const std::string& folder) {
     constexpr float width = 1, height = 1;

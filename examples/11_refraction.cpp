@@ -35,7 +35,6 @@ Point from(const Point& origin, const Vec3T<double>& v) {
 }
 
 /// Figure 10: D, R_1 and the two angles, as refract() has them.
-// [figure 10]
 void draw_figure_10(const std::string& folder) {
     const double n1 = 1, n2 = 1.5;
     const Vec3T<double> normal{0, 1, 0};
@@ -70,11 +69,8 @@ void draw_figure_10(const std::string& folder) {
     draw_label(figure, {1.65, -0.25}, "n_2 = 1.5");
     save_drawing(folder, figure);
 }
-// [figure 10]
-
 /// The way of a ray through a ball of index n: where it goes in, where out, and where
 /// it is after a length of 4.
-// [ball]
 std::vector<Point> way_through_ball(double height, double n) {
     using Ray = ljus::RayT<double>;
     const ljus::SphereT<double> ball{};
@@ -87,8 +83,6 @@ std::vector<Point> way_through_ball(double height, double n) {
     const auto end = out + 4.0 * beyond;
     return {{-2.2, height}, {in.x, in.y}, {out.x, out.y}, {end.x, end.y}};
 }
-// [ball]
-
 /// Parallel rays through a ball of glass, and where theory has their focus.
 void draw_ball(const std::string& folder) {
     const double n = 1.5;
@@ -136,7 +130,6 @@ void check(const MistakenGlass& mistaken) {
     check(mistaken.glass);
 }
 /// The glass's own sample; but where its mistake shows, something else.
-// [mistakes]
 std::optional<ljus::BsdfSample> sample(const MistakenGlass& mistaken, const Vec3& wo,
                                        const Vec3& u, ljus::Transport transport,
                                        ljus::Lobes which = ljus::Lobes::all) {
@@ -149,8 +142,6 @@ std::optional<ljus::BsdfSample> sample(const MistakenGlass& mistaken, const Vec3
         return std::nullopt; // no refracted ray: black
     return sample(glass, wo, u, transport, which);
 }
-// [mistakes]
-
 /// A tetrahedron and a ball of glass in a room with coloured walls.
 void picture(const examples::Options& options, const std::string& name, Error error) {
     const MistakenGlass glass{.glass{.index = 1.5f}, .error = error};
@@ -194,7 +185,6 @@ void picture(const examples::Options& options, const std::string& name, Error er
 
 /// Snell's law in angles, as the report prints it. D travels towards the surface; z is
 /// the normal.
-// [angles]
 template <typename T>
 std::optional<Vec3T<T>> refract_by_angles(const Vec3T<T>& d, T eta) {
     const T theta_1 = std::acos(-d.z);
@@ -205,8 +195,6 @@ std::optional<Vec3T<T>> refract_by_angles(const Vec3T<T>& d, T eta) {
     return Vec3T<T>{std::sin(theta_2) * std::cos(phi),
                     std::sin(theta_2) * std::sin(phi), -std::cos(theta_2)};
 }
-// [angles]
-
 /// The ways that are compared; each takes D towards the surface, whose normal is z.
 constexpr auto by_angles = [](const Vec3& d, float eta) {
     return refract_by_angles(d, eta);

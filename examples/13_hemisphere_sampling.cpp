@@ -32,7 +32,6 @@ constexpr double pi = std::numbers::pi;
 
 /// The samplers that are compared. A sampler of your own goes here: `sample` turns a
 /// point of the unit square into a unit vector with z > 0, `pdf` is its density.
-// [samplers]
 struct Cosine {
     static constexpr const char* name = "cosine";
     template <typename T>
@@ -66,7 +65,6 @@ struct Naive {
         return ljus::pdf_naive_hemisphere(d);
     }
 };
-// [samplers]
 /// Naive directions that are counted as if they were cosine-weighted.
 struct Forgotten : Naive {
     static constexpr const char* name = "naive, pdf forgotten";
@@ -97,7 +95,6 @@ struct Moments {
 
 /// By a grid over the unit square, not at random: the lobe covers some hundred of its
 /// rows.
-// [moments]
 template <typename Way>
 Moments moments(const Sky& sky, int size) {
     double sum = 0, squares = 0;
@@ -112,8 +109,6 @@ Moments moments(const Sky& sky, int size) {
     const double count = double(size) * size;
     return {sum / count, squares / count - (sum / count) * (sum / count)};
 }
-// [moments]
-
 /// Table: the variance of each way under four skies.
 template <typename... Way>
 void tabulate_variance(const std::string& folder, int size) {

@@ -34,7 +34,6 @@ const Rgb sky{0.16f, 0.27f, 0.5f};
 
 /// The picture that everybody knows: a ball of glass before a mirror, over a floor of
 /// red and yellow tiles, under a blue sky.
-// [two balls]
 TwoBalls two_balls() {
     TwoBalls scene;
     const auto glass = scene.add(ljus::Glass{.index = 1.5f});
@@ -51,8 +50,6 @@ TwoBalls two_balls() {
     scene.add(ljus::PointLight{.position{-3, 7, 5}, .intensity = Rgb{190}});
     return scene;
 }
-// [two balls]
-
 ljus::Camera two_balls_camera() {
     return ljus::look_at(
         {.position{0.2f, 2.1f, 8}, .target{-0.1f, 1.1f, 0}, .vfov_degrees = 32});

@@ -172,7 +172,6 @@ Shot everything() {
 
 /// A picture whose rays share out all their numbers by one pattern, and stay in the
 /// middle of the pixel if told to.
-// [picture_by]
 Image picture_by(const Shot& shot, int width, int height, int rays,
                  ljus::Sampling sampling, std::uint64_t seed, bool pixel, int threads) {
     const auto tracer = make_distributed(shot.scene);
@@ -199,8 +198,6 @@ Image picture_by(const Shot& shot, int width, int height, int rays,
     examples::stop_if_asked();
     return image;
 }
-// [picture_by]
-
 double rms(const Image& image, const Image& truth) {
     double sum = 0;
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {

@@ -74,7 +74,6 @@ constexpr std::array lamp_radius{0.0333f, 0.1f, 0.3f, 0.9f};
 
 /// Four plates, from nearly a mirror to satin, and four lamps of the same power, from a
 /// point nearly to a ball. Each plate mirrors the lamps to the eye.
-// [plates]
 auto plates() {
     ljus::Room<ljus::Scene<ljus::Shapes<Quad, Sphere>,
                            ljus::Materials<ljus::Lambertian, ljus::Glossy>>>
@@ -106,8 +105,6 @@ auto plates() {
         ljus::View{.position = eye, .target{0, -1.8f, 2.5f}, .vfov_degrees = 26});
     return room;
 }
-// [plates]
-
 // --- Noise ----------------------------------------------------------------------------
 
 /// A picture, with a bar while it is made.
@@ -132,8 +129,6 @@ struct Noise {
     Image image{};      ///< The first.
     Image other{};      ///< The second.
 };
-
-// [noise]
 template <typename Renderer>
 Noise noise_of(const Renderer& renderer, const ljus::Camera& camera,
                ljus::RenderSettings picture, const examples::Options& options) {
@@ -147,8 +142,6 @@ Noise noise_of(const Renderer& renderer, const ljus::Camera& camera,
             .image = a.image,
             .other = b.image};
 }
-// [noise]
-
 double mean_of(const Image& image) {
     double sum = 0;
     for (const Rgb& c : image.pixels) sum += double(c.x + c.y + c.z) / 3;
@@ -172,15 +165,11 @@ struct Way {
     const char *name, *file;
     PathTracingSettings settings{};
 };
-
-// [ways]
 const std::array ways{
     Way{"paths alone", "paths", {.sample_lights = false}},
     Way{"shadow rays alone", "shadow", {.heuristic = MisHeuristic::shadow_rays}},
     Way{"both by balance", "balance"},
     Way{"both by power", "power", {.heuristic = MisHeuristic::power}}};
-// [ways]
-
 /// The matt room by each way, and its noise against rays.
 void in_the_room(const examples::Options& options, const Sizes& sizes) {
     const auto room = matt_room();
@@ -252,7 +241,6 @@ void in_the_box(const examples::Options& options) {
 }
 
 /// A log that keeps what one owner brings.
-// [one owner]
 struct OwnerLog {
     std::string_view owner;
     Rgb sum{0};
@@ -282,8 +270,6 @@ Rgb radiance(const OneOwner<Renderer>& one, const ljus::Ray& ray,
     (void)radiance(one.whole, ray, stream, counts, log);
     return log.sum;
 }
-// [one owner]
-
 /// The relative noise where the plates mirror the lamps: plate by plate, lamp by lamp.
 template <typename Scene>
 std::array<std::array<double, 4>, 4>

@@ -79,7 +79,6 @@ void add_block(Stage& scene, MaterialId matt, const Vec3& middle, const Vec3& si
 }
 
 /// The Cornell box with two matt blocks: all that radiosity was made for.
-// [block room]
 Room<Stage> block_room() {
     Room<Stage> room;
     add_cornell_walls(room.scene);
@@ -91,8 +90,6 @@ Room<Stage> block_room() {
     room.camera = cornell_box().camera;
     return room;
 }
-// [block room]
-
 /// Two rooms; the lamp is in the left one. The front, where the camera stands, is open.
 Room<Stage> two_rooms(double wall) {
     Room<Stage> room;

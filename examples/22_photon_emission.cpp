@@ -39,7 +39,6 @@ struct Sizes {
 // --- Photons as dots ------------------------------------------------------------------
 
 /// The pixel in which a camera sees a point; nothing if it lies behind the camera.
-// [project]
 std::optional<Vec2> project(const Camera& camera, const Vec3& point, int width,
                             int height) {
     const Vec3 way = point - camera.position;
@@ -49,8 +48,6 @@ std::optional<Vec2> project(const Camera& camera, const Vec3& point, int width,
     return Vec2{float(width) / 2 + scale * glm::dot(way, camera.right),
                 float(height) / 2 - scale * glm::dot(way, camera.up)};
 }
-// [project]
-
 /// A drawing of the room, no rendering: the colour of what the pixel sees, darker where
 /// it is seen at a low angle.
 template <typename S>
@@ -78,7 +75,6 @@ Image draw(const Room<S>& room, int width, int height) {
 
 /// Adds the photons of one kind that the camera can see, each as a dot in the colour of
 /// its flux.
-// [dots]
 template <typename S>
 long long add_dots(Image& image, const Room<S>& room,
                    const std::vector<Photon>& photons, PhotonKind kind) {
@@ -102,8 +98,6 @@ long long add_dots(Image& image, const Room<S>& room,
     }
     return seen;
 }
-// [dots]
-
 void picture_of_photons(const examples::Options& options, long long count) {
     const auto room = final_room<float>();
     const Image drawing = draw(room, options.width, options.height);

@@ -119,7 +119,6 @@ void draw_search(const examples::Options& options, const std::vector<Vec3>& poin
                                         float(plan.image.height) * 0.55f, 0) /
                                        plan.scale;
     std::vector<Neighbor> room(std::min<std::size_t>(400, points.size()));
-    // [touched]
     Nearest best{.found = room, .limit2 = 1e30};
     std::size_t touched = 0;
     tree.walk(
@@ -130,7 +129,6 @@ void draw_search(const examples::Options& options, const std::vector<Vec3>& poin
             if (best.reaches(distance2)) best.take({distance2, index});
         },
         [&](double distance2) { return best.reaches(distance2); });
-    // [touched]
     for (const Neighbor& found : room)
         plan.dot(tree.points()[found.index], Rgb{0.4f, 0.8f, 1.0f});
     save_png(plan.image, options.path("kd_tree-search.png"));

@@ -44,7 +44,6 @@ void save(const examples::Options& options, const examples::Table& table) {
 // --- Figures 5, 6 and 7 ---------------------------------------------------------------
 
 /// The photons of one kind, as the report shows them.
-// [figure]
 template <typename Scene>
 long long save_figure(const std::string& path, const Image& drawing,
                       const Room<Scene>& room, const std::vector<Photon>& photons,
@@ -58,8 +57,6 @@ long long save_figure(const std::string& path, const Image& drawing,
     save_png(image, path);
     return seen;
 }
-// [figure]
-
 void figures(const examples::Options& options, long long count) {
     const auto room = final_room<float>();
     const Image drawing =
@@ -118,8 +115,6 @@ struct MapView {
     using Stream = RandomStream;
     const PhotonMapper<Scene>& mapper; ///< The scene and its maps.
 };
-
-// [map view]
 template <typename Scene, typename Log>
 Rgb radiance(const MapView<Scene>& view, const Ray& ray, RandomStream& stream,
              Counts& counts, Log&&) {
@@ -143,8 +138,6 @@ Rgb radiance(const MapView<Scene>& view, const Ray& ray, RandomStream& stream,
     }
     return sum;
 }
-// [map view]
-
 void map_as_picture(const examples::Options& options) {
     const auto room = final_room<float>();
     PhotonMappingSettings settings{.indirect = IndirectLight::map};

@@ -66,7 +66,6 @@ Landing landing(const Setup& setup, double alpha) {
 
 /// The irradiance on the floor for an intensity of 1 W/sr: a ring of directions over
 /// the ring of the floor on which it lands, wherever a ray lands there.
-// [irradiance]
 double irradiance(const Setup& setup, double rho) {
     constexpr int steps = 4000;
     const double width = std::asin(setup.radius / setup.light) / steps;
@@ -82,8 +81,6 @@ double irradiance(const Setup& setup, double rho) {
     }
     return sum;
 }
-// [irradiance]
-
 using Stage = Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass, Mirror>>;
 
 void add_floor(Stage& stage, float y) {
@@ -311,7 +308,6 @@ void laws(const examples::Options& options, const Sizes& sizes) {
 // --- Figure 8 -------------------------------------------------------------------------
 
 /// The caustic photons as dots.
-// [figure 8]
 void figure_8(const examples::Options& options) {
     const auto room = four_glass_room();
     const auto traced = trace_photons(room.scene, MapType::caustics,
@@ -323,8 +319,6 @@ void figure_8(const examples::Options& options) {
                           {.radius = 1.2f, .brightness = 0.7f}, color);
     save_png(image, options.path("fig-8.png"));
 }
-// [figure 8]
-
 // --- Figure 11 and table 2 ------------------------------------------------------------
 
 /// The caustics without a radius: each photon is joined to the pinhole, and counted in

@@ -50,7 +50,6 @@ void report(const std::string& file, double first_pass, double second_pass,
 }
 
 /// One figure of the report, by the report's two passes.
-// [figure]
 template <typename Scene>
 void figure(const std::string& name, const ljus::Room<Scene>& room,
             const PhotonMappingSettings& settings, const examples::Options& options) {
@@ -67,8 +66,6 @@ void figure(const std::string& name, const ljus::Room<Scene>& room,
         report(file, first_pass, watch.seconds() - first_pass, result.counts,
                maps.caustics.records.size());
 }
-// [figure]
-
 /// Figure 1 taken apart: the three parts whose sum it is.
 template <typename Scene>
 void parts(const ljus::Room<Scene>& room, const PhotonMappingSettings& settings,

@@ -48,8 +48,8 @@ struct NearestHitT {
 using NearestHit = NearestHitT<float>; ///< NearestHitT in float.
 
 /// A binary tree of boxes over any primitives that have one \cite rubin1980. What the
-/// primitives are, and where, is the caller's: a search calls back with a primitive's *slot*
-/// in the tree's order, and primitive_ids() says which one that is.
+/// primitives are, and where, is the caller's: a search calls back with a primitive's
+/// *slot* in the tree's order, and primitive_ids() says which one that is.
 ///
 ///     std::vector<Box> boxes;
 ///     for (const Triangle& triangle : triangles) boxes.push_back(bounds(triangle));
@@ -73,7 +73,8 @@ public:
     explicit BvhT(std::span<const BoxT<T>> boxes, const BvhSettings& settings = {})
         : tree_(build_bvh(boxes, settings)) {}
 
-    /// primitive_ids()[slot] is a primitive's number in the span that the tree was built from.
+    /// primitive_ids()[slot] is a primitive's number in the span that the tree was
+    /// built from.
     [[nodiscard]] const std::vector<std::uint32_t>& primitive_ids() const noexcept {
         return tree_.primitive_ids;
     }
@@ -93,8 +94,8 @@ public:
 
     /// Asks the primitives that a ray may meet, the nearer ones first.
     /// \param ray    The ray.
-    /// \param test   Called as test(slot, ray) for primitives whose box the ray meets; it
-    ///               may shorten the ray, as NearestHitT does, so that what lies
+    /// \param test   Called as test(slot, ray) for primitives whose box the ray meets;
+    ///               it may shorten the ray, as NearestHitT does, so that what lies
     ///               farther is left out; what is as far is still asked.
     /// \param watch  Called for each node on the way.
     /// \cost In the mean O(log n) calls, in the worst case n.

@@ -57,7 +57,8 @@ public:
                wide_.primitive_ids.capacity() * 4;
     }
 
-    /// Asks the primitives that a ray may meet, the nearer ones first: as BvhT::closest().
+    /// Asks the primitives that a ray may meet, the nearer ones first: as
+    /// BvhT::closest().
     template <typename Test, typename Watch = NoTrace>
     void closest(Ray ray, Test&& test, Watch&& watch = {}) const {
         const auto ask = [&](std::uint32_t slot) {

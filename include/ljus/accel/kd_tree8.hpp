@@ -29,7 +29,8 @@ struct FoundBlockT {
 /// pointer.
 ///
 /// Distances are formed in T, eight at a time; those so near to the limit of a search
-/// that T cannot tell are formed once more in double, as everywhere: see detail::ReachT.
+/// that T cannot tell are formed once more in double, as everywhere: see
+/// detail::ReachT.
 ///
 /// The tree keeps the positions; what belongs to them is the caller's, put into the
 /// tree's order with order(), eight to a block. Searches are const, take no memory, and
@@ -94,7 +95,6 @@ public:
     /// \param radius  Not squared; infinity for all. Below 0, and if it or the centre
     ///                is NaN, the ball is empty.
     /// \param visit   Takes the block; the payload of its points has the same places.
-    // [blocks]
     template <typename Visit>
     void visit_blocks(const Vec3T<T>& center, T radius, Visit&& visit) const {
         const auto reach =
@@ -111,8 +111,6 @@ public:
                             return false;
                         });
     }
-    // [blocks]
-
     /// Calls `visit(index, distance2)` for each point within a closed ball.
     /// \param center  Of the ball.
     /// \param radius  As for visit_blocks().

@@ -72,8 +72,9 @@ public:
     [[nodiscard]] TriangleT<T> triangle(std::uint32_t part) const noexcept {
         return triangle_of(data_, part);
     }
-    /// The triangle at a slot of the tree: triangle(tree().primitive_ids()[slot]). The fast
-    /// tree has it at hand, and a search need not wait for two more parts of memory.
+    /// The triangle at a slot of the tree: triangle(tree().primitive_ids()[slot]). The
+    /// fast tree has it at hand, and a search need not wait for two more parts of
+    /// memory.
     [[nodiscard]] TriangleT<T> triangle_at(std::uint32_t slot) const noexcept {
         if constexpr (std::is_same_v<T, float>)
             return tree_.triangle(slot);
@@ -131,7 +132,6 @@ template <typename Compute = void, std::floating_point T>
 /// \param mesh  The mesh.
 /// \return Whether intersect() would return a hit.
 /// \cost In the mean O(log n) triangles, and fewer of them than intersect().
-// [meets]
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] bool meets(const RayT<T>& ray, const MeshT<T>& mesh) {
     const auto prepared = prepare<Compute>(ray);
@@ -139,8 +139,6 @@ template <typename Compute = void, std::floating_point T>
         return intersect<Compute>(ray, mesh.triangle_at(slot), prepared).has_value();
     });
 }
-// [meets]
-
 /// The point of a mesh that a ray hit; its normal is that of the triangle.
 /// \param mesh  The mesh.
 /// \param hit   What intersect() returned.
@@ -158,7 +156,6 @@ template <std::floating_point T>
 /// \param geometric  The triangle's normal.
 /// \return Unit vector within 90 degrees of `geometric`; `geometric` itself if the mesh
 ///         has no normals, or where they do not point to the triangle's outer side.
-// [shading_normal]
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> shading_normal(const MeshT<T>& mesh, const FlatHitT<T>& hit,
                                       const Vec3T<T>& geometric) noexcept {
@@ -170,13 +167,10 @@ template <std::floating_point T>
     if (!(glm::dot(n, geometric) > T(0))) return geometric;
     return Vec3T<T>(glm::normalize(Vec3T<WideT<T>>(n)));
 }
-// [shading_normal]
-
 /// Where a mesh was hit on its texture: the coordinates of the vertices, interpolated.
 /// \param mesh   The mesh.
 /// \param hit    What intersect() returned.
 /// \return (u, v); for a mesh without any, those of the triangle: `hit.u`, `hit.v`.
-// [texture_coordinates]
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> texture_coordinates(const MeshT<T>& mesh, const FlatHitT<T>& hit,
                                            const SurfacePointT<T>& /*point*/) noexcept {
@@ -186,15 +180,12 @@ template <std::floating_point T>
     return (T(1) - hit.u - hit.v) * uv[corner[0]] + hit.u * uv[corner[1]] +
            hit.v * uv[corner[2]];
 }
-// [texture_coordinates]
-
 /// A point of a mesh, uniform over its area: a triangle by its share, then a point of
 /// it, from what the choice left of u.x.
 /// \param mesh  The mesh.
 /// \param u     Point of the unit square.
 /// \return The point; density 1 / area per squared scene unit.
 /// \cost O(log n).
-// [sample_area]
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const MeshT<T>& mesh,
                                            const Vec2T<T>& u) noexcept {
@@ -218,8 +209,6 @@ template <std::floating_point T>
     const auto part = static_cast<std::uint32_t>(found);
     return sample_area(mesh.triangle(part), Vec2T<T>{glm::min(T(left), T(1)), u.y});
 }
-// [sample_area]
-
 /// The area, in squared scene units.
 template <std::floating_point T>
 [[nodiscard]] T area(const MeshT<T>& mesh) noexcept {

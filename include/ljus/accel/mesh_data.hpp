@@ -80,7 +80,6 @@ void check(const MeshDataT<T>& data) {
 /// \param data  The data; the old normals are forgotten. A vertex without a triangle
 ///              that has an area gets (0, 0, 0), which counts as no normal.
 /// \cost O(n).
-// [smooth]
 template <std::floating_point T>
 void smooth(MeshDataT<T>& data) {
     using Wide = Vec3T<WideT<T>>;
@@ -105,8 +104,6 @@ void smooth(MeshDataT<T>& data) {
         data.normals.emplace_back(known ? glm::normalize(sum) : Wide{0});
     }
 }
-// [smooth]
-
 /// \}
 
 } // namespace ljus

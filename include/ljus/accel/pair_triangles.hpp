@@ -38,7 +38,6 @@ struct FlatShapesT {
 /// \param indices   Three numbers of vertices a triangle.
 /// \return Every triangle, as itself or as half of a quad with the same normal.
 /// \cost O(n log n).
-// [pair_triangles]
 template <std::floating_point T>
 [[nodiscard]] FlatShapesT<T>
 pair_triangles(const std::vector<glm::dvec3>& vertices,
@@ -91,8 +90,6 @@ pair_triangles(const std::vector<glm::dvec3>& vertices,
                                         .v3 = Vec3T<T>{vertices[indices[i][2]]}});
     return shapes;
 }
-// [pair_triangles]
-
 /// \}
 
 } // namespace ljus

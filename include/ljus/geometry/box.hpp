@@ -20,7 +20,6 @@ namespace ljus {
 /// \{
 
 /// All points between two corners. Without values: the box around nothing.
-// [box]
 template <std::floating_point T>
 struct BoxT {
     Vec3T<T> low{std::numeric_limits<T>::infinity()}; ///< The corner of least x, y, z.
@@ -40,8 +39,6 @@ template <std::floating_point T>
                                           const Vec3T<T>& point) noexcept {
     return {glm::min(a.low, point), glm::max(a.high, point)};
 }
-// [box]
-
 /// \name Boxes around shapes
 /// \{
 

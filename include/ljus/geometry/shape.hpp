@@ -20,18 +20,18 @@ namespace ljus {
 /// A new shape needs what the concept Shape lists: intersect(), surface_point(),
 /// bounding_sphere() and check(). These it may have as well:
 ///
-/// | what                                  | what for              | without it         |
-/// |---------------------------------------|-----------------------|--------------------|
-/// | bounds(shape)                         | a tight box in a tree | its sphere's box   |
-/// | meets(ray, shape)                     | faster shadow rays    | intersect()        |
-/// | shading_normal(shape, hit, normal)    | smooth normals        | the geometric one  |
-/// | area(shape), sample_area(shape, u)    | being a light         | refused as a light |
-/// | sample_towards(), pdf_towards()       | a lamp's solid angle  | points of its area |
-/// | center_sample(shape)                  | the centre of a lamp  | u = v = 1/2        |
-/// | texture_coordinates()                 | images by (u, v)      | those of the hit   |
-/// | is_flat                               | photons aimed at area | at its sphere      |
-/// | translated(shape, by)                 | Moving                | does not compile   |
-/// | patch_grid(shape, size), facet_of()   | radiosity             | left out, and said |
+/// | what                                | what for              | without it         |
+/// |-------------------------------------|-----------------------|--------------------|
+/// | bounds(shape)                       | a tight box in a tree | its sphere's box   |
+/// | meets(ray, shape)                   | faster shadow rays    | intersect()        |
+/// | shading_normal(shape, hit, normal)  | smooth normals        | the geometric one  |
+/// | area(shape), sample_area(shape, u)  | being a light         | refused as a light |
+/// | sample_towards(), pdf_towards()     | a lamp's solid angle  | points of its area |
+/// | center_sample(shape)                | the centre of a lamp  | u = v = 1/2        |
+/// | texture_coordinates()               | images by (u, v)      | those of the hit   |
+/// | is_flat                             | photons aimed at area | at its sphere      |
+/// | translated(shape, by)               | Moving                | does not compile   |
+/// | patch_grid(shape, size), facet_of() | radiosity             | left out, and said |
 /// \{
 
 /// Where a ray meets any shape; a sphere has no use for u and v.

@@ -150,7 +150,6 @@ template <std::floating_point T>
 /// \return t, and the barycentric u, v of the hit \f$(1-u-v)V_1 + uV_2 + vV_3\f$;
 ///         nothing for a miss.
 /// \report{Section 3.1.5}
-// [intersect]
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<FlatHitT<T>>
 intersect(const RayT<T>& ray, const TriangleT<T>& triangle) noexcept {
@@ -163,8 +162,6 @@ intersect(const RayT<T>& ray, const TriangleT<T>& triangle) noexcept {
     if (hit && !has_area(triangle)) return std::nullopt;
     return hit;
 }
-// [intersect]
-
 /// The unit normal: of the side from which the vertices turn counter-clockwise.
 /// \param triangle  A triangle with an area.
 /// \return Unit vector.

@@ -38,7 +38,6 @@ struct ShearT {
 /// \param ray    A ray. A direction of zero, NaN or infinity gives NaN or an sz of 0,
 ///               and no hit.
 /// \return Axes and factors.
-// [prepare]
 template <std::same_as<Watertight> Test, std::floating_point T>
 [[nodiscard]] ShearT<T> prepare(const RayT<T>& ray) noexcept {
     const Vec3T<T> size = sizes(ray.direction);
@@ -52,8 +51,6 @@ template <std::same_as<Watertight> Test, std::floating_point T>
             .sy = d[y] / d[z],
             .sz = 1 / static_cast<double>(d[z])};
 }
-// [prepare]
-
 /// Where a ray meets a triangle, so that of two triangles with a common edge at least
 /// one is hit by a ray at that edge, and of a fan at least one by a ray at its hub.
 ///

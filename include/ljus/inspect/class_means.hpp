@@ -46,8 +46,8 @@ struct ClassesLog {
 /// \param renderer  Any Renderer.
 /// \param camera    As for render().
 /// \param picture   As for render(); it is not stopped, and progress is not called.
-/// \param classes   From light_path_expression(). Of a photon map's answer for a whole class, as
-///                  "DS+L", the shortest path decides; see ExpressionLog.
+/// \param classes   From light_path_expression(). Of a photon map's answer for a whole
+///                  class, as "DS+L", the shortest path decides; see ExpressionLog.
 /// \return W/(m^2 sr), one a class, the same for any number of threads.
 /// \throws std::invalid_argument  if the size or the number of rays is below 1.
 /// \cost One picture, and a few bit operations a letter and class.

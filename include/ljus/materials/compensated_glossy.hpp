@@ -15,9 +15,10 @@ namespace ljus {
 /// \brief Section 3.2.4, rough mirrors: what a facet sends to its neighbours comes out.
 /// \{
 
-/// Gloss, and beside it the light that it loses, given back as \ref multiple_scattering says.
-/// Made by compensated_glossy(). White facets return 0.9996 to 1.00001 of a constant sky, at
-/// any roughness and angle; coloured ones grow richer, as after several reflections.
+/// Gloss, and beside it the light that it loses, given back as \ref multiple_scattering
+/// says. Made by compensated_glossy(). White facets return 0.9996 to 1.00001 of a
+/// constant sky, at any roughness and angle; coloured ones grow richer, as after
+/// several reflections.
 /// \tparam Facet  As GlossyT has it.
 template <std::floating_point T, typename Facet = RgbT<T>>
 struct CompensatedGlossyT {

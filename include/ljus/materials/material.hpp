@@ -29,16 +29,16 @@ namespace ljus {
 /// The `which` of pdf() and sample() are the lobes to choose from, all unless told
 /// otherwise. These a material may have as well:
 ///
-/// | what                              | what for                   | without it        |
-/// |-----------------------------------|----------------------------|-------------------|
-/// | absorption(m)                     | a medium inside            | clear             |
-/// | emission(m)                       | its own light              | black             |
-/// | at_point(m, position, uv)         | another colour per place   | the same anywhere |
-/// | uses_uv                           | at_point() with uv         | uv is 0           |
-/// | both_ways(m, wo, transport)       | a path that splits         | one way by chance |
-/// | pass_through(m, position, wo)     | a ThinSurface              | opaque            |
-/// | only_specular                     | no evaluate(), no pdf()    | write both        |
-/// | diffuse_albedo(m)                 | radiosity                  | black there       |
+/// | what                          | what for                 | without it        |
+/// |-------------------------------|--------------------------|-------------------|
+/// | absorption(m)                 | a medium inside          | clear             |
+/// | emission(m)                   | its own light            | black             |
+/// | at_point(m, position, uv)     | another colour per place | the same anywhere |
+/// | uses_uv                       | at_point() with uv       | uv is 0           |
+/// | both_ways(m, wo, transport)   | a path that splits       | one way by chance |
+/// | pass_through(m, position, wo) | a ThinSurface            | opaque            |
+/// | only_specular                 | no evaluate(), no pdf()  | write both        |
+/// | diffuse_albedo(m)             | radiosity                | black there       |
 ///
 /// \{
 

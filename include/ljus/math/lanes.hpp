@@ -19,8 +19,8 @@ namespace detail {
 
 /// \defgroup lanes Lanes
 /// \brief Eight numbers side by side: loops of a constant length, which compilers turn
-/// into the widest instructions that they may use. What keeps them from it: a long body,
-/// a choice between products, shifts that differ by lane.
+/// into the widest instructions that they may use. What keeps them from it: a long
+/// body, a choice between products, shifts that differ by lane.
 /// \{
 
 /// How many numbers stand side by side.
@@ -31,7 +31,6 @@ inline constexpr int lane_count = 8;
 /// A compiler that unrolls the loop before it looks for vectors, as g++ does inside of
 /// other loops, finds eight separate numbers and no vector any more.
 /// \param body  Called with an int in [0, 8).
-// [for lanes]
 template <typename Body>
 constexpr void for_lanes(Body&& body) noexcept {
 #if defined(__clang__)
@@ -41,8 +40,6 @@ constexpr void for_lanes(Body&& body) noexcept {
 #endif
     for (int i = 0; i < lane_count; ++i) body(i);
 }
-// [for lanes]
-
 /// The bit of each lane in a number that has one for each.
 inline constexpr std::uint32_t lane_bit[lane_count] = {1, 2, 4, 8, 16, 32, 64, 128};
 
@@ -85,15 +82,12 @@ struct alignas(32) LaneMask {
 /// Written in the two steps that compilers know: to bytes, and those into one register.
 /// \param mask  The answers.
 /// \return 0 for none.
-// [yes_lanes]
 [[nodiscard]] constexpr std::uint64_t yes_lanes(const LaneMask& mask) noexcept {
     std::array<std::int8_t, lane_count> bytes{};
     for (std::size_t i = 0; i < lane_count; ++i)
         bytes[i] = static_cast<std::int8_t>(mask.lane[i]);
     return std::bit_cast<std::uint64_t>(bytes) & 0x0101010101010101u;
 }
-// [yes_lanes]
-
 /// Takes a lane out of what yes_lanes() returned.
 /// \param lanes  Not 0; becomes what is left.
 /// \return The lane's place.
@@ -124,7 +118,6 @@ template <std::floating_point T>
 /// \param among    Which of them count: a bit each, the first number's the lowest.
 /// \param bound    Larger ones do not count, nor does NaN.
 /// \return The place, or 8 if there is none.
-// [smallest lane]
 template <std::floating_point T>
 [[nodiscard]] constexpr std::uint32_t
 smallest_lane(const LanesT<T>& numbers, std::uint32_t among, T bound) noexcept {
@@ -140,8 +133,6 @@ smallest_lane(const LanesT<T>& numbers, std::uint32_t among, T bound) noexcept {
     });
     return smallest == none ? 8 : static_cast<std::uint32_t>(smallest & 7);
 }
-// [smallest lane]
-
 /// \}
 
 } // namespace detail
@@ -154,7 +145,6 @@ smallest_lane(const LanesT<T>& numbers, std::uint32_t among, T bound) noexcept {
 /// compiler has none to give, nothing happens, and all answers are the same.
 /// \param address  Where the first begins; any address.
 /// \cost An instruction a line.
-// [prefetch]
 template <int lines = 1>
 inline void prefetch([[maybe_unused]] const void* address) noexcept {
 #if defined(__GNUC__) // clang says so, too
@@ -162,8 +152,6 @@ inline void prefetch([[maybe_unused]] const void* address) noexcept {
         __builtin_prefetch(static_cast<const char*>(address) + 64 * i);
 #endif
 }
-// [prefetch]
-
 /// \}
 
 } // namespace ljus

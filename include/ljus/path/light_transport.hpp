@@ -77,9 +77,9 @@ struct Filtered {
 
 } // namespace detail
 
-/// Filters the paths of a renderer by a light path expression. Expressions that share no
-/// path and together hold all of them give pictures that add up to the whole one: the
-/// random paths are the same, only what is added differs.
+/// Filters the paths of a renderer by a light path expression. Expressions that share
+/// no path and together hold all of them give pictures that add up to the whole one:
+/// the random paths are the same, only what is added differs.
 /// \param whole    A renderer.
 /// \param carried  As light_path_expression() takes it, and must outlive the renderer.
 /// \return A renderer for render().

@@ -153,7 +153,8 @@ struct PassageT {
 };
 
 /// Takes a ray through the thin surfaces in its way. At each, chance decides with the
-/// mean of R over the channels whether the path stops there, to be reflected, or passes.
+/// mean of R over the channels whether the path stops there, to be reflected, or
+/// passes.
 /// \param scene   The scene.
 /// \param ray     Gets its last part.
 /// \param hit     What the ray meets first; becomes what its last part meets.

@@ -15,7 +15,8 @@ namespace ljus {
 /// \{
 
 /// A path on its way, from the camera or from a light. Both travel by next_vertex() and
-/// continue_path(); they differ only in what they carry and in what is done at a vertex.
+/// continue_path(); they differ only in what they carry and in what is done at a
+/// vertex.
 template <std::floating_point T>
 struct PathStateT {
     RayT<T> ray{};             ///< Where it goes, and when.

@@ -83,8 +83,8 @@ template <SceneLike S, std::floating_point T>
 } // namespace detail
 
 /// A photon of a point light, aimed at one ball: the plain twin of aim(). The light
-/// sends \f$1/4\pi\f$ of its flux into each steradian, and the ball is seen in a cone of
-/// \f$2\pi(1 - \cos\theta)\f$ of them, which the photons share.
+/// sends \f$1/4\pi\f$ of its flux into each steradian, and the ball is seen in a cone
+/// of \f$2\pi(1 - \cos\theta)\f$ of them, which the photons share.
 /// \param light  A point light.
 /// \param ball   The target; the light is outside of it.
 /// \param u      Point of the unit square: where in the cone.

@@ -148,7 +148,6 @@ estimate_radiance_plain(const PhotonMapT<T>& map, const VertexT<T>& surface,
 /// \report{Section 3.2.6}
 /// \erratum{The report's R_i is called a radiance; it is the BRDF times the photon's
 ///          flux. There is no cosine: the flux that arrives on the surface holds it.}
-// [estimate]
 template <std::floating_point T, typename Material>
 [[nodiscard]] RgbT<T> estimate_radiance(const PhotonMapT<T>& map,
                                         const VertexT<T>& surface,
@@ -205,8 +204,6 @@ template <std::floating_point T, typename Material>
     }
     return RgbT<T>(sum / (std::numbers::pi * radius2));
 }
-// [estimate]
-
 /// \}
 
 } // namespace ljus

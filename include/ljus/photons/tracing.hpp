@@ -84,8 +84,9 @@ long long join_blocks(std::vector<PhotonBlockT<T>>& blocks, TracedPhotonsT<T>& r
 /// Emits and traces the photons of one map, by several threads.
 ///
 /// Some 2000 paths tell how many photons are stored in the mean; a pass that would need
-/// more than PhotonPassSettings::max_memory is refused before it takes it. A pass of which
-/// nothing was stored in PhotonPassSettings::give_up paths ends there, and says why.
+/// more than PhotonPassSettings::max_memory is refused before it takes it. A pass of
+/// which nothing was stored in PhotonPassSettings::give_up paths ends there, and says
+/// why.
 /// \param scene  The scene; with at least one light.
 /// \param map    For which map.
 /// \param pass   How many, and with which seed.

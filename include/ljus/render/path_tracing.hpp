@@ -16,8 +16,8 @@ namespace ljus {
 /// \brief Section 2: the rendering equation (Eq. 1), after Kajiya \cite kajiya1986.
 /// \{
 
-/// How the light of a lamp that both a shadow ray and the path itself can find is divided
-/// between the two: the weights of multiple importance sampling.
+/// How the light of a lamp that both a shadow ray and the path itself can find is
+/// divided between the two: the weights of multiple importance sampling.
 enum class MisHeuristic : std::uint8_t {
     balance,    ///< In proportion to each one's pdf: balance_heuristic().
     power,      ///< In proportion to the square of the pdf: power_heuristic().
@@ -139,8 +139,8 @@ template <SceneLike S, std::floating_point T>
 }
 // [emitted]
 
-/// The light of one light, chosen by power, at a vertex of a path: by a shadow ray, with
-/// the weight that it leaves to the path itself.
+/// The light of one light, chosen by power, at a vertex of a path: by a shadow ray,
+/// with the weight that it leaves to the path itself.
 /// \param tracer    The scene and the limits.
 /// \param path      The path.
 /// \param vertex    The surface.

@@ -87,8 +87,8 @@ namespace detail {
 /// Says which passes a scene requires.
 /// \param found     What the scene is made of.
 /// \param settings  What the user asks for.
-/// \return The plan. make_photon_maps() and make_photon_mapper() obey it; thin films and
-///         the tree are decided by the same questions where a ray is traced.
+/// \return The plan. make_photon_maps() and make_photon_mapper() obey it; thin films
+///         and the tree are decided by the same questions where a ray is traced.
 [[nodiscard]] LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
                                               const PhotonMappingSettings& settings);
 

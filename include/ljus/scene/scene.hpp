@@ -166,8 +166,8 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
         return visit<0>(materials, id.type, id.index, f);
     }
 
-    /// Whether a predicate on types, a lambda `[]<typename G>() { ... }`, holds for one of
-    /// the listed shapes.
+    /// Whether a predicate on types, a lambda `[]<typename G>() { ... }`, holds for one
+    /// of the listed shapes.
     template <typename F>
     [[nodiscard]] static constexpr bool any_shape(F f) noexcept {
         return f.template operator()<FirstShape>() ||

@@ -20,13 +20,10 @@ namespace ljus::detail {
 /// \{
 
 /// A node with up to eight children, coordinate by coordinate \cite wald2008.
-// [wide node]
 struct Bvh8Node {
     std::array<Lanes, 6> plane;                  ///< Low x, y, z, then high x, y, z.
     std::array<std::uint32_t, lane_count> child; ///< As Bvh8Child has them.
 };
-// [wide node]
-
 /// A child in 32 bits: how many nodes' lanes lie before its node; or, for a leaf, its
 /// first slot and how many there are.
 struct Bvh8Child {
@@ -57,7 +54,6 @@ struct Bvh8Nodes {
 };
 
 // Makes a wide node of a plain one and of what is below it.
-// [widen]
 template <std::floating_point T>
 void widen(Bvh8Nodes& wide, const BvhNodesT<T>& tree, const BvhCollapse<T>& collapse,
            std::uint32_t from, std::size_t to, std::uint32_t multiple) {
@@ -93,8 +89,6 @@ void widen(Bvh8Nodes& wide, const BvhNodesT<T>& tree, const BvhCollapse<T>& coll
             widen(wide, tree, collapse, open[i], node.child[i] / Bvh8Child::stride,
                   multiple);
 }
-// [widen]
-
 /// Makes a tree wide.
 /// \param tree      The plain tree; its leaves have at most 16 primitives.
 /// \param multiple  Leaves start at multiples of so many slots, padding between them.
@@ -146,7 +140,6 @@ struct Bvh8Ray {
 /// \param half    From there to the sides.
 /// \return Whether that is possible: not if the direction is too long or too short, or
 ///         the origin too far away, for squares of floats.
-// [make_ready]
 [[nodiscard]] inline bool make_ready(Bvh8Ray& r, const Ray& ray, const Vec3& middle,
                                      const Vec3& half) noexcept {
     const Vec3 origin = ray.origin - middle;
@@ -176,8 +169,6 @@ struct Bvh8Ray {
     return r.length > 1 / most && r.length < most && reach < most &&
            is_finite(r.near_shift) && is_finite(r.far_shift);
 }
-// [make_ready]
-
 /// \}
 
 } // namespace ljus::detail

@@ -36,7 +36,6 @@ inline Bvh8Start begin_walk(const Bvh8Nodes& wide, const Ray& ray, Leaf& leaf) {
 
 // Asks eight boxes at once: which ones the ray enters, and where. A function of its own
 // for each search, and `inline`, so that compilers put it there.
-// [enter]
 template <typename Search>
 inline std::uint64_t enter(Lanes& t, const Bvh8Nodes& wide, std::uint32_t node,
                            const Bvh8Ray& r, float t_min, float t_max) noexcept {
@@ -66,15 +65,12 @@ inline std::uint64_t enter(Lanes& t, const Bvh8Nodes& wide, std::uint32_t node,
     t = entry;
     return yes_lanes(entered);
 }
-// [enter]
-
 /// The way of a search for the nearest.
 /// \param wide   The tree.
 /// \param ray    The ray; a search may shorten it.
 /// \param leaf   Called as leaf(first slot, count, ready ray). For a ray that cannot
 ///               be made ready, once, with a null pointer.
 /// \param watch  Called for each node on the way.
-// [walk]
 template <typename Leaf, typename Watch>
 void walk_nearest(const Bvh8Nodes& wide, const Ray& ray, Leaf&& leaf, Watch&& watch) {
     const Bvh8Start start = begin_walk(wide, ray, leaf);
@@ -135,15 +131,12 @@ void walk_nearest(const Bvh8Nodes& wide, const Ray& ray, Leaf&& leaf, Watch&& wa
         at = static_cast<std::uint32_t>(later[waiting]);
     }
 }
-// [walk]
-
 /// The way of a search for any: in no order, so that of a node only the lanes wait.
 /// \param wide   The tree.
 /// \param ray    The ray.
 /// \param leaf   As for walk_nearest(); true ends the search.
 /// \param watch  Called for each node on the way.
 /// \return Whether a leaf said true.
-// [walk_any]
 template <typename Leaf, typename Watch>
 [[nodiscard]] bool walk_any(const Bvh8Nodes& wide, const Ray& ray, Leaf&& leaf,
                             Watch&& watch) {
@@ -178,8 +171,6 @@ template <typename Leaf, typename Watch>
         child = wide.nodes[at / Bvh8Child::stride].child[take_lane(entered)];
     }
 }
-// [walk_any]
-
 /// \}
 
 } // namespace ljus::detail

@@ -70,8 +70,6 @@ private:
         std::size_t node;
         PrimitiveRangeT<T> range;
     };
-
-    // [grow]
     void grow(std::vector<BvhNodeT<T>>& nodes, std::size_t node,
               const PrimitiveRangeT<T>& range, std::vector<Job>* jobs) {
         if (jobs && range.size() <= alone) {
@@ -99,8 +97,6 @@ private:
         grow(nodes, children, low, jobs);
         grow(nodes, children + 1, high, jobs);
     }
-    // [grow]
-
     // Puts a tree that was built on its own in the slot of its root.
     static void append(std::vector<BvhNodeT<T>>& nodes, std::size_t root,
                        const std::vector<BvhNodeT<T>>& part) {
@@ -121,8 +117,8 @@ private:
 
 } // namespace detail
 
-/// Builds a tree over boxes: top down, each range split where that is cheapest for rays,
-/// of 16 slots along each axis \cite wald2007.
+/// Builds a tree over boxes: top down, each range split where that is cheapest for
+/// rays, of 16 slots along each axis \cite wald2007.
 /// \param boxes     Any boxes, equal and flat ones too; below 2^31.
 /// \param settings  Leaves and threads.
 /// \return The tree, the same for any number of threads; no deeper than bvh_depth.

@@ -14,8 +14,8 @@ namespace ljus {
 /// \brief Boxes within boxes \cite rubin1980. Chapter: \ref ch_bvh.
 /// \{
 
-/// A node: its box, and either two children or some of the primitives themselves. 32 bytes
-/// in float, so that two children share a cache line.
+/// A node: its box, and either two children or some of the primitives themselves. 32
+/// bytes in float, so that two children share a cache line.
 // [tree node]
 template <std::floating_point T>
 struct BvhNodeT {
@@ -27,7 +27,8 @@ struct BvhNodeT {
 // [tree node]
 static_assert(sizeof(BvhNodeT<float>) == 32);
 
-/// A tree of boxes: nodes, the root first, and the order in which leaves have primitives.
+/// A tree of boxes: nodes, the root first, and the order in which leaves have
+/// primitives.
 template <std::floating_point T>
 struct BvhNodesT {
     std::vector<BvhNodeT<T>> nodes{}; ///< Empty if there is nothing.

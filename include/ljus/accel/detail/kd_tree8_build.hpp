@@ -36,8 +36,6 @@ public:
         for (auto& items : items_)
             items = std::make_unique_for_overwrite<Item[]>(shape.points);
     }
-
-    // [wide build]
     void build(std::span<const Vec3T<T>> points, int threads) {
         constexpr long long piece = 1 << 14;
         if (shape_.points < 2 * piece) threads = 1; // not worth waking them
@@ -107,8 +105,6 @@ private:
         partition(from, items_[(depth + 1) % 2].get() + first, last - first,
                   middle - first, longest_axis(low, high));
     }
-    // [wide build]
-
     static void bounds(const Item* items, std::uint64_t count, Vec3T<T>& low,
                        Vec3T<T>& high) noexcept {
         // Four lanes, of which the index is one: its bits are read, and not used.

@@ -52,8 +52,6 @@ template <std::floating_point T>
 
 // The most that are selected by counting; more go through a heap.
 inline constexpr std::size_t max_counted = 512;
-
-// [nearest]
 // Gathers candidates and now and then, when there are more than enough, finds by
 // counting how far the k-th of them lies: the reach from then on.
 template <std::floating_point T, typename Wanted>
@@ -181,8 +179,6 @@ template <std::floating_point T, typename Wanted>
     });
     return best.count;
 }
-// [nearest]
-
 /// \}
 
 } // namespace ljus::detail

@@ -12,7 +12,6 @@ namespace ljus::detail {
 /// \{
 
 // Which points of a leaf lie within reach, exactly: a bit each.
-// [leaf]
 template <std::floating_point T>
 [[nodiscard]] std::uint32_t in_leaf(const KdTree8PartsT<T>& tree, std::size_t first,
                                     std::size_t last, const Vec3T<T>& center,
@@ -45,10 +44,7 @@ template <std::floating_point T>
     }
     return found;
 }
-// [leaf]
-
 // The leaves within reach; until one visit says true.
-// [in ball]
 template <std::floating_point T, typename Visit>
 bool in_ball(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, T radius,
              const ReachT<T>& reach, Visit visit) {
@@ -92,8 +88,6 @@ bool in_ball(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, T radius,
         ++level;
     }
 }
-// [in ball]
-
 // The leaves within reach, of each node the nearest child first; a visit may shorten
 // the reach.
 template <std::floating_point T, typename Visit>

@@ -22,7 +22,8 @@ struct alignas(64) TriangleLanes {
     Lanes size{}; ///< The largest component of both edges; below 0 for no triangle.
 };
 
-/// What the conservative filter says of eight triangles: lanes, as yes_lanes() has them.
+/// What the conservative filter says of eight triangles: lanes, as yes_lanes() has
+/// them.
 struct FilteredTriangles {
     std::uint64_t possible = 0; ///< Those that the ray may hit.
     std::uint64_t definite = 0; ///< Those among them that it hits.

@@ -109,7 +109,6 @@ lanes_in_disc(const detail::Lanes3T<T>& points, const RecordBlockT<T>& record,
 /// \param disc      Which of them count.
 /// \param gathered  Counts those that lie in the disc, from either side.
 /// \return The sum of weight times flux; W.
-// [flux in disc]
 template <std::floating_point T>
 [[nodiscard]] RgbT<double>
 flux_in_disc(const KdTree8T<T>& tree, const PhotonRecordsT<T>& records,
@@ -190,8 +189,6 @@ flux_in_disc(const KdTree8T<T>& tree, const PhotonRecordsT<T>& records,
     for (const std::int32_t lane : count) gathered += static_cast<std::uint64_t>(lane);
     return sum;
 }
-// [flux in disc]
-
 /// \}
 
 } // namespace ljus
