@@ -562,9 +562,8 @@ TEST_CASE("caustics: variance falls with 1/(N r^2), squared bias grows with r^4"
     const auto variance = [](const Mean& m) { return m.squares / (m.count - 1); };
     std::vector<glm::dvec2> by_count, by_radius, bias;
     for (const long long count : {250LL, 2000LL})
-        by_count.emplace_back(
-            std::log(double(count)),
-            std::log(variance(spread(count, {0.2f}, 300)[0])));
+        by_count.emplace_back(std::log(double(count)),
+                              std::log(variance(spread(count, {0.2f}, 300)[0])));
     // Small discs: of a large one the photons that lie in it for certain are a part.
     const std::vector<float> small{0.05f, 0.1f, 0.2f}, large{0.35f, 0.5f, 0.7f};
     const auto in_small = spread(1000, small, 300);

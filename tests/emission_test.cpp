@@ -428,8 +428,8 @@ TEST_CASE("emission: where cones overlap, each object gets what it is hit by fir
 
     const double flux = 4 * pi;
     CHECK(std::abs(found.means[0][0].sigmas(flux * (1 - cos_near) / 2)) < 4.5);
-    CHECK(std::abs(found.means[1][0].sigmas(flux * (1 - cos_far) / 2 * visible,
-                                            1e-4)) < 4.5);
+    CHECK(std::abs(found.means[1][0].sigmas(flux * (1 - cos_far) / 2 * visible, 1e-4)) <
+          4.5);
     CHECK(std::abs(found.means[2][0].sigmas(flux * (1 - std::sqrt(15.0 / 16)) / 2)) <
           4.5);
     CHECK(visible < 0.9); // the case is one of overlap

@@ -71,8 +71,10 @@ TEST_CASE("make_scene: one part is enough") {
 }
 
 TEST_CASE("make_scene: takes placed shapes and point lights, nothing else") {
-    static_assert(detail::ScenePart<PointLight> && detail::ScenePart<Placed<Sphere, Mirror>>);
-    static_assert(!detail::ScenePart<Sphere> && !detail::ScenePart<Lambertian> && !detail::ScenePart<int>);
+    static_assert(detail::ScenePart<PointLight> &&
+                  detail::ScenePart<Placed<Sphere, Mirror>>);
+    static_assert(!detail::ScenePart<Sphere> && !detail::ScenePart<Lambertian> &&
+                  !detail::ScenePart<int>);
 }
 
 TEST_CASE("make_scene: bad values are refused as by add()") {

@@ -144,8 +144,8 @@ TEST_CASE("multiple importance: in a box furnace no surface brings more than twi
     CHECK(std::abs(apart(both.mean, 2 - std::exp2(-12))) < 3.5);
     CHECK(both.most < 1 + 2 * 1.0001);
     const Seen shadow = seen({.max_depth = 12,
-                                      .roulette_depth = 100,
-                                      .heuristic = MisHeuristic::shadow_rays});
+                              .roulette_depth = 100,
+                              .heuristic = MisHeuristic::shadow_rays});
     CAPTURE(shadow.most);
     CHECK(shadow.most > 20);
 }

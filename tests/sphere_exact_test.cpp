@@ -241,8 +241,7 @@ Case<T> make_case(std::size_t family, int i, Numbers& n) {
     case on_surface:
         return seen(n.power(-2, 2), 1, V{n.next(), 1, 2});
     case offset:
-        return seen(n.power(0, 3), n.power(0.1, 3),
-                            V{1e6, -1e6, 1e6 * n.next()});
+        return seen(n.power(0, 3), n.power(0.1, 3), V{1e6, -1e6, 1e6 * n.next()});
     case tangent: {
         // The radius is the distance of the rounded line, moved by a few ulp.
         const V center{n.between(-3, 3), n.between(-3, 3), n.between(-3, 3)};

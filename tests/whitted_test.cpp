@@ -373,16 +373,14 @@ TEST_CASE("whitted: a lamp with a size lights from its middle, or is only seen")
     Room square = floor_only();
     const auto grey = square.add(LambertianT<double>{});
     square.add(QuadT<double>{{-1, 3, -1}, {2, 0, 0}, {0, 0, 2}}, grey, RgbT<double>{7});
-    CHECK(seen(square, {}) ==
-          doctest::Approx(0.5 / pi * 7 * 4 / 9).epsilon(1e-12));
+    CHECK(seen(square, {}) == doctest::Approx(0.5 / pi * 7 * 4 / 9).epsilon(1e-12));
     CHECK(seen(square, {.lamps = false}) == 0);
     // A ball of radius 1, 3 above: its solid angle, 2 pi (1 - cos), is all that counts.
     Room ball = floor_only();
     ball.add(SphereT<double>{.center{0, 3, 0}}, ball.add(LambertianT<double>{}),
              RgbT<double>{7});
     const double solid = 2 * pi * (1 - std::sqrt(8.0 / 9));
-    CHECK(seen(ball, {}) ==
-          doctest::Approx(0.5 / pi * 7 * solid).epsilon(1e-12));
+    CHECK(seen(ball, {}) == doctest::Approx(0.5 / pi * 7 * solid).epsilon(1e-12));
     // Ambient light: albedo times its radiance, beside the rest.
     CHECK(seen(ball, {.lamps = false, .ambient = Rgb{0.25f}}) ==
           doctest::Approx(0.125));
