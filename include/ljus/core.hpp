@@ -23,6 +23,7 @@
 
 namespace ljus {
 
+/// \cond  // documented where they are defined
 // Sentences of the checks at the border.
 LJUS_CORE_EXTERN template std::string to_text(float);
 LJUS_CORE_EXTERN template std::string to_text(double);
@@ -71,5 +72,6 @@ LJUS_CORE_EXTERN template Bytes encode_png(const Image&, const PngSettings&);
 } // namespace detail
 LJUS_CORE_EXTERN template void save_png(const Image&, const std::string&,
                                         const PngSettings&);
+/// \endcond
 
 } // namespace ljus

@@ -95,7 +95,7 @@ using BsdfSample = BsdfSampleT<float>; ///< BsdfSampleT in float.
 /// A sample of a delta: its density is infinite, and says nothing.
 /// \param wi       Where the light comes from.
 /// \param share    Of that light which goes on, over the lobe's probability.
-/// \param squeeze  (n_i/n_t)^2 for radiance that crosses a boundary; else 1.
+/// \param eta_scale  (n_i/n_t)^2 for radiance that crosses a boundary; else 1.
 template <std::floating_point T>
 [[nodiscard]] constexpr BsdfSampleT<T>
 specular_sample(const Vec3T<T>& wi, const RgbT<T>& share, T eta_scale = T(1)) noexcept {
