@@ -2,7 +2,7 @@
 # quad, lit or not, would look as if nothing could ever stand in its way.
 ljus_break_it(NAME general-map-shadow-normal HEADER photons/photon_path.hpp TEST general_map
     FROM "if (diffuse)"
-    TO   "if (diffuse && glm::dot(surface.point.normal, ray.direction) < T(0))"
+    TO   "if (diffuse && glm::dot(vertex.point.normal, ray.direction) < T(0))"
     CASES "general map: direct + shadow*")
 
 # And the wrong way round.
