@@ -35,7 +35,7 @@ ljus_break_it(NAME thin_surfaces-chance HEADER path/next_vertex.hpp TEST soap_fi
 ljus_break_it(NAME thin_surfaces-photon HEADER path/continue_path.hpp TEST soap_film
     FROM "path.throughput /= vertex.stop_probability;"
     TO   "(void)0;"
-    CASES "thin sheets: photon mapping*")
+    CASES "thin sheets: a bubble in a furnace*")
 
 # Reflected as if the film were equally thick everywhere: the bubble shows in a furnace.
 ljus_break_it(NAME thin_surfaces-place HEADER path/scatter.hpp TEST soap_film
