@@ -23,7 +23,8 @@
 
 namespace ljus {
 
-/// \cond  // documented where they are defined
+/// \cond INSTANTIATIONS
+
 // Sentences of the checks at the border.
 LJUS_CORE_EXTERN template std::string to_text(float);
 LJUS_CORE_EXTERN template std::string to_text(double);
@@ -72,6 +73,7 @@ LJUS_CORE_EXTERN template Bytes encode_png(const Image&, const PngSettings&);
 } // namespace detail
 LJUS_CORE_EXTERN template void save_png(const Image&, const std::string&,
                                         const PngSettings&);
+
 /// \endcond
 
 } // namespace ljus
