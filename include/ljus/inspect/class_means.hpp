@@ -16,7 +16,7 @@ namespace ljus {
 
 namespace detail {
 
-/// Several ClassLogs that listen to the same path.
+/// Several ExpressionLogs that listen to the same path.
 template <std::floating_point T>
 struct ClassesLog {
     std::vector<detail::ExpressionLog<T>> logs{}; ///< One a class.
