@@ -6,7 +6,7 @@
 #include "ljus/math/sampling_pattern.hpp"
 #include "ljus/path/counts.hpp"
 #include "ljus/path/next_vertex.hpp"
-#include "ljus/path/scatter.hpp"
+#include "ljus/path/vertex.hpp"
 
 namespace ljus {
 

@@ -117,6 +117,35 @@ decltype(auto) visit_material_at(const S& scene, const VertexT<T>& vertex, F&& f
 }
 // [visit_material_at]
 
+namespace detail {
+
+/// Whether a direction lies on the same side of a surface by both its normals.
+/// \param vertex  A point of the surface.
+/// \param local   The direction in the surface's frame.
+/// \param world   The same in the world.
+template <std::floating_point T>
+[[nodiscard]] bool agrees(const VertexT<T>& vertex, const Vec3T<T>& local,
+                          const Vec3T<T>& world) noexcept {
+    if (!vertex.smooth) return true;
+    const T side = glm::dot(world, vertex.point.normal);
+    return (side > T(0) && local.z > T(0)) || (side < T(0) && local.z < T(0));
+}
+
+/// What a photon's flux counts for where it lands: the flux is that of the triangle,
+/// but the material reflects what the shading normal's cosine says.
+/// \param vertex     Where it lands.
+/// \param direction  The photon's direction of travel.
+/// \return \f$ |\omega \cdot N_s| / |\omega \cdot N_g| \f$; 0 if they disagree.
+template <std::floating_point T>
+[[nodiscard]] T landing_factor(const VertexT<T>& vertex,
+                               const Vec3T<T>& direction) noexcept {
+    if (vertex.turned) return T(0);
+    if (!vertex.smooth) return T(1);
+    return std::abs(vertex.wo.z / glm::dot(direction, vertex.point.normal));
+}
+
+} // namespace detail
+
 /// \}
 
 } // namespace ljus
