@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What each header costs to include: user time of -fsyntax-only.
+# What each header costs to include, alone: user time of -fsyntax-only.
 # The budget is 0.25 s for maths, images, geometry, optics and materials, and 0.6 s for the
 # trees and for all that knows a scene. Machines are noisy: only twice the budget is an error,
 # and only if the fastest of eight runs needs that.
@@ -32,7 +32,11 @@ while read -r header; do
             budget=0.25 ;;
         *) budget=0.60 ;;
     esac
-    cost=$(seconds "<$header>")
+    if ! cost=$(seconds "<$header>"); then
+        echo "$header does not compile alone."
+        status=1
+        continue
+    fi
     verdict=
     if above "$cost" "$budget"; then verdict="above budget"; fi
     if grep -qxF "$header" "$LJUS_OPTIONAL"; then
