@@ -35,12 +35,20 @@ constexpr int across = size / block;
 constexpr int mapped_seeds = 16; // of the photon mapper
 constexpr int traced_seeds = 20; // of the path tracer
 
+using Matt = Lambertian;
+using CheckeredMatt = Textured<Lambertian, GlobeChecker>;
+using CheckeredGloss = Textured<Glossy, GlobeChecker>;
+
+/// One type for all rooms: a type for each would be compiled 13 times over.
+using Room = Scene<Shapes<Sphere, Quad>,
+                   Materials<Matt, Mirror, Metal, Eon, RoughDiffuse, Glossy, RoughMetal,
+                             FullRoughMetal, ThinGlass, CheckeredMatt, CheckeredGloss>>;
+
 /// A closed room; a ball of the material on the floor, a small mirror beside it, so
 /// that a caustic falls on both, and a lamp behind the camera's view.
 template <Material M>
-auto room_with(const M& material) {
-    using Matt = Lambertian;
-    Scene<Shapes<Sphere, Quad>, Materials<M, Matt, Mirror>> room;
+Room room_with(const M& material) {
+    Room room;
     const auto grey = room.add(Matt{.albedo = Rgb{0.5f}});
     const auto red = room.add(Matt{.albedo{0.6f, 0.3f, 0.3f}});
     const auto green = room.add(Matt{.albedo{0.3f, 0.6f, 0.3f}});
@@ -155,16 +163,16 @@ TEST_CASE("materials matrix: photon mapping equals path tracing, for each materi
             all);
     compare("thin glass", ThinGlass{.tint{0.8f, 0.9f, 0.7f}}, 10, all);
     compare("checker",
-            Textured<Lambertian, GlobeChecker>{{.albedo = Rgb{1}},
-                                               {.map{.center{-0.15f, -0.45f, -0.2f}},
-                                                .even = ochre,
-                                                .odd{0.1f, 0.2f, 0.5f},
-                                                .columns = 12,
-                                                .rows = 6}},
+            CheckeredMatt{{.albedo = Rgb{1}},
+                          {.map{.center{-0.15f, -0.45f, -0.2f}},
+                           .even = ochre,
+                           .odd{0.1f, 0.2f, 0.5f},
+                           .columns = 12,
+                           .rows = 6}},
             11, all);
     compare("checkered gloss",
-            Textured<Glossy, GlobeChecker>{{.reflectance = Rgb{1}, .roughness = 0.6f},
-                                           {.map{.center{-0.15f, -0.45f, -0.2f}}}},
+            CheckeredGloss{{.reflectance = Rgb{1}, .roughness = 0.6f},
+                           {.map{.center{-0.15f, -0.45f, -0.2f}}}},
             12, all);
     compare(
         "full gloss of copper",

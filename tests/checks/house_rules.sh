@@ -29,76 +29,82 @@ floor() {
 # The room of a header: its folder; machinery in detail/ belongs to the room around it.
 room() { local folder=${1%/*}; echo "${folder%/detail}"; }
 
-# nothing PATTERN SENTENCE: no line of $code, the header without comments, may match.
+# The headers without comments, line by line as they were.
+cd "$include"
+code=$scratch/code
+rm -rf "$code"
+names=$(find ljus -type f | sort)
+for name in $names; do
+    mkdir -p "$code/${name%/*}"
+    sed 's://.*$::' "$name" >"$code/$name"
+done
+
+# nothing PATTERN SENTENCE [EXCEPT]: no line of any header but EXCEPT may match.
 nothing() {
-    local lines
-    lines=$(echo "$code" | grep -nE "$1" || true)
-    [ -z "$lines" ] || problem "$name:${lines%%:*}: $2"
+    local line
+    while read -r line; do
+        [ "${line%%:*}" = "${3-}" ] || problem "${line%%:*}:$(cut -d: -f2 <<<"$line"): $2"
+    done < <(cd "$code" && grep -rnE "$1" ljus | sort -t: -k1,1 -u)
 }
 
-optional=' '
-for name in $(cd "$include" && find ljus -name '*.hpp' | sort); do
-    if grep -qE '#include <(nlohmann/json\.hpp|tiny_obj_loader\.h|stb/stb_image\.h)>' \
-        "$include/$name"; then
-        optional="$optional$name "
+optional=" $(grep -rlE '#include <(nlohmann/json\.hpp|tiny_obj_loader\.h|stb/stb_image\.h)>' \
+    ljus | tr '\n' ' ')"
+
+for name in $names; do
+    case $name in *.hpp) ;; *) problem "$name: only .hpp files live here." ;; esac
+    [ "$(floor "$name")" != none ] || problem "$name: this folder is no floor of the house."
+    grep -qF "/// \\file $name" "$name" || problem "$name: it must say '/// \\file $name'."
+done
+while read -r name; do
+    problem "$name:1: the first line must be '#pragma once'."
+done < <(awk 'FNR == 1 && $0 != "#pragma once" { print FILENAME }' $names)
+while read -r name; do problem "$name: it has no \\brief."; done < <(grep -L '/// \\brief' $names)
+while read -r name; do problem "$name: a line is longer than 88 columns."; done < \
+    <(awk 'length($0) > 88 { print FILENAME ":" FNR }' $names)
+while read -r name; do problem "$name: it has a tab or a CR."; done < \
+    <(grep -l "$(printf '[\t\r]')" $names)
+
+nothing '#[ ]*include <(iostream|random|ranges|functional|chrono|filesystem)>' \
+    "this header is too dear to include: see design rule 11."
+nothing '#[ ]*include <glm/(glm|ext|fwd|gtx/.*|gtc/.*)(\.hpp)?>' \
+    "GLM is included by part, its core only."
+nothing '(^|[^_a-zA-Z0-9])virtual([^_a-zA-Z0-9]|$)' "there is no 'virtual' here."
+nothing 'shared_ptr' "there is no 'shared_ptr' here."
+nothing '(struct|class)[^;{]*[^:]:[^:;{]*(public|protected|private)' \
+    "there is no inheritance here."
+nothing 'using namespace' "a header opens no namespace for its user."
+nothing 'std::(cout|cerr|rand|time)([^_a-zA-Z0-9]|$)' \
+    "the library neither prints nor asks the clock."
+nothing '(^|[^_a-zA-Z0-9.:])(printf|fprintf|puts|rand|time) *\(' \
+    "the library neither prints nor asks the clock."
+nothing '#[ ]*define +([^LST]|L[^J]|S[^T]|T[^I])' "macros are named LJUS_... ."
+nothing '^static ' "a header has no 'static' function or data: use 'inline'."
+nothing '(#[ ]*pragma +omp|omp\.h|omp_)' "only ljus/parallel.hpp knows OpenMP." \
+    ljus/parallel.hpp
+
+# Who includes whom: a line "from to" for each of our includes.
+grep -rHoE '^ *#[ ]*include *"[^"]*"' ljus | sed 's/: *#[ ]*include *"/ /; s/"$//' \
+    >"$scratch/edges"
+while read -r name used; do
+    if [ ! -f "$used" ]; then
+        problem "$name: it includes \"$used\", which is not there below include/."
+        continue
     fi
-done
-
-for name in $(cd "$include" && find ljus -type f | sort); do
-    file=$include/$name
-    code=$(sed 's://.*$::' "$file")
     here=$(floor "$name")
-
-    case $name in *.hpp) ;; *) problem "$name: only .hpp files live here."; continue ;; esac
-    [ "$here" != none ] || problem "$name: this folder is no floor of the house."
-    [ "$(head -n 1 "$file")" = "#pragma once" ] ||
-        problem "$name:1: the first line must be '#pragma once'."
-    grep -qF "/// \\file $name" "$file" || problem "$name: it must say '/// \\file $name'."
-    grep -q '/// \\brief' "$file" || problem "$name: it has no \\brief."
-    long=$(awk 'length($0) > 88 { print NR; exit }' "$file")
-    [ -z "$long" ] || problem "$name:$long: a line is longer than 88 columns."
-    ! grep -q "$(printf '[\t\r]')" "$file" || problem "$name: it has a tab or a CR."
-
-    nothing '#[ ]*include <(iostream|random|ranges|functional|chrono|filesystem)>' \
-        "this header is too dear to include: see design rule 11."
-    nothing '#[ ]*include <glm/(glm|ext|fwd|gtx/.*|gtc/.*)(\.hpp)?>' \
-        "GLM is included by part, its core only."
-    nothing '(^|[^_a-zA-Z0-9])virtual([^_a-zA-Z0-9]|$)' "there is no 'virtual' here."
-    nothing 'shared_ptr' "there is no 'shared_ptr' here."
-    nothing '(struct|class)[^;{]*[^:]:[^:;{]*(public|protected|private)' \
-        "there is no inheritance here."
-    nothing 'using namespace' "a header opens no namespace for its user."
-    nothing 'std::(cout|cerr|rand|time)([^_a-zA-Z0-9]|$)' \
-        "the library neither prints nor asks the clock."
-    nothing '(^|[^_a-zA-Z0-9.:])(printf|fprintf|puts|rand|time) *\(' \
-        "the library neither prints nor asks the clock."
-    nothing '#[ ]*define +([^LST]|L[^J]|S[^T]|T[^I])' "macros are named LJUS_... ."
-    nothing '^static ' "a header has no 'static' function or data: use 'inline'."
-    [ "$name" = ljus/parallel.hpp ] ||
-        nothing '(#[ ]*pragma +omp|omp\.h|omp_)' "only ljus/parallel.hpp knows OpenMP."
-
-    for used in $(ours_in "$file"); do
-        if [ ! -f "$include/$used" ]; then
-            problem "$name: it includes \"$used\", which is not there below include/."
-            continue
-        fi
-        there=$(floor "$used")
-        if [ "$there" -gt "$here" ] ||
-            { [ "$there" -eq "$here" ] && [ "$(room "$used")" != "$(room "$name")" ]; }; then
-            problem "$name: it includes \"$used\"; includes point one way only."
-        fi
-        # Only an optional header may include an optional one.
-        case "$optional|$optional" in
-            *" $name "*'|'*) ;;
-            *" $used "*) problem "$name: it includes \"$used\", an optional header." ;;
-        esac
-    done
-done
+    there=$(floor "$used")
+    if [ "$there" -gt "$here" ] ||
+        { [ "$there" -eq "$here" ] && [ "$(room "$used")" != "$(room "$name")" ]; }; then
+        problem "$name: it includes \"$used\"; includes point one way only."
+    fi
+    # Only an optional header may include an optional one.
+    case "$optional|$optional" in
+        *" $name "*'|'*) ;;
+        *" $used "*) problem "$name: it includes \"$used\", an optional header." ;;
+    esac
+done <"$scratch/edges"
 
 # A header that includes others must reach version.hpp, which refuses C++17; one that
 # stands alone, like schlick.hpp, is to be copied alone.
-(cd "$include" && grep -rHoE '^ *#[ ]*include *"[^"]*"' ljus) |
-    sed 's/: *#[ ]*include *"/ /; s/"$//' >"$scratch/edges"
 for name in $(awk '{ named[$1] = 1; from[NR] = $1; to[NR] = $2 }
     END { reaches["ljus/version.hpp"] = 1
           do { grown = 0

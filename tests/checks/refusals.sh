@@ -25,7 +25,7 @@ refused() {
                 status=1
                 ;;
         esac
-    done <"$LJUS_HEADERS"
+    done < <(grep -v /detail/ "$LJUS_HEADERS")
 }
 refused "-std=c++17" "Ljus needs C++20: add -std=c++20"
 refused "-std=c++20 -ffast-math" "compile without -ffast-math"
