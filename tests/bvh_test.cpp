@@ -117,7 +117,7 @@ void check_sound(const Bvh& tree, const std::vector<Box>& boxes,
     };
     if (!nodes.empty()) visit(visit, 0, 1);
     CHECK(visited == nodes.size());
-    CHECK(deepest <= bvh_depth);
+    CHECK(deepest <= detail::bvh_depth);
     for (const int times : seen) REQUIRE(times == 1);
     CHECK(tree.primitive_ids().size() == boxes.size());
     CHECK(nodes.size() <= 2 * boxes.size());

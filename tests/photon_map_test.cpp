@@ -118,7 +118,7 @@ TEST_CASE("photon_map: eight at a time give what one by one give") {
                                .light = std::uint16_t(i),
                                .kind = static_cast<PhotonKind>(numbers.below(4)),
                                .normal = numbers.below(4) == 0
-                                             ? ljus::SmallNormal{0}
+                                             ? ljus::detail::SmallNormal{0}
                                              : ljus::small_normal(glm::normalize(
                                                    numbers.point<float>(1)))});
         const auto map = ljus::make_photon_map(photons);

@@ -63,7 +63,8 @@ template <std::floating_point T>
     const Vec3T<T> n{glm::normalize(way)};
     const Vec3T<T> offset = sphere.radius * n;
     return {.position = sphere.center + offset,
-            .error = rounding_bound<T>(5) * (sizes(sphere.center) + sizes(offset)),
+            .error = detail::rounding_bound<T>(5) *
+                     (detail::sizes(sphere.center) + detail::sizes(offset)),
             .normal = n};
 }
 // [surface_point]
@@ -87,7 +88,8 @@ template <std::floating_point T>
                                            const Vec2T<T>& u) noexcept {
     const Vec3T<T> n = sample_uniform_sphere(u);
     return {.position = sphere.center + sphere.radius * n,
-            .error = rounding_bound<T>(5) * (sizes(sphere.center) + sphere.radius),
+            .error = detail::rounding_bound<T>(5) *
+                     (detail::sizes(sphere.center) + sphere.radius),
             .normal = n};
 }
 

@@ -39,7 +39,7 @@ template <std::floating_point T>
 [[nodiscard]] Vec2T<T> texture_coordinates(const SphereT<T>& /*sphere*/,
                                            const FlatHitT<T>& /*hit*/,
                                            const SurfacePointT<T>& point) noexcept {
-    return coordinates(GlobeMapT<T>{}, point.normal);
+    return map_coordinates(GlobeMapT<T>{}, point.normal);
 }
 
 /// Of a moving shape: where it is does not matter.

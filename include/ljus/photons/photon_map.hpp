@@ -20,8 +20,8 @@ namespace ljus {
 /// was traced into them, not in what they are.
 template <std::floating_point T>
 struct PhotonMapT {
-    KdTree8T<T> tree;          ///< The positions.
-    PhotonRecordsT<T> records; ///< The rest, in the order of the tree.
+    KdTree8T<T> tree;                  ///< The positions.
+    detail::PhotonRecordsT<T> records; ///< The rest, in the order of the tree.
 
     /// Whether there is nothing to be found.
     [[nodiscard]] bool empty() const noexcept { return records.empty(); }
@@ -46,7 +46,7 @@ template <std::floating_point T>
 
     PhotonMapT<T> map{.tree = KdTree8T<T>(positions, threads), .records = {}};
     positions = {};
-    map.records = PhotonRecordsT<T>(photons, map.tree.order());
+    map.records = detail::PhotonRecordsT<T>(photons, map.tree.point_ids());
     return map;
 }
 
@@ -74,6 +74,8 @@ inline void check(const DensityEstimateSettings& gather) {
             "0 for all within the radius, or 2 to 512 (one photon sets the radius)");
 }
 
+namespace detail {
+
 /// Whether an estimate runs eight photons at a time: on a matt surface, unless the
 /// radius is of a size whose square no float can hold.
 /// \param gather  How.
@@ -82,6 +84,8 @@ template <typename Material>
     return std::same_as<Material, LambertianT<typename Material::Scalar>> &&
            1e-15f < gather.radius && gather.radius < 1e15f;
 }
+
+} // namespace detail
 
 /// The plain twin of estimate_radiance() with all photons within the radius: photon by
 /// photon, for any material. What the chapter shows, what the fast one is tested
@@ -106,10 +110,10 @@ estimate_radiance_plain(const PhotonMapT<T>& map, const VertexT<T>& surface,
     const double height2 = double(gather.thickness) * double(gather.thickness) * r2;
     RgbT<double> sum{0}; // many small terms: a float would lose the last of them
     const auto add = [&](std::uint32_t i, double distance2) {
-        const PhotonRecordT<T> photon = map.records[i];
+        const detail::PhotonRecordT<T> photon = map.records[i];
         const double height = glm::dot(glm::dvec3(map.tree.point(i)) - x, n);
         if (!kinds.has(photon.kind) || height * height > height2 ||
-            turned_away(photon.normal, surface.point.normal))
+            detail::turned_away(photon.normal, surface.point.normal))
             return;
         const Vec3T<T> wi = to_local(surface.frame, -photon.direction);
         const T weight = kernel_weight(gather.kernel, T(distance2 / r2));
@@ -130,11 +134,11 @@ estimate_radiance_plain(const PhotonMapT<T>& map, const VertexT<T>& surface,
 /// would be too bright by k/(k-1). Fewer than k within the radius are summed over the
 /// whole disc, and the mean stays right.
 ///
-/// Only photons of the same surface count: those whose surface is not turned_away(), in
-/// a disc of the thickness. On a ball the cap within r of a point of it has the area
-/// \f$ \pi r^2 \f$, as a plane has, so that nothing is lost on a ball of radius r or
-/// more. At a surface's edge half of the disc lies beside it, in a corner three
-/// quarters, and the estimate reads 1/2 and 1/4 of what it should.
+/// Only photons of the same surface count: those whose surface is turned by less than
+/// 60 degrees, in a disc of the thickness. On a ball the cap within r of a point of it
+/// has the area \f$ \pi r^2 \f$, as a plane has, so that nothing is lost on a ball of
+/// radius r or more. At a surface's edge half of the disc lies beside it, in a corner
+/// three quarters, and the estimate reads 1/2 and 1/4 of what it should.
 ///
 /// \param map       The photons.
 /// \param surface   Where they are gathered.
@@ -160,25 +164,25 @@ template <std::floating_point T, typename Material>
 
     RgbT<double> sum{0}; // many small terms: a float would lose the last of them
     if (gather.nearest == 0) {
-        if (!in_lanes<Material>(gather))
+        if (!detail::in_lanes<Material>(gather))
             return estimate_radiance_plain(map, surface, material, wo, gather, kinds,
                                            gathered);
         // A matt surface sends back the same share of all: their flux is summed.
-        const FluxDiscT<T> disc{.center = x,
-                                .normal = surface.point.normal,
-                                .from =
-                                    std::copysign(T(1), wo.z) * surface.frame.normal,
-                                .radius = T(gather.radius),
-                                .thickness = T(gather.thickness),
-                                .kernel = gather.kernel,
-                                .kinds = kinds};
+        const detail::FluxDiscT<T> disc{.center = x,
+                                        .normal = surface.point.normal,
+                                        .from = std::copysign(T(1), wo.z) *
+                                                surface.frame.normal,
+                                        .radius = T(gather.radius),
+                                        .thickness = T(gather.thickness),
+                                        .kernel = gather.kernel,
+                                        .kinds = kinds};
         sum = RgbT<double>(evaluate(material, wo, wo)) *
-              flux_in_disc(map.tree, map.records, disc, gathered);
+              detail::flux_in_disc(map.tree, map.records, disc, gathered);
     } else {
         const auto counts = [&](std::uint32_t i) {
-            const PhotonRecordT<T> photon = map.records[i];
+            const detail::PhotonRecordT<T> photon = map.records[i];
             return kinds.has(photon.kind) &&
-                   !turned_away(photon.normal, surface.point.normal);
+                   !detail::turned_away(photon.normal, surface.point.normal);
         };
         std::array<Neighbor, max_nearest> room;
         const std::span<Neighbor> found(room.data(), gather.nearest);
@@ -188,7 +192,7 @@ template <std::floating_point T, typename Material>
         // All photons in one point have no area: there is no estimate.
         if (!(radius2 > 0)) return RgbT<T>{T(0)};
         for (std::size_t k = full ? 1 : 0; k < count; ++k) {
-            const PhotonRecordT<T> photon = map.records[found[k].index];
+            const detail::PhotonRecordT<T> photon = map.records[found[k].index];
             const double height =
                 glm::dot(glm::dvec3(map.tree.point(found[k].index)) - glm::dvec3(x),
                          glm::dvec3(surface.point.normal));

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "ljus/accel/mesh.hpp"
-#include "ljus/accel/pair_triangles.hpp"
 #include "ljus/io/detail/json_field.hpp"
 #include "ljus/io/detail/json_materials.hpp"
+#include "ljus/io/detail/pair_triangles.hpp"
 #include "ljus/scene/scene.hpp"
 
 namespace ljus {
