@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "ljus/io/detail/pair_triangles.hpp"
+#include "ljus/geometry/detail/pair_triangles.hpp"
 
 using namespace ljus;
 

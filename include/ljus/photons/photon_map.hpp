@@ -93,7 +93,7 @@ template <typename Material>
 /// \param map       The photons.
 /// \param surface   Where they are gathered.
 /// \param material  What the surface is made of.
-/// \param wo        Unit direction to the observer, in the surface's frame.
+/// \param wo        Unit vector in the surface's frame, to where the light goes.
 /// \param gather    Radius, kernel, thickness.
 /// \param kinds     Which kinds count.
 /// \param gathered  Counts the photons that were summed.
@@ -143,7 +143,7 @@ estimate_radiance_plain(const PhotonMapT<T>& map, const VertexT<T>& surface,
 /// \param map       The photons.
 /// \param surface   Where they are gathered.
 /// \param material  What the surface is made of.
-/// \param wo        Unit direction to the observer, in the surface's frame.
+/// \param wo        Unit vector in the surface's frame, to where the light goes.
 /// \param gather    Radius, k, kernel.
 /// \param kinds     Which kinds count.
 /// \param gathered  Counts the photons that were summed.

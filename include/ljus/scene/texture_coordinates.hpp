@@ -1,6 +1,6 @@
 #pragma once
 
-/// \file ljus/geometry/texture_coordinates.hpp
+/// \file ljus/scene/texture_coordinates.hpp
 /// \brief The coordinates (u, v) that a place has on its own shape.
 
 #include "ljus/geometry/moving.hpp"

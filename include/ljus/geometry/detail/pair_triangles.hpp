@@ -1,6 +1,6 @@
 #pragma once
 
-/// \file ljus/io/detail/pair_triangles.hpp
+/// \file ljus/geometry/detail/pair_triangles.hpp
 /// \brief Two triangles that are one parallelogram, found again.
 
 #include <algorithm>
