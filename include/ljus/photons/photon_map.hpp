@@ -53,25 +53,50 @@ template <std::floating_point T>
 /// The most photons that an estimate with the k nearest takes.
 inline constexpr std::size_t max_nearest = 512;
 
+namespace detail {
+
+/// The kernel of settings that name none.
+template <typename K>
+inline constexpr K default_kernel{};
+/// Of the kernels of the house, that of the least variance.
+template <>
+inline constexpr Kernel default_kernel<Kernel> = Kernel::epanechnikov;
+
+} // namespace detail
+
 /// How photons are gathered.
-struct DensityEstimateSettings {
+/// \tparam K  One of the kernels of the house, chosen when the program runs, or a type
+///            that is one: see KernelLike.
+template <KernelLike K>
+struct DensityEstimateOf {
     float radius = 0.1f;                  ///< In scene units, above 0.
     std::size_t nearest = 0;              ///< k within the radius; 0: all within it.
-    Kernel kernel = Kernel::epanechnikov; ///< The weight by distance.
+    K kernel = detail::default_kernel<K>; ///< The weight by distance.
     float thickness = 0.5f; ///< Half the height of the disc over its radius: photons of
                             ///< a parallel wall lie outside. With 0.5 the disc holds
                             ///< all that a ball no smaller than it has within it.
 };
+using DensityEstimateSettings = DensityEstimateOf<Kernel>; ///< With a listed kernel.
 
 /// Refuses a way to gather that gives no estimate.
 /// \param gather  The settings.
-/// \throws std::invalid_argument  with name and value.
-inline void check(const DensityEstimateSettings& gather) {
+/// \throws std::invalid_argument  with name and value; also for a kernel of the user's
+///         own that makes or loses light.
+template <typename K>
+void check(const DensityEstimateOf<K>& gather) {
     require_positive("gather.radius", gather.radius);
     require_positive("gather.thickness", gather.thickness);
     require(gather.nearest != 1 && gather.nearest <= max_nearest, "gather.nearest",
             static_cast<long long>(gather.nearest),
             "0 for all within the radius, or 2 to 512 (one photon sets the radius)");
+    if constexpr (!std::same_as<K, Kernel>) {
+        double mean = 0; // by the middles of a thousand rings of the same area
+        for (int i = 0; i < 1000; ++i)
+            mean +=
+                double(kernel_weight(gather.kernel, (float(i) + 0.5f) / 1000)) / 1000;
+        require(std::abs(mean - 1) < 0.01, "the mean of gather.kernel over the disc",
+                mean, "1, or light is made or lost");
+    }
 }
 
 namespace detail {
@@ -79,8 +104,8 @@ namespace detail {
 /// Whether an estimate runs eight photons at a time: on a matt surface, unless the
 /// radius is of a size whose square no float can hold.
 /// \param gather  How.
-template <typename Material>
-[[nodiscard]] constexpr bool in_lanes(const DensityEstimateSettings& gather) noexcept {
+template <typename Material, typename K>
+[[nodiscard]] constexpr bool in_lanes(const DensityEstimateOf<K>& gather) noexcept {
     return std::same_as<Material, LambertianT<typename Material::Scalar>> &&
            1e-15f < gather.radius && gather.radius < 1e15f;
 }
@@ -99,11 +124,11 @@ template <typename Material>
 /// \param gathered  Counts the photons that were summed.
 /// \return Radiance, W/(m^2 sr).
 // [plain estimate]
-template <std::floating_point T, typename Material>
+template <std::floating_point T, typename Material, KernelLike<T> K = Kernel>
 [[nodiscard]] RgbT<T>
 estimate_radiance_plain(const PhotonMapT<T>& map, const VertexT<T>& surface,
                         const Material& material, const Vec3T<T>& wo,
-                        const DensityEstimateSettings& gather, PhotonKinds kinds,
+                        const DensityEstimateOf<K>& gather, PhotonKinds kinds,
                         std::uint64_t& gathered) {
     const glm::dvec3 x(surface.point.position), n(surface.point.normal);
     const double r2 = double(gather.radius) * double(gather.radius);
@@ -152,11 +177,11 @@ estimate_radiance_plain(const PhotonMapT<T>& map, const VertexT<T>& surface,
 /// \report{Section 3.2.6}
 /// \erratum{The report's R_i is called a radiance; it is the BRDF times the photon's
 ///          flux. There is no cosine: the flux that arrives on the surface holds it.}
-template <std::floating_point T, typename Material>
+template <std::floating_point T, typename Material, KernelLike<T> K = Kernel>
 [[nodiscard]] RgbT<T> estimate_radiance(const PhotonMapT<T>& map,
                                         const VertexT<T>& surface,
                                         const Material& material, const Vec3T<T>& wo,
-                                        const DensityEstimateSettings& gather,
+                                        const DensityEstimateOf<K>& gather,
                                         PhotonKinds kinds, std::uint64_t& gathered) {
     if (map.empty()) return RgbT<T>{T(0)};
     const Vec3T<T>& x = surface.point.position;
@@ -168,14 +193,14 @@ template <std::floating_point T, typename Material>
             return estimate_radiance_plain(map, surface, material, wo, gather, kinds,
                                            gathered);
         // A matt surface sends back the same share of all: their flux is summed.
-        const detail::FluxDiscT<T> disc{.center = x,
-                                        .normal = surface.point.normal,
-                                        .from = std::copysign(T(1), wo.z) *
-                                                surface.frame.normal,
-                                        .radius = T(gather.radius),
-                                        .thickness = T(gather.thickness),
-                                        .kernel = gather.kernel,
-                                        .kinds = kinds};
+        const detail::FluxDiscT<T, K> disc{.center = x,
+                                           .normal = surface.point.normal,
+                                           .from = std::copysign(T(1), wo.z) *
+                                                   surface.frame.normal,
+                                           .radius = T(gather.radius),
+                                           .thickness = T(gather.thickness),
+                                           .kernel = gather.kernel,
+                                           .kinds = kinds};
         sum = RgbT<double>(evaluate(material, wo, wo)) *
               detail::flux_in_disc(map.tree, map.records, disc, gathered);
     } else {

@@ -160,8 +160,8 @@ concept LightSource = requires(const L& light) {
 
 namespace detail {
 
-/// A light of any type, checked and made; they turn into it by themselves. A scene takes
-/// this and not any L, so that a compiler has one line to say of what is no light.
+/// A light of any type, checked and made; they turn into it by themselves. A scene
+/// takes this and not any L, so that a compiler says in one line what is no light.
 template <std::floating_point T>
 struct AnyLightT {
     LightT<T> made; ///< What make_light() has made.

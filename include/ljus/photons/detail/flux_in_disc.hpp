@@ -21,20 +21,28 @@ namespace ljus::detail {
 
 /// A disc in which flux is summed: what decides on a photon, in the precision of the
 /// photons.
-template <std::floating_point T>
+template <std::floating_point T, KernelLike<T> K = Kernel>
 struct FluxDiscT {
-    Vec3T<T> center{T(0)};                ///< Its middle.
-    Vec3T<T> normal{T(0), T(0), T(1)};    ///< Of the surface; unit.
-    Vec3T<T> from{T(0), T(0), T(1)};      ///< Photons must travel against it.
-    T radius = T(1);                      ///< Between 1e-15 and 1e15.
-    T thickness = T(0.5);                 ///< Half its height over its radius.
-    Kernel kernel = Kernel::epanechnikov; ///< The weight by distance.
-    PhotonKinds kinds = all_kinds;        ///< Which kinds count.
+    Vec3T<T> center{T(0)};             ///< Its middle.
+    Vec3T<T> normal{T(0), T(0), T(1)}; ///< Of the surface; unit.
+    Vec3T<T> from{T(0), T(0), T(1)};   ///< Photons must travel against it.
+    T radius = T(1);                   ///< Between 1e-15 and 1e15.
+    T thickness = T(0.5);              ///< Half its height over its radius.
+    K kernel{};                        ///< The weight by distance.
+    PhotonKinds kinds = all_kinds;     ///< Which kinds count.
 };
 
 /// kernel_weight() of eight photons.
 /// \param kernel  The shape.
 /// \param x       Squared distances over the squared radius, each in [0, 1].
+template <std::floating_point T, KernelLike<T> K>
+[[nodiscard]] LanesT<T> kernel_weights(const K& kernel, const LanesT<T>& x) noexcept {
+    LanesT<T> weight;
+    for_lanes([&](int i) { weight.lane[i] = kernel_weight(kernel, x.lane[i]); });
+    return weight;
+}
+
+/// The same of a kernel that is known only when a program runs.
 template <std::floating_point T>
 [[nodiscard]] LanesT<T> kernel_weights(Kernel kernel, const LanesT<T>& x) noexcept {
     LanesT<T> weight;
@@ -64,10 +72,10 @@ template <std::floating_point T>
 
 // Which of eight photons lie in a disc: 1 for those that do, or else 0. Small loops,
 // each of a few numbers: a long one is not always made a vector of.
-template <std::floating_point T>
+template <std::floating_point T, typename K>
 [[nodiscard]] inline LanesT<T>
 lanes_in_disc(const Lanes3T<T>& points, const RecordBlockT<T>& record,
-              const FluxDiscT<T>& disc, std::uint32_t found) noexcept {
+              const FluxDiscT<T, K>& disc, std::uint32_t found) noexcept {
     const T nx = disc.normal.x, ny = disc.normal.y, nz = disc.normal.z;
     const T cx = disc.center.x, cy = disc.center.y, cz = disc.center.z;
     const T limit = disc.thickness * disc.radius;
@@ -103,10 +111,10 @@ lanes_in_disc(const Lanes3T<T>& points, const RecordBlockT<T>& record,
 /// \param disc      Which of them count.
 /// \param gathered  Counts those that lie in the disc, from either side.
 /// \return The sum of weight times flux; W.
-template <std::floating_point T>
+template <std::floating_point T, typename K>
 [[nodiscard]] RgbT<double>
 flux_in_disc(const KdTree8T<T>& tree, const PhotonRecordsT<T>& records,
-             const FluxDiscT<T>& disc, std::uint64_t& gathered) {
+             const FluxDiscT<T, K>& disc, std::uint64_t& gathered) {
     const T per_radius2 = T(1) / (disc.radius * disc.radius);
     const T limit = disc.thickness * disc.radius;
     const std::uint32_t kinds = std::uint32_t{disc.kinds.bits}
