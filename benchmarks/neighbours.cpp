@@ -66,7 +66,7 @@ template <typename Tree>
 std::vector<float> payload_of(const Tree& tree) {
     const std::vector<float> all = payload(tree.size());
     std::vector<float> values;
-    for (const std::uint32_t i : tree.order()) values.push_back(all[i]);
+    for (const std::uint32_t i : tree.point_ids()) values.push_back(all[i]);
     values.resize((values.size() + 7) / 8 * 8);
     return values;
 }
@@ -86,13 +86,15 @@ struct WideTree {
     }
     float sum_blocks(Vec3 center, float radius) const {
         ljus::detail::LanesT<float> sums{};
-        tree.visit_blocks(center, radius, [&](const ljus::FoundBlockT<float>& block) {
-            const float* const value = &values[block.first];
-            ljus::detail::for_lanes([&](int i) {
-                sums.lane[i] +=
-                    (block.found & ljus::detail::lane_bit[i]) != 0 ? value[i] : 0.0f;
+        tree.visit_blocks(
+            center, radius, [&](const ljus::detail::FoundBlockT<float>& block) {
+                const float* const value = &values[block.first];
+                ljus::detail::for_lanes([&](int i) {
+                    sums.lane[i] += (block.found & ljus::detail::lane_bit[i]) != 0
+                                        ? value[i]
+                                        : 0.0f;
+                });
             });
-        });
         float sum = 0;
         for (const float x : sums.lane) sum += x;
         return sum;
@@ -130,8 +132,7 @@ struct PlainTree {
     float sum_nearest(Vec3 center, std::size_t k) const {
         std::array<ljus::Neighbor, 256> room;
         const std::span found(room.data(), k);
-        const std::size_t count =
-            tree.nearest(center, infinity, found, ljus::AnyPoint{});
+        const std::size_t count = tree.nearest(center, infinity, found);
         float sum = 0;
         for (std::size_t i = 0; i < count; ++i) sum += values[found[i].index];
         return sum;

@@ -94,7 +94,7 @@ struct Cube {
 
 /// The squared distance from a point to a cube.
 inline double cube_distance2(const Vec3& low, float side, const Vec3& center) {
-    return ljus::box_distance2(low, low + side, center);
+    return ljus::detail::box_distance2(low, low + side, center);
 }
 
 /// Points sorted along Morton's curve, 21 bits an axis: an octree without nodes, whose

@@ -187,14 +187,13 @@ void points() {
         std::snprintf(title, sizeof title, "k-d tree, %zu nearest", k);
         both(title, 5000, [&](const auto& tree, const Vec3& center, Sums& sums) {
             Neighbor room[200];
-            const std::size_t count =
-                tree.nearest(center, 1.0f, std::span(room, k), AnyPoint{});
+            const std::size_t count = tree.nearest(center, 1.0f, std::span(room, k));
             sums.count += double(count);
             for (std::size_t i = 0; i < count; ++i) sums.sum += room[i].distance2;
         });
     }
     const auto size_of = [](const auto& tree) {
-        return Sums{double(tree.order().size()), 0};
+        return Sums{double(tree.point_ids().size()), 0};
     };
     row(
         "k-d tree, build of 200 000", 1, 0,

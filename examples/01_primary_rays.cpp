@@ -286,7 +286,7 @@ void plot_errors(const std::string& folder, int pixels, int most) {
             Vec2 sum{0};
             for (std::uint64_t key = 0; key < 500; ++key)
                 for (int i = 0; i < 64; ++i)
-                    sum += ljus::detail::spread(pattern, i, ljus::mix_bits(key),
+                    sum += ljus::detail::spread(pattern, i, ljus::detail::mix_bits(key),
                                                 Vec2{0.3f, 0.6f});
             keep = keep + sum.x + sum.y;
             best = std::min(best, watch.seconds() * 1e9 / (500 * 64));

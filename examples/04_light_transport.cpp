@@ -27,7 +27,7 @@
 namespace {
 
 using ljus::Image;
-using ljus::only;
+using ljus::only_paths;
 using ljus::Rgb;
 using ljus::Vec3;
 
@@ -69,7 +69,7 @@ void figure_2(const examples::Options& options, long long photons) {
                         options.seed);
     };
     const Image all = picture(mapper);
-    const Image direct = picture(only(mapper, "ES*D?L"));
+    const Image direct = picture(only_paths(mapper, "ES*D?L"));
     Image indirect = all;
     for (std::size_t i = 0; i < all.pixels.size(); ++i)
         indirect.pixels[i] -= direct.pixels[i];
@@ -93,7 +93,7 @@ void bounces(const examples::Options& options) {
     std::string words = "E";
     for (int bounce = 0; bounce <= 10; ++bounce) {
         const std::string paths = words + "L";
-        const Image part = rendered("bounces", only(tracer, paths), room.camera,
+        const Image part = rendered("bounces", only_paths(tracer, paths), room.camera,
                                     options, options.samples, options.seed);
         if (bounce <= 4)
             save_png(part, options.path("bounce-" + std::to_string(bounce) + ".png"),
@@ -124,7 +124,7 @@ void truncations(const examples::Options& options) {
     const auto room = ljus::cornell_box();
     const auto tracer = make_path_tracer(room.scene);
     const auto picture = [&](const char* letters) {
-        return rendered(letters, only(tracer, letters), room.camera, options,
+        return rendered(letters, only_paths(tracer, letters), room.camera, options,
                         options.samples, options.seed);
     };
     const Image all = picture("E(S|D)*L");

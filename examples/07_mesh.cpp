@@ -265,10 +265,10 @@ void costs(const examples::Options& options, const Sizes& sizes) {
         const LoadedObj loaded = read_obj(std::move(file), "ball.obj");
         load = reading.seconds();
 #endif
-        table.rows.push_back({std::to_string(mesh.size()),
-                              examples::text(double(bytes(mesh)) / mesh.size(), "%.1f"),
-                              examples::text(1e3 * build, "%.2f"),
-                              examples::text(1e3 * load, "%.1f")});
+        table.rows.push_back(
+            {std::to_string(mesh.size()),
+             examples::text(double(mesh.bytes()) / mesh.size(), "%.1f"),
+             examples::text(1e3 * build, "%.2f"), examples::text(1e3 * load, "%.1f")});
     }
     examples::save_table(options.out, table);
 }

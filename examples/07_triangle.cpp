@@ -69,7 +69,7 @@ auto prepare(const Ray& ray) {
     if constexpr (way == watertight)
         return ljus::prepare<ljus::Watertight>(ray);
     else
-        return ljus::Unprepared{};
+        return ljus::prepare(ray);
 }
 
 /// The distance to the hit, NaN for a miss.

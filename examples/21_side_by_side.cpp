@@ -105,7 +105,7 @@ std::vector<Shot> views_of(const Renderer& renderer, const std::vector<Camera>& 
 
 /// The bytes of a photon map.
 std::size_t bytes_of(const PhotonMap& map) {
-    return map.tree.bytes() + map.records.blocks().size() * sizeof(RecordBlockT<float>);
+    return map.tree.bytes() + map.records.bytes();
 }
 
 /// The photon maps' efforts: as many photons as there are rays to make use of them, and

@@ -195,11 +195,8 @@ examples::Row measure(const std::vector<Vec3>& centers, float radius, int calls,
     });
     std::array<Neighbor, 50> room;
     const double nearest = time_of(calls, [&](int i) {
-        if constexpr (requires {
-                          structure.nearest(Vec3{}, 1.0f, std::span(room), AnyPoint{});
-                      })
-            sink += double(
-                structure.nearest(center(i), 1e30f, std::span(room), AnyPoint{}));
+        if constexpr (requires { structure.nearest(Vec3{}, 1.0f, std::span(room)); })
+            sink += double(structure.nearest(center(i), 1e30f, std::span(room)));
         else
             sink += double(
                 structures::nearest_by_balls(structure, center(i), radius, room));

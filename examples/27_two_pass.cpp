@@ -76,7 +76,7 @@ void parts(const ljus::Room<Scene>& room, const PhotonMappingSettings& settings,
                                  options.seed};
     // [parts]
     const auto save = [&](std::string_view paths, const char* name) {
-        const auto one = only(mapper, paths);
+        const auto one = only_paths(mapper, paths);
         const auto result = rendered(name, one, room.camera, picture, options);
         save_png(result.image, options.path(std::string(name) + ".png"));
     };

@@ -35,9 +35,9 @@ bool meets(const Ray& ray, const Box& box) {
 }
 
 std::optional<float> entry(const Ray& ray, const Box& box) {
-    const auto ready = box_ray(ray, box);
+    const auto ready = detail::box_ray(ray, box);
     if (!ready) return std::nullopt;
-    return enter(*ready, box, ray.t_min, ray.t_max);
+    return detail::enter(*ready, box, ray.t_min, ray.t_max);
 }
 
 bool within(const Box& box, const Vec3T<long double>& p) {
@@ -157,12 +157,12 @@ TEST_CASE("box: NaN is a miss, and so is nothing") {
     CHECK_FALSE(entry({.t_min = not_a_number}, box));
     CHECK_FALSE(entry({.t_max = 2.99f}, box));
     CHECK_FALSE(entry({.t_min = 5.01f}, box));
-    const auto ready = box_ray(Ray{}, box);
-    CHECK_FALSE(enter(*ready, Box{}, 0.0f, inf));
+    const auto ready = detail::box_ray(Ray{}, box);
+    CHECK_FALSE(detail::enter(*ready, Box{}, 0.0f, inf));
     for (const Ray& bad :
          {Ray{.origin{not_a_number, 0, 0}}, Ray{.direction{not_a_number, 0, 1}},
           Ray{.direction = Vec3{0}}, Ray{.direction{0, 0, inf}},
           Ray{.direction{0, 0, 1e-30f}}, Ray{.direction{0, 0, 1e30f}},
           Ray{.origin{1e30f, 0, 0}}})
-        CHECK_FALSE(box_ray(bad, box));
+        CHECK_FALSE(detail::box_ray(bad, box));
 }

@@ -1,6 +1,6 @@
 // concept: bvh
 // native: fused multiply-adds must not open a leak
-/// \file wide_bvh_test.cpp
+/// \file bvh8_test.cpp
 /// \brief The fast trees, against asking everything; and that nothing leaks.
 
 #include "ljus/accel/detail/triangle_bvh.hpp"
@@ -11,111 +11,39 @@
 #include <limits>
 #include <numbers>
 
-#include "ljus/geometry/shape.hpp"
 #include "ljus/geometry/watertight.hpp"
-#include "support/numbers.hpp"
+#include "support/triangle_soups.hpp"
 
 using namespace ljus;
-using ljus_test::Numbers;
+using namespace ljus_test;
 
 namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
-using Crowd = std::vector<Triangle>;
-
-struct Found {
-    std::uint32_t number = ~0u;
-    float t = inf, u = 0, v = 0;
-    bool operator==(const Found&) const = default;
-};
-
-Found by_loop(const Crowd& crowd, const Ray& ray) {
-    Found found;
-    for (std::uint32_t i = 0; i < crowd.size(); ++i) {
-        const auto hit = intersect<double>(ray, crowd[i]);
-        if (hit && hit->t < found.t) found = {i, hit->t, hit->u, hit->v};
-    }
-    return found;
-}
-
-/// Where the tree has it, if it has; else where the crowd does.
-template <typename Tree>
-Triangle triangle_at(const Tree& tree, const Crowd& crowd, std::uint32_t place) {
-    if constexpr (requires { tree.triangle(place); })
-        return tree.triangle(place);
-    else
-        return crowd[tree.primitive_ids()[place]];
-}
-
-template <typename Tree>
-Found by_tree(const Tree& tree, const Crowd& crowd, const Ray& ray) {
-    NearestHit nearest;
-    tree.closest(ray, [&](std::uint32_t place, Ray& rest) {
-        const Triangle triangle = triangle_at(tree, crowd, place);
-        if (const auto hit = intersect<double>(rest, triangle))
-            nearest.offer(*hit, tree.primitive_ids()[place], rest);
-    });
-    if (!nearest.found) return {};
-    return {nearest.number, nearest.at.t, nearest.at.u, nearest.at.v};
-}
-
-template <typename Tree>
-bool any_by_tree(const Tree& tree, const Crowd& crowd, const Ray& ray) {
-    return tree.any(ray, [&](std::uint32_t place) {
-        return intersect<double>(ray, triangle_at(tree, crowd, place)).has_value();
-    });
-}
-
-/// Both fast trees over a crowd.
+/// Both fast trees over triangles.
 struct Trees {
-    const Crowd& crowd;
+    const Triangles& all;
     Bvh8 wide;
     TriangleBvh triangles;
-    explicit Trees(const Crowd& of, std::uint32_t leaf_size = 3)
-        : crowd(of), triangles(static_cast<std::uint32_t>(of.size()),
-                               [&](std::uint32_t i) { return of[i]; }) {
-        std::vector<Box> boxes;
-        for (const Triangle& triangle : of) boxes.push_back(bounds(triangle));
-        wide = Bvh8(boxes, {.leaf_size = leaf_size});
+    explicit Trees(const Triangles& of, std::uint32_t leaf_size = 3)
+        : all(of), triangles(static_cast<std::uint32_t>(of.size()),
+                             [&](std::uint32_t i) { return of[i]; }) {
+        wide = Bvh8(boxes_of(of), {.leaf_size = leaf_size});
     }
     bool check(const Ray& ray) const {
-        const Found expected = by_loop(crowd, ray);
-        REQUIRE(by_tree(wide, crowd, ray) == expected);
-        REQUIRE(by_tree(triangles, crowd, ray) == expected);
+        const Found expected = by_loop(all, ray);
+        REQUIRE(by_tree(wide, all, ray) == expected);
+        REQUIRE(by_tree(triangles, all, ray) == expected);
         const bool any = expected.number != ~0u;
-        REQUIRE(any_by_tree(wide, crowd, ray) == any);
-        REQUIRE(any_by_tree(triangles, crowd, ray) == any);
+        REQUIRE(any_by_tree(wide, all, ray) == any);
+        REQUIRE(any_by_tree(triangles, all, ray) == any);
         return any;
     }
 };
 
-Crowd soup(Numbers& n, int count, double room, double size, const Vec3& place) {
-    Crowd crowd;
-    for (int i = 0; i < count; ++i) {
-        const Vec3 at = place + Vec3(n.point(room));
-        crowd.push_back({at, at + Vec3(n.point(size)), at + Vec3(n.point(size))});
-    }
-    return crowd;
-}
-
-/// A ray of any kind: axis-parallel, with zeros of both signs, short, backwards.
-Ray some_ray(Numbers& n, double room, const Vec3& place) {
-    const Vec3 origin = place + Vec3(n.point(2 * room));
-    Ray ray{.origin = origin, .direction = place + Vec3(n.point(room)) - origin};
-    for (int axis = 0; axis < 3; ++axis) {
-        const int what = n.below(12);
-        if (what == 0) ray.direction[axis] = 0.0f;
-        if (what == 1) ray.direction[axis] = -0.0f;
-        if (what == 2) ray.direction[axis] *= 1e-15f;
-    }
-    if (n.below(4) == 0) ray.t_max = float(n.between(0, 2));
-    if (n.below(4) == 0) ray.t_min = float(n.between(0, 1));
-    return ray;
-}
-
 /// A closed ball whose triangles share their corners to the last bit.
-Crowd ball(int rows, const Vec3& center) {
+Triangles ball(int rows, const Vec3& center) {
     const int columns = 2 * rows;
     std::vector<Vec3>
         corners; // each computed once: a corner must not have two roundings
@@ -134,7 +62,7 @@ Crowd ball(int rows, const Vec3& center) {
     const auto at = [&](int i, int j) {
         return corners[static_cast<std::size_t>(i * columns + j % columns)];
     };
-    Crowd mesh;
+    Triangles mesh;
     for (int i = 0; i < rows; ++i)
         for (int j = 0; j < columns; ++j) {
             if (i > 0) mesh.push_back({at(i, j), at(i + 1, j), at(i, j + 1)});
@@ -153,8 +81,8 @@ TEST_CASE("wide bvh: the same answers as asking everything") {
         for (const double size : {0.05, 1.0})
             for (const double away : {0.0, 100.0, 1e5}) {
                 const Vec3 place(n.point(away));
-                const Crowd crowd = soup(n, count, 5, size, place);
-                const Trees trees(crowd, count % 2 ? 1 : 3);
+                const Triangles triangles = soup(n, count, 5, size, place);
+                const Trees trees(triangles, count % 2 ? 1 : 3);
                 for (int i = 0; i < 300; ++i)
                     hits += trees.check(some_ray(n, 5, place));
             }
@@ -163,13 +91,13 @@ TEST_CASE("wide bvh: the same answers as asking everything") {
 
 TEST_CASE("wide bvh: the triangles are kept as they were given") {
     Numbers n(7);
-    const Crowd crowd = soup(n, 500, 1, 0.1, Vec3(1e3f, 0, -0.0f));
-    const TriangleBvh tree(500, [&](std::uint32_t i) { return crowd[i]; });
+    const Triangles triangles = soup(n, 500, 1, 0.1, Vec3(1e3f, 0, -0.0f));
+    const TriangleBvh tree(500, [&](std::uint32_t i) { return triangles[i]; });
     int kept = 0;
     for (std::uint32_t place = 0; place < tree.primitive_ids().size(); ++place) {
         if (tree.primitive_ids()[place] == Bvh8::padding) continue;
         const Triangle triangle = tree.triangle(place);
-        const Triangle& given = crowd[tree.primitive_ids()[place]];
+        const Triangle& given = triangles[tree.primitive_ids()[place]];
         REQUIRE(std::memcmp(&triangle, &given, sizeof(Triangle)) == 0);
         ++kept;
     }
@@ -178,14 +106,14 @@ TEST_CASE("wide bvh: the triangles are kept as they were given") {
 
 TEST_CASE("wide bvh: rays from the surfaces themselves") {
     Numbers n;
-    const Crowd crowd = soup(n, 400, 5, 1, Vec3{0});
-    const Trees trees(crowd);
+    const Triangles triangles = soup(n, 400, 5, 1, Vec3{0});
+    const Trees trees(triangles);
     for (int i = 0; i < 5000; ++i) {
-        const Triangle& triangle = crowd[std::size_t(n.below(400))];
+        const Triangle& triangle = triangles[std::size_t(n.below(400))];
         const SurfacePoint point = sample_area(triangle, n.square<float>());
         trees.check(spawn_ray(point, Vec3(n.direction())));
         trees.check({.origin = point.position, .direction = Vec3(n.direction())});
-        const Triangle& other = crowd[std::size_t(n.below(400))];
+        const Triangle& other = triangles[std::size_t(n.below(400))];
         trees.check(spawn_ray_to(point, sample_area(other, n.square<float>())));
     }
 }
@@ -193,16 +121,16 @@ TEST_CASE("wide bvh: rays from the surfaces themselves") {
 TEST_CASE("wide bvh: huge and tiny, flat and equal things") {
     Numbers n;
     for (const double scale : {1e-15, 1e-6, 1.0, 1e6, 1e15}) {
-        Crowd crowd = soup(n, 100, 5 * scale, scale, Vec3{0});
-        for (int i = 0; i < 64; ++i) crowd.push_back(crowd[7]); // equal ones
-        for (int i = 0; i < 20; ++i) {                          // in the plane x = 0
-            Triangle flat = crowd[std::size_t(i)];
+        Triangles triangles = soup(n, 100, 5 * scale, scale, Vec3{0});
+        for (int i = 0; i < 64; ++i) triangles.push_back(triangles[7]); // equal ones
+        for (int i = 0; i < 20; ++i) { // in the plane x = 0
+            Triangle flat = triangles[std::size_t(i)];
             flat.v1.x = flat.v2.x = flat.v3.x = 0;
-            crowd.push_back(flat);
+            triangles.push_back(flat);
             flat.v3 = flat.v1; // without an area
-            crowd.push_back(flat);
+            triangles.push_back(flat);
         }
-        const Trees trees(crowd);
+        const Trees trees(triangles);
         for (int i = 0; i < 1000; ++i) {
             Ray ray = some_ray(n, 5 * scale, Vec3{0});
             ray.direction *= float(n.power(-8, 8) / scale);
@@ -213,8 +141,8 @@ TEST_CASE("wide bvh: huge and tiny, flat and equal things") {
 
 TEST_CASE("wide bvh: rays that are no rays meet nothing; absurd ones are not lost") {
     Numbers n;
-    const Crowd crowd = soup(n, 500, 5, 1, Vec3{0});
-    const Trees trees(crowd);
+    const Triangles triangles = soup(n, 500, 5, 1, Vec3{0});
+    const Trees trees(triangles);
     for (const Ray& bad :
          {Ray{.origin{not_a_number, 0, 0}}, Ray{.direction{0, not_a_number, 0}},
           Ray{.direction = Vec3{0}}, Ray{.t_max = not_a_number},
@@ -238,7 +166,7 @@ TEST_CASE(
     Numbers n;
     for (const float away : {0.0f, 100.0f}) {
         const Vec3 center{away, -away, 2 * away};
-        const Crowd mesh = ball(24, center);
+        const Triangles mesh = ball(24, center);
         const Trees trees(mesh);
         int leaks = 0, wrong = 0;
         for (int i = 0; i < 40000; ++i) {
@@ -281,7 +209,7 @@ TEST_CASE(
 
 TEST_CASE(
     "wide bvh: at most 100 bytes a triangle, the same for any number of threads") {
-    const Crowd mesh = ball(80, Vec3{0});
+    const Triangles mesh = ball(80, Vec3{0});
     const auto count = static_cast<std::uint32_t>(mesh.size());
     const auto at = [&](std::uint32_t i) { return mesh[i]; };
     const TriangleBvh one(count, at, 1), many(count, at, 5);

@@ -8,85 +8,20 @@
 #include <cstring>
 #include <limits>
 
-#include "ljus/geometry/shape.hpp"
-#include "support/numbers.hpp"
+#include "support/triangle_soups.hpp"
 
 using namespace ljus;
-using ljus_test::Numbers;
+using namespace ljus_test;
 
 namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
-/// What is found: the nearest, and of several the first.
-struct Found {
-    std::uint32_t number = ~0u;
-    float t = inf, u = 0, v = 0;
-    bool operator==(const Found&) const = default;
-};
-
-using Crowd = std::vector<Triangle>;
-
-std::vector<Box> boxes_of(const Crowd& crowd) {
-    std::vector<Box> boxes;
-    for (const Triangle& triangle : crowd) boxes.push_back(bounds(triangle));
-    return boxes;
-}
-
-Found by_loop(const Crowd& crowd, const Ray& ray) {
-    Found found;
-    for (std::uint32_t i = 0; i < crowd.size(); ++i) {
-        const auto hit = intersect<double>(ray, crowd[i]);
-        if (hit && hit->t < found.t) found = {i, hit->t, hit->u, hit->v};
-    }
-    return found;
-}
-
-Found by_tree(const Bvh& tree, const Crowd& crowd, const Ray& ray) {
-    NearestHit nearest;
-    tree.closest(ray, [&](std::uint32_t place, Ray& rest) {
-        const std::uint32_t number = tree.primitive_ids()[place];
-        if (const auto hit = intersect<double>(rest, crowd[number]))
-            nearest.offer(*hit, number, rest);
-    });
-    if (!nearest.found) return {};
-    return {nearest.number, nearest.at.t, nearest.at.u, nearest.at.v};
-}
-
-bool any_by_tree(const Bvh& tree, const Crowd& crowd, const Ray& ray) {
-    return tree.any(ray, [&](std::uint32_t place) {
-        return intersect<double>(ray, crowd[tree.primitive_ids()[place]]).has_value();
-    });
-}
-
-Crowd soup(Numbers& n, int count, double room, double size, const Vec3& place) {
-    Crowd crowd;
-    for (int i = 0; i < count; ++i) {
-        const Vec3 at = place + Vec3(n.point(room));
-        crowd.push_back({at, at + Vec3(n.point(size)), at + Vec3(n.point(size))});
-    }
-    return crowd;
-}
-
-/// A ray of any kind: axis-parallel, with zeros of both signs, short, backwards.
-Ray some_ray(Numbers& n, double room, const Vec3& place) {
-    const Vec3 origin = place + Vec3(n.point(2 * room));
-    Ray ray{.origin = origin, .direction = place + Vec3(n.point(room)) - origin};
-    for (int axis = 0; axis < 3; ++axis) {
-        const int what = n.below(12);
-        if (what == 0) ray.direction[axis] = 0.0f;
-        if (what == 1) ray.direction[axis] = -0.0f;
-    }
-    if (n.below(4) == 0) ray.t_max = float(n.between(0, 2));
-    if (n.below(4) == 0) ray.t_min = float(n.between(0, 1));
-    return ray;
-}
-
-void check_same(const Crowd& crowd, const Bvh& tree, const Ray& ray) {
-    const Found expected = by_loop(crowd, ray);
-    REQUIRE(by_tree(tree, crowd, ray) == expected);
-    REQUIRE(any_by_tree(tree, crowd, ray) == (expected.number != ~0u));
+void check_same(const Triangles& triangles, const Bvh& tree, const Ray& ray) {
+    const Found expected = by_loop(triangles, ray);
+    REQUIRE(by_tree(tree, triangles, ray) == expected);
+    REQUIRE(any_by_tree(tree, triangles, ray) == (expected.number != ~0u));
 }
 
 /// What every tree must be.
@@ -117,7 +52,7 @@ void check_sound(const Bvh& tree, const std::vector<Box>& boxes,
     };
     if (!nodes.empty()) visit(visit, 0, 1);
     CHECK(visited == nodes.size());
-    CHECK(deepest <= bvh_depth);
+    CHECK(deepest <= detail::bvh_depth);
     for (const int times : seen) REQUIRE(times == 1);
     CHECK(tree.primitive_ids().size() == boxes.size());
     CHECK(nodes.size() <= 2 * boxes.size());
@@ -130,43 +65,43 @@ TEST_CASE("bvh: the same answers as asking everything") {
     for (const int count : {0, 1, 2, 3, 5, 17, 300, 2000})
         for (const double size : {0.05, 1.0}) {
             const Vec3 place(n.point(count % 2 ? 100 : 0));
-            const Crowd crowd = soup(n, count, 5, size, place);
-            const auto boxes = boxes_of(crowd);
+            const Triangles triangles = soup(n, count, 5, size, place);
+            const auto boxes = boxes_of(triangles);
             const Bvh tree(boxes);
             check_sound(tree, boxes);
             for (int i = 0; i < 1500; ++i)
-                check_same(crowd, tree, some_ray(n, 5, place));
+                check_same(triangles, tree, some_ray(n, 5, place));
         }
 }
 
 TEST_CASE("bvh: huge and tiny, flat and equal things") {
     Numbers n;
     for (const double scale : {1e-15, 1e-6, 1.0, 1e6, 1e15}) {
-        Crowd crowd = soup(n, 100, 5 * scale, scale, Vec3{0});
-        for (int i = 0; i < 50; ++i) crowd.push_back(crowd[7]); // equal ones
-        for (int i = 0; i < 20; ++i) {                          // in the plane x = 0
-            Triangle flat = crowd[std::size_t(i)];
+        Triangles triangles = soup(n, 100, 5 * scale, scale, Vec3{0});
+        for (int i = 0; i < 50; ++i) triangles.push_back(triangles[7]); // equal ones
+        for (int i = 0; i < 20; ++i) { // in the plane x = 0
+            Triangle flat = triangles[std::size_t(i)];
             flat.v1.x = flat.v2.x = flat.v3.x = 0;
-            crowd.push_back(flat);
+            triangles.push_back(flat);
             flat.v3 = flat.v1; // without an area
-            crowd.push_back(flat);
+            triangles.push_back(flat);
         }
-        const auto boxes = boxes_of(crowd);
+        const auto boxes = boxes_of(triangles);
         const Bvh tree(boxes);
         check_sound(tree, boxes);
         for (int i = 0; i < 1000; ++i) {
             Ray ray = some_ray(n, 5 * scale, Vec3{0});
             ray.direction *= float(n.power(-8, 8) / scale);
-            check_same(crowd, tree, ray);
+            check_same(triangles, tree, ray);
         }
     }
     for (const int count : {4, 5, 64, 4096, 5000}) { // all at one place
-        const Crowd crowd(std::size_t(count),
-                          Triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
-        const auto boxes = boxes_of(crowd);
+        const Triangles triangles(std::size_t(count),
+                                  Triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+        const auto boxes = boxes_of(triangles);
         const Bvh tree(boxes);
         check_sound(tree, boxes);
-        CHECK(by_tree(tree, crowd, {.origin{0.2f, 0.2f, 1}}).number == 0);
+        CHECK(by_tree(tree, triangles, {.origin{0.2f, 0.2f, 1}}).number == 0);
     }
 }
 
@@ -181,24 +116,24 @@ TEST_CASE("bvh: sizes from 1e-30 to 1e30 in one tree, still no deeper than it ma
 
 TEST_CASE("bvh: rays that are no rays meet nothing; absurd ones are not lost") {
     Numbers n;
-    const Crowd crowd = soup(n, 500, 5, 1, Vec3{0});
-    const auto boxes = boxes_of(crowd);
+    const Triangles triangles = soup(n, 500, 5, 1, Vec3{0});
+    const auto boxes = boxes_of(triangles);
     const Bvh tree(boxes);
     for (const Ray& bad :
          {Ray{.origin{not_a_number, 0, 0}}, Ray{.direction{0, not_a_number, 0}},
           Ray{.direction = Vec3{0}}, Ray{.t_max = not_a_number},
           Ray{.t_min = not_a_number}, Ray{.origin{0, inf, 0}},
           Ray{.direction{inf, 0, 0}}, Ray{.t_min = 2, .t_max = 1}}) {
-        CHECK(by_tree(tree, crowd, bad) == Found{});
-        CHECK_FALSE(any_by_tree(tree, crowd, bad));
+        CHECK(by_tree(tree, triangles, bad) == Found{});
+        CHECK_FALSE(any_by_tree(tree, triangles, bad));
     }
     for (const float length : {1e-42f, 1e-30f, 1e-20f, 1e20f, 1e38f})
         for (int i = 0; i < 200; ++i) {
             Ray ray = some_ray(n, 5, Vec3{0});
             ray.direction = length * glm::normalize(ray.direction);
-            check_same(crowd, tree, ray);
+            check_same(triangles, tree, ray);
         }
-    check_same(crowd, tree, {.origin{1e25f, 0, 0}, .direction{-1, 0, 0}});
+    check_same(triangles, tree, {.origin{1e25f, 0, 0}, .direction{-1, 0, 0}});
     const Bvh empty;
     CHECK_FALSE(empty.any(Ray{}, [](std::uint32_t) { return true; }));
     CHECK(empty.box().low.x == inf);
@@ -206,8 +141,8 @@ TEST_CASE("bvh: rays that are no rays meet nothing; absurd ones are not lost") {
 
 TEST_CASE("bvh: a wide range of leaves, and the same bytes for any number of threads") {
     Numbers n;
-    const Crowd crowd = soup(n, 30000, 5, 0.1, Vec3{0});
-    const auto boxes = boxes_of(crowd);
+    const Triangles triangles = soup(n, 30000, 5, 0.1, Vec3{0});
+    const auto boxes = boxes_of(triangles);
     for (const std::uint32_t leaf_size : {1u, 8u}) {
         const Bvh one(boxes, {.leaf_size = leaf_size, .threads = 1});
         check_sound(one, boxes, leaf_size);
@@ -227,8 +162,8 @@ TEST_CASE("bvh: a wide range of leaves, and the same bytes for any number of thr
 
 TEST_CASE("bvh: the nearer child first, so that little is visited") {
     Numbers n;
-    const Crowd crowd = soup(n, 20000, 5, 0.3, Vec3{0});
-    const auto boxes = boxes_of(crowd);
+    const Triangles triangles = soup(n, 20000, 5, 0.3, Vec3{0});
+    const auto boxes = boxes_of(triangles);
     const Bvh tree(boxes);
     long long nodes = 0, tests = 0, rays = 2000;
     for (int i = 0; i < rays; ++i) {
@@ -240,7 +175,7 @@ TEST_CASE("bvh: the nearer child first, so that little is visited") {
             [&](std::uint32_t place, Ray& rest) {
                 ++tests;
                 const std::uint32_t number = tree.primitive_ids()[place];
-                if (const auto hit = intersect<double>(rest, crowd[number]))
+                if (const auto hit = intersect<double>(rest, triangles[number]))
                     nearest.offer(*hit, number, rest);
             },
             [&] { ++nodes; });
@@ -264,12 +199,12 @@ TEST_CASE("bvh: refuses boxes that are none") {
 
 TEST_CASE("bvh: in double as in float") {
     Numbers n;
-    std::vector<TriangleT<double>> crowd;
+    std::vector<TriangleT<double>> triangles;
     std::vector<BoxT<double>> boxes;
     for (int i = 0; i < 300; ++i) {
         const auto at = 1e100 * n.point(5);
-        crowd.push_back({at, at + 1e100 * n.point(1), at + 1e100 * n.point(1)});
-        boxes.push_back(bounds(crowd.back()));
+        triangles.push_back({at, at + 1e100 * n.point(1), at + 1e100 * n.point(1)});
+        boxes.push_back(bounds(triangles.back()));
     }
     const BvhT<double> tree(boxes);
     int hits = 0;
@@ -277,12 +212,12 @@ TEST_CASE("bvh: in double as in float") {
         const auto origin = 1e100 * n.point(9);
         RayT<double> ray{.origin = origin, .direction = 1e100 * n.point(5) - origin};
         double nearest = std::numeric_limits<double>::infinity();
-        for (const auto& triangle : crowd)
+        for (const auto& triangle : triangles)
             if (const auto hit = intersect(ray, triangle))
                 nearest = std::min(nearest, hit->t);
         double found = std::numeric_limits<double>::infinity();
         tree.closest(ray, [&](std::uint32_t place, RayT<double>& rest) {
-            const auto hit = intersect(rest, crowd[tree.primitive_ids()[place]]);
+            const auto hit = intersect(rest, triangles[tree.primitive_ids()[place]]);
             if (hit) rest.t_max = found = hit->t;
         });
         REQUIRE(found == nearest);

@@ -27,7 +27,7 @@ bool same_bytes(const std::vector<V>& a, const std::vector<V>& b) {
 template <typename T>
 bool same_map(const PhotonMapT<T>& a, const PhotonMapT<T>& b) {
     if (!same_bytes(a.tree.blocks(), b.tree.blocks()) ||
-        !same_bytes(a.tree.order(), b.tree.order()) ||
+        !same_bytes(a.tree.point_ids(), b.tree.point_ids()) ||
         a.records.size() != b.records.size())
         return false;
     for (std::size_t i = 0; i < a.records.size(); ++i) {

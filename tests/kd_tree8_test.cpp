@@ -50,7 +50,7 @@ TEST_CASE("kd_tree8: the largest numbers of a float do not overflow") {
     photon_test::largest_numbers<KdTree8T>();
 }
 
-TEST_CASE("kd_tree8: order() tells where each point came from") {
+TEST_CASE("kd_tree8: point_ids() tells where each point came from") {
     photon_test::order_of_points<KdTree8T>();
 }
 
@@ -78,7 +78,7 @@ TEST_CASE("kd_tree8: more neighbours than are counted go through a heap") {
             const Vec3 center = set.points[std::size_t(numbers.below(3000))];
             std::vector<Neighbor> room(k);
             REQUIRE(tree.nearest(center, 1e9f, room) == k);
-            const auto all = brute_force(tree, center, 1e9f, ljus::AnyPoint{});
+            const auto all = brute_force(tree, center, 1e9f, ljus::detail::AnyPoint{});
             std::sort(room.begin(), room.end());
             for (std::size_t i = 0; i < k; ++i)
                 REQUIRE(room[i].distance2 == all[i].distance2);
@@ -118,7 +118,7 @@ TEST_CASE("kd_tree8: the same tree from any number of threads") {
         const KdTree8 one(set.points, 1);
         for (const int threads : {2, 3, 8}) {
             const KdTree8 many(set.points, threads);
-            REQUIRE(one.order() == many.order());
+            REQUIRE(one.point_ids() == many.point_ids());
             REQUIRE(std::memcmp(one.blocks().data(), many.blocks().data(),
                                 one.blocks().size() * sizeof(one.blocks()[0])) == 0);
         }
@@ -135,10 +135,10 @@ TEST_CASE("kd_tree8: the plain tree finds the same points") {
             const auto radius = float(numbers.between(0, 0.5));
             std::vector<std::uint32_t> a, b;
             plain.visit_within(center, radius, [&](std::uint32_t j, double) {
-                a.push_back(plain.order()[j]);
+                a.push_back(plain.point_ids()[j]);
             });
             wide.visit_within(center, radius, [&](std::uint32_t j, double) {
-                b.push_back(wide.order()[j]);
+                b.push_back(wide.point_ids()[j]);
             });
             std::sort(a.begin(), a.end());
             std::sort(b.begin(), b.end());

@@ -82,7 +82,7 @@ TEST_CASE("kd_tree: the largest numbers of a float do not overflow") {
     photon_test::largest_numbers<KdTreeT>();
 }
 
-TEST_CASE("kd_tree: order() tells where each point came from") {
+TEST_CASE("kd_tree: point_ids() tells where each point came from") {
     photon_test::order_of_points<KdTreeT>();
 }
 

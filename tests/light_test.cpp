@@ -14,6 +14,35 @@
 #include "ljus/scene/make_scene.hpp"
 #include "support/numbers.hpp"
 
+/// A light of a user's own, all that there is of it: a bulb as a shop describes it.
+namespace shop {
+
+template <std::floating_point T>
+struct BulbT {
+    ljus::Vec3T<T> position{T(0)};
+    T watts = T(40);
+};
+using Bulb = BulbT<float>;
+
+template <std::floating_point T>
+void check(const BulbT<T>& bulb) {
+    ljus::require_positive("bulb.watts", bulb.watts);
+}
+
+template <std::floating_point T>
+[[nodiscard]] ljus::LightT<T> make_light(const BulbT<T>& bulb) {
+    const T intensity = bulb.watts / (T(4) * std::numbers::pi_v<T>);
+    return make_light(ljus::PointLightT<T>{.position = bulb.position,
+                                           .intensity = ljus::RgbT<T>{intensity}});
+}
+
+struct Unchecked {}; // no light: it lacks a check()
+[[nodiscard]] ljus::Light make_light(const Unchecked&) {
+    return {};
+}
+
+} // namespace shop
+
 using namespace ljus;
 using ljus_test::Mean;
 using ljus_test::Numbers;
@@ -50,6 +79,29 @@ TEST_CASE("light: the flux of a diffuse emitter is pi L A") {
     CHECK(double(scene.lights[1].flux.y) == doctest::Approx(30 * pi));
     CHECK(scene.lights[1].flux.x == 0.0f);
     CHECK(double(scene.lights[2].flux.z) == doctest::Approx(12 * pi));
+}
+
+static_assert(LightSource<PointLight> && LightSource<SpotLight> &&
+              LightSource<SunLight> && LightSource<PointLightT<double>>);
+static_assert(LightSource<shop::Bulb> && LightSource<shop::BulbT<double>>);
+static_assert(!LightSource<shop::Unchecked> && !LightSource<Sphere> &&
+              !LightSource<Lambertian> && !LightSource<Light>);
+
+TEST_CASE("light: a light of a user's own takes two functions") {
+    const Vec3 at{0, 2, 0};
+    const auto scene = make_scene(placed(Sphere{.center{99, 0, 0}}, Lambertian{}),
+                                  shop::Bulb{.position = at, .watts = 60});
+    REQUIRE(scene.lights.size() == 1);
+    CHECK(double(scene.lights[0].flux.x) == doctest::Approx(60).epsilon(1e-6));
+    const auto sample = sample_light(scene, scene.lights[0], Vec3{0}, Vec2{0.5f});
+    REQUIRE(sample);
+    CHECK(double(sample->weight.y) == doctest::Approx(60 / (4 * pi) / 4).epsilon(1e-6));
+
+    Scene<Shapes<SphereT<double>>, Materials<LambertianT<double>>> in_double;
+    in_double.add(shop::BulbT<double>{});
+    CHECK(in_double.lights[0].flux.z == doctest::Approx(40));
+    CHECK_THROWS_WITH_AS(in_double.add(shop::BulbT<double>{.watts = -1}),
+                         doctest::Contains("bulb.watts"), std::invalid_argument);
 }
 
 TEST_CASE("light: a point light falls off with the square of the distance") {

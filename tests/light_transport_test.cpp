@@ -120,13 +120,13 @@ TEST_CASE("light_transport: the parts of a picture add up to the whole") {
     const auto room = cornell_box();
     const auto tracer = make_path_tracer(room.scene);
     const Image whole = picture(tracer, room.camera);
-    CHECK(difference(whole, picture(only(tracer, "E.*L"), room.camera)) == 0);
+    CHECK(difference(whole, picture(only_paths(tracer, "E.*L"), room.camera)) == 0);
     for (const auto& classes :
          {std::vector<const char*>{"EL", "E.L", "E..L", "E...+L"},
           std::vector<const char*>{"ES*L", "ES*DL", "E.*DDL", "E.*DS+DL", "E.*DS+L"}}) {
         Image sum = make_image(16, 16);
         for (const char* words : classes) {
-            const Image part = picture(only(tracer, words), room.camera);
+            const Image part = picture(only_paths(tracer, words), room.camera);
             for (std::size_t i = 0; i < sum.pixels.size(); ++i)
                 sum.pixels[i] += part.pixels[i];
         }
@@ -140,10 +140,10 @@ TEST_CASE(
     const auto tracer = make_path_tracer(room.scene);
     const auto one = make_path_tracer(room.scene, {.max_depth = 1});
     CHECK(difference(picture(one, room.camera),
-                     picture(only(tracer, "ED?L"), room.camera)) == 0);
+                     picture(only_paths(tracer, "ED?L"), room.camera)) == 0);
     const auto three = make_path_tracer(room.scene, {.max_depth = 3});
     CHECK(difference(picture(three, room.camera),
-                     picture(only(tracer, "E(..?)?D?L"), room.camera)) < 1e-6);
+                     picture(only_paths(tracer, "E(..?)?D?L"), room.camera)) < 1e-6);
 }
 
 TEST_CASE("light_transport: g is 1/r^2 where points see each other, and else 0") {
@@ -195,7 +195,7 @@ TEST_CASE("light_transport: in a furnace each bounce has its power of the albedo
     std::string words = "E";
     for (int bounce = 0; bounce < 4; ++bounce) {
         const std::string all = words + "L"; // the class does not keep it
-        const Image image = picture(only(tracer, all), furnace.camera);
+        const Image image = picture(only_paths(tracer, all), furnace.camera);
         Rgb mean{0};
         for (const Rgb& c : image.pixels) mean += c / 256.0f;
         CAPTURE(bounce);

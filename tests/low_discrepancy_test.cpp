@@ -28,8 +28,9 @@ std::uint32_t owen_by_definition(std::uint32_t bits, std::uint64_t seed) {
     for (int bit = 31; bit >= 0; --bit) {
         const std::uint64_t above = bit == 31 ? 0 : bits >> (bit + 1);
         const std::uint64_t coin =
-            mix_bits(mix_bits(mix_bits(seed) + static_cast<std::uint64_t>(bit)) +
-                     above) >>
+            detail::mix_bits(detail::mix_bits(detail::mix_bits(seed) +
+                                              static_cast<std::uint64_t>(bit)) +
+                             above) >>
             63;
         result |= (((bits >> bit) & 1u) ^ static_cast<std::uint32_t>(coin)) << bit;
     }
@@ -168,7 +169,7 @@ TEST_CASE("low_discrepancy: one point is uniform over the seeds, by cells and in
             for (std::uint64_t seed = 0; seed < seeds; ++seed) {
                 const auto scrambled = [&](std::uint32_t d) {
                     const std::uint32_t bits = detail::sobol(index, d);
-                    const std::uint64_t key = mix_bits(seed) + d;
+                    const std::uint64_t key = detail::mix_bits(seed) + d;
                     return definition ? owen_by_definition(bits, key)
                                       : detail::owen_scrambled(bits, key);
                 };

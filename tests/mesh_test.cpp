@@ -57,7 +57,7 @@ template <typename Compute>
 std::optional<FlatHitT<float>> by_loop(Ray ray, const MeshData& data) {
     std::optional<FlatHitT<float>> nearest;
     for (std::uint32_t i = 0; i < data.triangles.size(); ++i) {
-        const auto hit = intersect<Compute>(ray, triangle_of(data, i));
+        const auto hit = intersect<Compute>(ray, detail::triangle_of(data, i));
         if (!hit || (nearest && !(hit->t < nearest->t))) continue;
         nearest = hit;
         nearest->part = i;
@@ -138,7 +138,7 @@ TEST_CASE("mesh: pictures and photons are those of its triangles, to the last bi
                   Rgb{5});
         if (room == &whole) room->add(Mesh(ring), grey);
         for (std::uint32_t i = 0; room == &parts && i < ring.triangles.size(); ++i)
-            room->add(triangle_of(ring, i), grey);
+            room->add(detail::triangle_of(ring, i), grey);
     }
     const Camera camera = look_at({.position{0, 1.5f, 3}, .target{0, 0.3f, 0}});
     const RenderSettings picture{.width = 40, .height = 30, .samples = 4};
@@ -187,12 +187,12 @@ TEST_CASE("mesh: finer triangles come to the sphere") {
     CHECK(glm::length(bounding_sphere(fine).center) < 1e-5f);
 }
 
-TEST_CASE("mesh: smooth() finds the normals of a sphere and of a ring") {
+TEST_CASE("mesh: smooth_normals() finds the normals of a sphere and of a ring") {
     for (MeshData data :
          {icosphere(unit_ball, 4), torus(Vec3{0}, 1.0f, 0.3f, 60, 30)}) {
         const auto right = data.normals;
         data.positions.push_back({9, 9, 9}); // of no triangle
-        smooth(data);
+        smooth_normals(data);
         REQUIRE(data.normals.size() == right.size() + 1);
         CHECK(data.normals.back() == Vec3{0});
         for (std::size_t i = 0; i < right.size(); ++i)
@@ -201,7 +201,7 @@ TEST_CASE("mesh: smooth() finds the normals of a sphere and of a ring") {
     // However the sides of a box are cut, a corner's normal is the diagonal.
     MeshData corner{.positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}},
                     .triangles{{0, 4, 1}, {0, 2, 4}, {0, 1, 3}, {0, 3, 2}}};
-    smooth(corner);
+    smooth_normals(corner);
     CHECK(glm::length(corner.normals[0] + Vec3{std::sqrt(1.0f / 3.0f)}) < 1e-6f);
 }
 
@@ -222,7 +222,7 @@ TEST_CASE("mesh: points are uniform over its area") {
         std::size_t nearest = 0;
         double least = 1e9;
         for (std::size_t k = 0; k < 40; ++k) {
-            const Triangle t = triangle_of(data, k);
+            const Triangle t = detail::triangle_of(data, k);
             const double off =
                 std::abs(double(glm::dot(point.position - t.v1, normal(t)))) +
                 2 * (1 - double(glm::dot(point.normal, normal(t))));
@@ -231,10 +231,11 @@ TEST_CASE("mesh: points are uniform over its area") {
         seen[nearest] += 1;
     }
     double chi2 = 0, total = 0;
-    for (std::size_t k = 0; k < 40; ++k) total += double(area(triangle_of(data, k)));
+    for (std::size_t k = 0; k < 40; ++k)
+        total += double(area(detail::triangle_of(data, k)));
     CHECK(area(mesh) == doctest::Approx(total).epsilon(1e-6));
     for (std::size_t k = 0; k < 40; ++k) {
-        const Triangle t = triangle_of(data, k);
+        const Triangle t = detail::triangle_of(data, k);
         const double share = double(area(t)) / total;
         chi2 += (seen[k] - count * share) * (seen[k] - count * share) / (count * share);
         right += share * glm::dvec3(t.v1 + t.v2 + t.v3) / 3.0;
@@ -427,13 +428,13 @@ TEST_CASE("mesh: photons land with the cosine of the shading normal") {
 TEST_CASE("mesh: the memory of a triangle, its tree included") {
     for (const int cuts : {4, 6}) {
         const Mesh round(icosphere(unit_ball, cuts));
-        CHECK(double(bytes(round)) / round.size() < 110);
+        CHECK(double(round.bytes()) / round.size() < 110);
         const Mesh flat_one(flat(round.data()));
-        CHECK(double(bytes(flat_one)) / flat_one.size() < 95);
+        CHECK(double(flat_one.bytes()) / flat_one.size() < 95);
     }
     const Mesh ring(torus(Vec3{0}, 1.0f, 0.3f, 400, 125)); // 100000 triangles
     CHECK(ring.size() == 100000);
-    CHECK(double(bytes(ring)) / ring.size() < 100);
+    CHECK(double(ring.bytes()) / ring.size() < 100);
     MeshData apart = flat(ring.data()); // no vertex is shared
     apart.positions.clear();
     for (std::uint32_t i = 0; i < ring.size(); ++i) {
@@ -442,7 +443,7 @@ TEST_CASE("mesh: the memory of a triangle, its tree included") {
         apart.triangles[i] = {3 * i, 3 * i + 1, 3 * i + 2};
     }
     const Mesh loose(apart);
-    CHECK(double(bytes(loose)) / loose.size() < 120);
+    CHECK(double(loose.bytes()) / loose.size() < 120);
 }
 
 TEST_CASE("mesh: what is wrong is said with its place") {
@@ -559,7 +560,7 @@ TEST_CASE("mesh: texture coordinates are those of its vertices, interpolated") {
     CHECK(hits > 500);
     MeshData bare = data;
     bare.uv = {};
-    CHECK(bytes(mesh) == bytes(Mesh(bare, 1)) + 900 * sizeof(Vec2));
+    CHECK(mesh.bytes() == Mesh(bare, 1).bytes() + 900 * sizeof(Vec2));
 }
 
 TEST_CASE("mesh: triangles that collapse to a line are never what a ray meets") {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "ljus/accel/pair_triangles.hpp"
+#include "ljus/geometry/detail/pair_triangles.hpp"
 
 using namespace ljus;
 
@@ -14,9 +14,9 @@ using Triples = std::vector<std::array<std::uint32_t, 3>>;
 
 const std::vector<glm::dvec3> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 
-FlatShapesT<float> shapes(const std::vector<glm::dvec3>& vertices,
-                          const Triples& indices) {
-    return pair_triangles<float>(vertices, indices);
+detail::FlatShapesT<float> shapes(const std::vector<glm::dvec3>& vertices,
+                                  const Triples& indices) {
+    return detail::pair_triangles<float>(vertices, indices);
 }
 
 } // namespace

@@ -76,9 +76,9 @@ TEST_CASE("multiple importance: the shares of two strategies are the whole") {
                 CHECK(detail::mis_weight(share, a, infinity) == 0.0f);
                 CHECK(detail::mis_weight(share, a, 0.0f) == 1.0f);
             }
-    CHECK(balance_heuristic(1.0, 3.0) == 0.25);
-    CHECK(power_heuristic(1.0, 3.0) == doctest::Approx(0.1));
-    CHECK(power_heuristic(3.0, 1.0) == doctest::Approx(0.9));
+    CHECK(detail::balance_heuristic(1.0, 3.0) == 0.25);
+    CHECK(detail::power_heuristic(1.0, 3.0) == doctest::Approx(0.1));
+    CHECK(detail::power_heuristic(3.0, 1.0) == doctest::Approx(0.9));
 }
 
 TEST_CASE("multiple importance: all ways to share a lamp's light have one mean") {

@@ -29,7 +29,7 @@ PhotonMapT<T> some_map(int count) {
                            .flux = numbers.point<T>(1e-3) + T(1e-3),
                            .light = std::uint16_t(i),
                            .kind = static_cast<ljus::PhotonKind>(i % 4),
-                           .normal = ljus::SmallNormal(1, 2, -i % 128)});
+                           .normal = ljus::detail::SmallNormal(1, 2, -i % 128)});
     return ljus::make_photon_map(photons);
 }
 
@@ -41,7 +41,8 @@ bool same(const PhotonMapT<T>& a, const PhotonMapT<T>& b) {
                 std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) == 0);
     };
     if (!bytes(a.tree.blocks(), b.tree.blocks()) ||
-        !bytes(a.tree.order(), b.tree.order()) || a.records.size() != b.records.size())
+        !bytes(a.tree.point_ids(), b.tree.point_ids()) ||
+        a.records.size() != b.records.size())
         return false;
     for (std::size_t i = 0; i < a.records.size(); ++i) {
         const auto x = a.records[i];

@@ -103,7 +103,55 @@ Rgb evaluate(const Unknown& unknown, const Vec3& wo, const Vec3& wi) {
     return evaluate(unknown.inner, wo, wi);
 }
 
+/// A kernel of the user's own, all that there is of it.
+struct Triweight {};
+float kernel_weight(Triweight, float x) {
+    return 4 * (1 - x) * (1 - x) * (1 - x);
+}
+static_assert(ljus::KernelLike<Triweight> && ljus::KernelLike<Kernel> &&
+              ljus::KernelLike<Kernel, double> && !ljus::KernelLike<Unknown>);
+
+/// The list's parabola, as a type: the same estimates are expected.
+struct Parabola {
+    float factor = 2;
+};
+float kernel_weight(const Parabola& parabola, float x) {
+    return parabola.factor * (1 - x);
+}
+
 } // namespace
+
+TEST_CASE("photon_map: a kernel of the user's own, in lanes and one by one") {
+    Numbers numbers{83};
+    const auto map = ljus::make_photon_map(rain(20000, numbers));
+    const auto floor = floor_at<float>(Vec3{0});
+    const Vec3 up{0, 0, 1};
+    const auto ask = [&](const auto& material, const auto& gather) {
+        std::uint64_t gathered = 0;
+        const Rgb found = ljus::estimate_radiance(map, floor, material, up, gather,
+                                                  ljus::light_kinds, gathered);
+        CHECK(gathered > 100);
+        return double(found.x);
+    };
+    const ljus::DensityEstimateOf<Triweight> gather{.radius = 0.2f};
+    ljus::check(gather);
+    const double in_lanes = ask(matt, gather);
+    CHECK(in_lanes == doctest::Approx(ask(Unknown{}, gather)).epsilon(1e-5));
+    const DensityEstimateSettings listed{.radius = 0.2f};
+    CHECK(in_lanes == doctest::Approx(ask(matt, listed)).epsilon(0.1));
+
+    const ljus::DensityEstimateOf<Parabola> parabola{.radius = 0.2f};
+    CHECK(ask(matt, parabola) == ask(matt, listed));
+    CHECK(ask(Unknown{}, parabola) == ask(Unknown{}, listed));
+    auto few = parabola;
+    auto few_listed = listed;
+    few.nearest = few_listed.nearest = 150;
+    CHECK(ask(matt, few) == ask(matt, few_listed));
+
+    CHECK_THROWS_WITH_AS(
+        ljus::check(ljus::DensityEstimateOf<Parabola>{.kernel{.factor = 1}}),
+        doctest::Contains("the mean of gather.kernel"), std::invalid_argument);
+}
 
 TEST_CASE("photon_map: eight at a time give what one by one give") {
     Numbers numbers{81};
@@ -118,7 +166,7 @@ TEST_CASE("photon_map: eight at a time give what one by one give") {
                                .light = std::uint16_t(i),
                                .kind = static_cast<PhotonKind>(numbers.below(4)),
                                .normal = numbers.below(4) == 0
-                                             ? ljus::SmallNormal{0}
+                                             ? ljus::detail::SmallNormal{0}
                                              : ljus::small_normal(glm::normalize(
                                                    numbers.point<float>(1)))});
         const auto map = ljus::make_photon_map(photons);

@@ -37,7 +37,8 @@ TEST_CASE("photon: a normal in three bytes is less than half a degree wrong") {
         REQUIRE(glm::dot(n, kept) > 0);
         REQUIRE(std::asin(sine) < 0.5 * std::numbers::pi / 180);
     }
-    CHECK(ljus::small_normal(ljus::Vec3{0, -1, 0}) == ljus::SmallNormal{0, -127, 0});
+    CHECK(ljus::small_normal(ljus::Vec3{0, -1, 0}) ==
+          ljus::detail::SmallNormal{0, -127, 0});
 }
 
 TEST_CASE("photon: turned away from 60 degrees on, and never without a normal") {
@@ -46,10 +47,11 @@ TEST_CASE("photon: turned away from 60 degrees on, and never without a normal") 
         const double angle = degrees * std::numbers::pi / 180;
         const ljus::Vec3 n(std::sin(angle), 0, std::cos(angle));
         CAPTURE(degrees);
-        CHECK(ljus::turned_away(ljus::small_normal(n), ljus::Vec3{0, 0, 1}) ==
+        CHECK(ljus::detail::turned_away(ljus::small_normal(n), ljus::Vec3{0, 0, 1}) ==
               (degrees > 60));
     }
-    CHECK_FALSE(ljus::turned_away(ljus::SmallNormal{0}, ljus::Vec3{0, 0, 1}));
+    CHECK_FALSE(
+        ljus::detail::turned_away(ljus::detail::SmallNormal{0}, ljus::Vec3{0, 0, 1}));
 }
 
 TEST_CASE("photon: accounts are added part by part") {

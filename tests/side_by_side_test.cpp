@@ -131,7 +131,8 @@ TEST_CASE("side_by_side: the matt room, by all renderers that carry its light") 
     const auto room = matt_cornell_box();
     const auto image = [&](const auto& renderer, std::uint64_t seed, int rays) {
         // But for the lamp itself, whose edge in the picture is the largest noise.
-        return render(only(renderer, "ED.*L"), room.camera, picture(seed, rays)).image;
+        return render(only_paths(renderer, "ED.*L"), room.camera, picture(seed, rays))
+            .image;
     };
     const auto tracer = make_path_tracer(room.scene);
     const auto truth = blocks(12, [&](auto seed) { return image(tracer, seed, 32); });
@@ -235,7 +236,7 @@ TEST_CASE("side_by_side: what maps hold does not know who looks") {
     const auto settings = mapping(IndirectLight::photons, 1, 0.3f);
     const auto maps = make_photon_maps(room.scene, settings);
     const auto mapper =
-        only(make_photon_mapper(room.scene, maps, settings), "ES*D.*DL");
+        only_paths(make_photon_mapper(room.scene, maps, settings), "ES*D.*DL");
     const auto solved = make_radiosity(
         room.scene, {.patches = {.size = 0.5},
                      .factors = {.analytic = false, .rays = 64, .threads = 1}});

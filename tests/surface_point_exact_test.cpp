@@ -49,7 +49,7 @@ Vec3T<double> true_normal(const SphereT<T>& s, const Vec3T<T>& p) {
 }
 template <typename Flat, typename T>
 Vec3T<double> true_normal(const Flat& flat, const Vec3T<T>&) {
-    return glm::normalize(Vec3T<double>(cross_of_edges(flat)));
+    return glm::normalize(Vec3T<double>(detail::cross_of_edges(flat)));
 }
 
 /// The coordinates that a point of the shape is computed from.

@@ -52,16 +52,16 @@ Lost shadow_rays(double offset, double distance, bool lamp_near, MakeLamp make_l
 
 TEST_CASE_TEMPLATE("surface: the bound of n roundings", T, float, double) {
     constexpr T u = std::numeric_limits<T>::epsilon() / 2;
-    static_assert(rounding_bound<T>(0) == T(0));
-    CHECK(rounding_bound<T>(1) >= u);
-    CHECK(rounding_bound<T>(1) < u * T(1.001));
+    static_assert(detail::rounding_bound<T>(0) == T(0));
+    CHECK(detail::rounding_bound<T>(1) >= u);
+    CHECK(detail::rounding_bound<T>(1) < u * T(1.001));
     for (int n = 1; n < 20; ++n) {
         // (1 + u)^n - 1 and 1 - (1 - u)^n both lie below.
         const auto wide = [&](long double sign) {
             return std::abs(std::pow(1 + sign * (long double)(u), n) - 1);
         };
-        CHECK((long double)(rounding_bound<T>(n)) >= wide(1) * (1 - 1e-9L));
-        CHECK((long double)(rounding_bound<T>(n)) >= wide(-1) * (1 - 1e-9L));
+        CHECK((long double)(detail::rounding_bound<T>(n)) >= wide(1) * (1 - 1e-9L));
+        CHECK((long double)(detail::rounding_bound<T>(n)) >= wide(-1) * (1 - 1e-9L));
     }
 }
 

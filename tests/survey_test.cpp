@@ -1,13 +1,80 @@
 #include <doctest/doctest.h>
 
 #include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
 
+#include "ljus/accel/mesh.hpp"
+#include "ljus/geometry/metaballs.hpp"
+#include "ljus/materials/glass.hpp"
+#include "ljus/materials/mixture.hpp"
+#include "ljus/materials/soap_film.hpp"
+#include "ljus/materials/textured.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"
 #include "support/rooms.hpp"
 
 using namespace ljus;
 using namespace ljus_test;
+
+/// A shape of a user's own, with a misspelt hook.
+namespace user {
+
+struct Ball {
+    Sphere inner;
+};
+
+auto intersect(const Ray& ray, const Ball& ball) {
+    return intersect(ray, ball.inner);
+}
+SurfacePoint surface_point(const Ball& ball, const Ray& ray,
+                           const FlatHitT<float>& hit) {
+    return surface_point(ball.inner, ray, hit);
+}
+Sphere bounding_sphere(const Ball& ball) {
+    return ball.inner;
+}
+void check(const Ball& ball) {
+    check(ball.inner);
+}
+[[maybe_unused]] Box bound(const Ball& ball) {
+    return bounds(ball.inner);
+} // bounds
+float area(const Ball& ball) {
+    return area(ball.inner);
+}
+template <typename Compute>
+bool meets(const Ray& ray, const Ball& ball) {
+    return intersect<Compute>(ray, ball.inner).has_value();
+}
+
+/// A material of a user's own, with a misspelt hook.
+struct Fog {
+    using Scalar = float;
+};
+Lobes lobes(const Fog&) {
+    return Lobes::none;
+}
+Rgb evaluate(const Fog&, const Vec3&, const Vec3&) {
+    return Rgb{0};
+}
+float pdf(const Fog&, const Vec3&, const Vec3&, Lobes) {
+    return 0;
+}
+std::optional<BsdfSample> sample(const Fog&, const Vec3&, const Vec3&, Transport,
+                                 Lobes) {
+    return std::nullopt;
+}
+void check(const Fog&) {}
+[[maybe_unused]] Rgb absorbtion(const Fog&) {
+    return Rgb{1};
+} // absorption
+Rgb emission(const Fog&) {
+    return Rgb{2};
+}
+
+} // namespace user
 
 TEST_CASE("survey: counts what a scene is made of") {
     const Room room = make_room<float>(Ball::mixture, Lamp::quad, 2);
@@ -140,4 +207,56 @@ TEST_CASE("survey: settings that give no picture are refused") {
     refused(
         [](PhotonMappingSettings& s) { s.general_estimate.nearest = max_nearest + 1; });
     refused([](PhotonMappingSettings& s) { s.caustics_estimate.thickness = -1; });
+}
+
+TEST_CASE("survey: a hook that is misspelt shows") {
+    const Scene<Shapes<user::Ball, Quad>, Materials<user::Fog, Glass>> scene;
+    const Plan plan = survey(scene, PhotonMappingSettings{});
+    REQUIRE(plan.types.size() == 4);
+    CHECK(plan.types[0] ==
+          "shape 1         has meets, area; without bounds (its sphere's box), "
+          "shading_normal (the geometric one), sample_area (refused as a light), "
+          "sample_towards (points of its area), pdf_towards (points of its area), "
+          "center_sample (u = v = 1/2), texture_coordinates (those of the hit), "
+          "translated (does not compile), is_flat (at its sphere)");
+    CHECK(plan.types[1].find("shape 2         has bounds, area, ") == 0);
+    CHECK(plan.types[2] ==
+          "material 1      has emission; without absorption (clear), at_point (the "
+          "same anywhere), uses_uv (uv is 0), both_ways (one way by chance), "
+          "pass_through (opaque), only_specular (write both)");
+    CHECK(plan.types[3].find("material 2      has absorption, both_ways, "
+                             "only_specular; without emission (black), ") == 0);
+    CHECK(to_text(plan).find(plan.types[0] + "\n" + plan.types[1] + "\n") !=
+          std::string::npos);
+}
+
+TEST_CASE("survey: the hooks of the house's own types") {
+    const auto has = [](const auto& hooks, std::string_view name) {
+        for (const auto& hook : hooks)
+            if (hook.name == name) return hook.provided;
+        FAIL("no such hook: " << name);
+        return false;
+    };
+    const auto sphere = detail::shape_hooks<Sphere>();
+    for (const auto* name :
+         {"bounds", "area", "sample_area", "sample_towards", "pdf_towards",
+          "center_sample", "texture_coordinates", "translated"})
+        CHECK_MESSAGE(has(sphere, name), name);
+    for (const auto* name : {"meets", "shading_normal", "is_flat"})
+        CHECK_FALSE_MESSAGE(has(sphere, name), name);
+    const auto mesh = detail::shape_hooks<Mesh>();
+    for (const auto* name :
+         {"bounds", "meets", "shading_normal", "area", "texture_coordinates"})
+        CHECK_MESSAGE(has(mesh, name), name);
+    CHECK_FALSE(has(mesh, "sample_towards"));
+    CHECK(has(detail::shape_hooks<Triangle>(), "is_flat"));
+    CHECK_FALSE(has(detail::shape_hooks<Metaballs>(), "area"));
+    CHECK_FALSE(has(detail::shape_hooks<Metaballs>(), "sample_area"));
+
+    for (const auto& hook : detail::material_hooks<Lambertian>())
+        CHECK_FALSE_MESSAGE(hook.provided, hook.name);
+    CHECK(has(detail::material_hooks<Mixture>(), "emission"));
+    CHECK(has(detail::material_hooks<SoapFilm>(), "pass_through"));
+    CHECK(has(detail::material_hooks<SoapFilm>(), "at_point"));
+    CHECK(has(detail::material_hooks<Textured<Lambertian, UvPicture>>(), "uses_uv"));
 }

@@ -64,12 +64,12 @@ TEST_CASE("texture: a chessboard has 64 fields, in turn, and goes on") {
 
 TEST_CASE("texture: places of a plane and of a globe") {
     const PlaneMapT<double> plane{.origin{1, 2, 3}, .edge_u{0, 2, 0}, .edge_v{0, 0, 4}};
-    const auto uv = coordinates(plane, Vec3T<double>{9, 3, 4});
+    const auto uv = map_coordinates(plane, Vec3T<double>{9, 3, 4});
     CHECK(uv.x == 0.5);
     CHECK(uv.y == 0.25);
     const GlobeMapT<double> globe{.center{1, 1, 1}};
     const auto at = [&](double x, double y, double z) {
-        return coordinates(globe, Vec3T<double>{1 + x, 1 + y, 1 + z});
+        return map_coordinates(globe, Vec3T<double>{1 + x, 1 + y, 1 + z});
     };
     CHECK(at(1, 0, 0).x == 0);
     CHECK(at(0, 0, -1).x == doctest::Approx(0.25));

@@ -41,10 +41,10 @@ LJUS_CORE_EXTERN template void detail::refuse(std::string_view, const Vec3&,
 LJUS_CORE_EXTERN template void check(const Image&);
 
 // Trees.
-LJUS_CORE_EXTERN template BvhNodesT<float> build_bvh(std::span<const Box>,
-                                                     const BvhSettings&);
-LJUS_CORE_EXTERN template detail::Bvh8Nodes detail::make_bvh8(const BvhNodesT<float>&,
-                                                              std::uint32_t);
+LJUS_CORE_EXTERN template detail::BvhNodesT<float>
+detail::build_bvh(std::span<const Box>, const BvhSettings&);
+LJUS_CORE_EXTERN template detail::Bvh8Nodes
+detail::make_bvh8(const detail::BvhNodesT<float>&, std::uint32_t);
 
 // Photons.
 LJUS_CORE_EXTERN template LightChoice light_choice(const std::vector<LightT<float>>&);
@@ -53,10 +53,9 @@ LJUS_CORE_EXTERN template long long join_blocks(std::vector<PhotonBlockT<float>>
                                                 TracedPhotonsT<float>&);
 } // namespace detail
 LJUS_CORE_EXTERN template PhotonMap make_photon_map(const std::vector<Photon>&, int);
-LJUS_CORE_EXTERN template RgbT<double> flux_in_disc(const KdTree8&,
-                                                    const PhotonRecordsT<float>&,
-                                                    const FluxDiscT<float>&,
-                                                    std::uint64_t&);
+LJUS_CORE_EXTERN template RgbT<double>
+detail::flux_in_disc(const KdTree8&, const detail::PhotonRecordsT<float>&,
+                     const detail::FluxDiscT<float>&, std::uint64_t&);
 LJUS_CORE_EXTERN template Rgb estimate_radiance(const PhotonMap&, const VertexT<float>&,
                                                 const Lambertian&, const Vec3&,
                                                 const DensityEstimateSettings&,

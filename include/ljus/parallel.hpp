@@ -31,6 +31,12 @@ namespace ljus {
 /// The largest number of threads that one may ask for.
 inline constexpr int max_threads_allowed = 1024;
 
+/// How a parallel loop runs.
+struct ParallelSettings {
+    int threads = 0;        ///< 1 to max_threads_allowed; 0: one a processor.
+    Progress progress = {}; ///< Called after a block, by one thread at a time.
+};
+
 namespace detail {
 
 /// The number of threads that `threads = 0` stands for: that of the processors, or what
@@ -42,16 +48,6 @@ namespace detail {
     return 1;
 #endif
 }
-
-} // namespace detail
-
-/// How a parallel loop runs.
-struct ParallelSettings {
-    int threads = 0;        ///< 1 to max_threads_allowed; 0: max_threads().
-    Progress progress = {}; ///< Called after a block, by one thread at a time.
-};
-
-namespace detail {
 
 /// The number of blocks that cover `total` things.
 /// \param total  At least 0.

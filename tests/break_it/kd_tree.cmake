@@ -12,7 +12,7 @@ ljus_break_it(NAME kd-tree-equal-keys HEADER accel/kd_tree.hpp TEST kd_tree
 
 # A box without its far end.
 ljus_break_it(NAME kd-tree-box HEADER accel/kd_tree.hpp TEST kd_tree
-    FROM "box.high = glm::max(box.high, points[order_[i]]);"
+    FROM "box.high = glm::max(box.high, points[point_ids_[i]]);"
     TO   ""
     CASES "kd_tree: every search*")
 

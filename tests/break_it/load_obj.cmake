@@ -49,7 +49,7 @@ ljus_break_it(NAME load-obj-uv HEADER io/detail/obj_reader.hpp TEST load_obj
 # A seam of the picture is an edge of the surface.
 ljus_break_it(NAME load-obj-seam HEADER io/load_obj.hpp TEST load_obj
     FROM "detail::smooth_across_seams<T>(part);"
-    TO   "smooth(part.data);"
+    TO   "smooth_normals(part.data);"
     CASES "load_obj: texture coordinates*")
 
 # Kd without its picture.

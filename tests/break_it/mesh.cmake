@@ -38,7 +38,7 @@ ljus_break_it(NAME mesh-left-of-u HEADER accel/mesh.hpp TEST mesh
 ljus_break_it(NAME mesh-angle HEADER accel/mesh_data.hpp TEST mesh
     FROM "angle * normal"
     TO   "normal"
-    CASES "mesh: smooth() finds*")
+    CASES "mesh: smooth_normals() finds*")
 
 # A shadow ray asks the first triangle of the tree, whichever it may hit.
 ljus_break_it(NAME mesh-meets HEADER accel/mesh.hpp TEST mesh

@@ -18,6 +18,6 @@ ljus_break_it(NAME map-file-version HEADER io/photon_map_file.hpp TEST photon_ma
 
 # Photons in the tree's order: a second save or load has another tree.
 ljus_break_it(NAME map-file-order HEADER io/photon_map_file.hpp TEST photon_map_file
-    FROM "photons[map.tree.order()[i]]"
+    FROM "photons[map.tree.point_ids()[i]]"
     TO   "photons[i]"
     CASES "photon_map_file: a map comes back*")

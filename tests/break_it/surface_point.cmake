@@ -1,6 +1,6 @@
 # A fixed distance is too long for a small scene.
 ljus_break_it(NAME surface-fixed HEADER geometry/surface_point.hpp TEST surface_point
-    FROM "T(2) * glm::dot(sizes(n), point.error) + T(4) * last_place"
+    FROM "T(2) * glm::dot(detail::sizes(n), point.error) + T(4) * last_place"
     TO   "T(1e-3)"
     CASES "surface: at a millionth*")
 
@@ -24,6 +24,6 @@ ljus_break_it(NAME surface-side HEADER geometry/surface_point.hpp TEST surface_p
 
 # A lamp near the origin shades itself from afar.
 ljus_break_it(NAME surface-own-light HEADER geometry/surface_point.hpp TEST surface_point
-    FROM "seen.error += rounding_bound<T>(8) * max_component(sizes(way));"
+    FROM "seen.error += detail::rounding_bound<T>(8) * max_component(detail::sizes(way));"
     TO   ""
     CASES "surface: no lamp*")

@@ -42,18 +42,18 @@ ljus_break_it(NAME triangle-cube HEADER geometry/triangle.hpp TEST triangle
 
 # In float the normal of a small or a thin triangle is off.
 ljus_break_it(NAME triangle-normal HEADER geometry/triangle.hpp TEST triangle
-    FROM "Vec3T<T>(glm::normalize(cross_of_edges(triangle)))"
+    FROM "Vec3T<T>(glm::normalize(detail::cross_of_edges(triangle)))"
     TO   "glm::normalize(glm::cross(triangle.v2 - triangle.v1, triangle.v3 - triangle.v1))"
     CASES "triangle: the normal is that*")
 
 # In double, without a border as wide as the rounding: ties are lost.
 ljus_break_it(NAME triangle-open HEADER geometry/triangle.hpp TEST watertight
-    FROM "closed ? border_of_rounding(d, to, e1, e2, inverse) : C(0)"
+    FROM "closed ? detail::border_of_rounding(d, to, e1, e2, inverse) : C(0)"
     TO   "C(0)"
     CASES "watertight: rays that meet*")
 
 ljus_break_it(NAME triangle-no-area HEADER geometry/triangle.hpp TEST triangle
-    FROM "if (hit && !has_area(triangle)) return std::nullopt;"
+    FROM "if (hit && !detail::has_area(triangle)) return std::nullopt;"
     TO   ""
     CASES "triangle: rays aimed at where*")
 

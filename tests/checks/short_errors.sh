@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What is no shape, no material, or not listed gives a short message at the caller's line.
+# What is no shape, no material, no light, or not listed gives a short message at the caller's line.
 . "$(dirname "$0")/common.sh"
 status=0
 longest=32
@@ -33,6 +33,9 @@ short_error() {
 short_error 'Scene<Shapes<Sphere, Torus>, Materials<Lambertian>> s;' 'Shape'
 short_error 'Scene<Shapes<Sphere>, Materials<Torus>> s;' 'Material'
 short_error 'Scene<Shapes<Sphere>, Materials<Lambertian>> s; s.add(Mirror{});' \
+    "no matching (member )?function"
+short_error 'Scene<Shapes<Sphere>, Materials<Lambertian>> s; s.add(Torus{});' 'AnyLight'
+short_error 'Scene<Shapes<Sphere>, Materials<Lambertian>> s; s.add(PointLightT<double>{});' \
     "no matching (member )?function"
 short_error 'Scene<Shapes<Sphere>, Materials<Lambertian>> s; s.add(Quad{}, MaterialId{});' \
     "no matching (member )?function"

@@ -145,18 +145,18 @@ void largest_numbers() {
     CHECK(room[0].distance2 == doctest::Approx(12 * double(max) * double(max)));
 }
 
-/// order() tells where each point came from.
+/// point_ids() tells where each point came from.
 template <template <typename> typename Tree>
 void order_of_points() {
     for (const auto& set : point_sets<float>(1000, 1, 0)) {
         const Tree<float> tree{std::span<const Vec3>(set.points)};
         REQUIRE(tree.size() == 1000);
-        REQUIRE(tree.order().size() == 1000);
-        auto sorted = tree.order();
+        REQUIRE(tree.point_ids().size() == 1000);
+        auto sorted = tree.point_ids();
         std::sort(sorted.begin(), sorted.end());
         for (std::uint32_t i = 0; i < 1000; ++i) {
             REQUIRE(sorted[i] == i);
-            REQUIRE(point_of(tree, i) == set.points[tree.order()[i]]);
+            REQUIRE(point_of(tree, i) == set.points[tree.point_ids()[i]]);
         }
     }
 }
@@ -181,7 +181,7 @@ void values() {
     CHECK(count(copy) == 0);
     copy = moved;
     CHECK(count(copy) == found);
-    CHECK(copy.order() == moved.order());
+    CHECK(copy.point_ids() == moved.point_ids());
 }
 
 /// Searches on many threads find the same.

@@ -66,12 +66,14 @@ public:
     /// A tree over nothing.
     BvhT() = default;
 
-    /// Builds the tree.
-    /// \param boxes     As for build_bvh().
-    /// \param settings  As for build_bvh().
-    /// \throws As build_bvh().
+    /// Builds the tree: top down, each range split where that is cheapest for rays.
+    /// \param boxes     Any boxes, equal and flat ones too; below 2^31.
+    /// \param settings  Leaves and threads; the tree is the same for any number.
+    /// \throws std::invalid_argument  if a box is not finite, or there are too many.
+    /// \cost O(n log n); at most 68 bytes a box for the tree in float, and 36 more
+    ///       while it is built.
     explicit BvhT(std::span<const BoxT<T>> boxes, const BvhSettings& settings = {})
-        : tree_(build_bvh(boxes, settings)) {}
+        : tree_(detail::build_bvh(boxes, settings)) {}
 
     /// primitive_ids()[slot] is a primitive's number in the span that the tree was
     /// built from.
@@ -79,7 +81,7 @@ public:
         return tree_.primitive_ids;
     }
     /// The nodes, the root first.
-    [[nodiscard]] const std::vector<BvhNodeT<T>>& nodes() const noexcept {
+    [[nodiscard]] const std::vector<detail::BvhNodeT<T>>& nodes() const noexcept {
         return tree_.nodes;
     }
     /// A box around everything.
@@ -88,7 +90,7 @@ public:
     }
     /// The memory that the tree takes.
     [[nodiscard]] std::size_t bytes() const noexcept {
-        return tree_.nodes.capacity() * sizeof(BvhNodeT<T>) +
+        return tree_.nodes.capacity() * sizeof(detail::BvhNodeT<T>) +
                tree_.primitive_ids.capacity() * 4;
     }
 
@@ -129,21 +131,21 @@ private:
         const auto& nodes = tree_.nodes;
         if (nodes.empty() || !(is_finite(ray.origin) && is_finite(ray.direction)))
             return false;
-        const auto with_signs = box_ray(ray, nodes[0].box);
+        const auto with_signs = detail::box_ray(ray, nodes[0].box);
         if (!with_signs) return ask_all(test);
         const auto entry = [&](std::uint32_t i) {
-            return enter(*with_signs, nodes[i].box, ray.t_min, ray.t_max);
+            return detail::enter(*with_signs, nodes[i].box, ray.t_min, ray.t_max);
         };
         struct Later {
             std::uint32_t node;
             T t;
         };
-        std::array<Later, bvh_depth> later;
+        std::array<Later, detail::bvh_depth> later;
         std::size_t waiting = 0;
         if (!entry(0)) return false;
         for (std::uint32_t at = 0;;) {
             watch();
-            const BvhNodeT<T>& node = nodes[at];
+            const detail::BvhNodeT<T>& node = nodes[at];
             for (std::uint32_t i = 0; i < node.count; ++i)
                 if (test(node.first + i)) return true;
             if (node.count == 0) {
@@ -175,7 +177,7 @@ private:
         return false;
     }
 
-    BvhNodesT<T> tree_;
+    detail::BvhNodesT<T> tree_;
 };
 using Bvh = BvhT<float>; ///< BvhT in float.
 

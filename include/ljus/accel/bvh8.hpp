@@ -21,19 +21,19 @@ public:
     Bvh8() = default;
 
     /// Builds the tree.
-    /// \param boxes     As for build_bvh(), but below 2^27.
-    /// \param settings  As for build_bvh(); leaves of at most 16.
+    /// \param boxes     As for BvhT, but below 2^27.
+    /// \param settings  As for BvhT; leaves of at most 16.
     /// \param multiple  Leaves start at multiples of so many slots, with padding
     ///                  between them.
-    /// \throws As build_bvh().
+    /// \throws std::invalid_argument  as BvhT.
     template <typename Boxes>
     requires std::convertible_to<const Boxes&, std::span<const Box>>
     explicit Bvh8(const Boxes& boxes, const BvhSettings& settings = {},
                   std::uint32_t multiple = 1) {
         require(settings.leaf_size <= 16, "leaf_size",
                 static_cast<long long>(settings.leaf_size), "at most 16");
-        wide_ = detail::make_bvh8(build_bvh(std::span<const Box>(boxes), settings),
-                                  multiple);
+        wide_ = detail::make_bvh8(
+            detail::build_bvh(std::span<const Box>(boxes), settings), multiple);
     }
 
     /// A slot between leaves that nothing has.

@@ -22,7 +22,7 @@ namespace ljus {
 /// Each range knows its box, so that a search far from all photons ends at once.
 ///
 /// The tree keeps the positions; what belongs to them is the caller's, put into the
-/// tree's order with order(). Searches are const, take no memory, and may run on any
+/// tree's order by point_ids(). Searches are const, take no memory, and may run on any
 /// number of threads.
 template <std::floating_point T>
 class KdTreeT {
@@ -41,16 +41,16 @@ public:
                 static_cast<long long>(points.size()), "below 2^32");
         for (const Vec3T<T>& point : points) {
             require_finite("a point of the k-d tree", point);
-            order_.push_back(static_cast<std::uint32_t>(order_.size()));
+            point_ids_.push_back(static_cast<std::uint32_t>(point_ids_.size()));
         }
         if (!points.empty()) build(points, 0, 0, points.size());
-        for (const std::uint32_t index : order_) points_.push_back(points[index]);
+        for (const std::uint32_t index : point_ids_) points_.push_back(points[index]);
     }
 
-    /// Where the points came from: order()[i] is the number of the i-th point of the
-    /// tree in the span it was built from.
-    [[nodiscard]] const std::vector<std::uint32_t>& order() const noexcept {
-        return order_;
+    /// Where the points came from: the i-th point of the tree is number point_ids()[i]
+    /// of the span it was built from.
+    [[nodiscard]] const std::vector<std::uint32_t>& point_ids() const noexcept {
+        return point_ids_;
     }
     /// The points, in the tree's order.
     [[nodiscard]] const std::vector<Vec3T<T>>& points() const noexcept {
@@ -93,15 +93,17 @@ public:
     /// \param center  Of the ball.
     /// \param radius  As for visit_within().
     /// \param found   Room for as many as are wanted; filled as a heap, farthest first.
-    /// \param wanted  Called with a place in the tree's order; false passes it over.
+    /// \param wanted  Called with a place in the tree's order; false passes it over. As
+    ///                it is, any point will do.
     /// \return How many were found; of several that are equally far, any, but always
     ///         the same ones.
     /// \cost In the mean O(log n) and some steps a point that is wanted, also where
     ///       many points are equal; where few of those around are wanted, more.
     // [nearest]
-    template <typename Wanted>
+    template <typename Wanted = detail::AnyPoint>
     [[nodiscard]] std::size_t nearest(const Vec3T<T>& center, T radius,
-                                      std::span<Neighbor> found, Wanted wanted) const {
+                                      std::span<Neighbor> found,
+                                      Wanted wanted = {}) const {
         if (found.empty() || !(radius >= T(0))) return 0;
         Nearest best{.found = found, .limit2 = double(radius) * double(radius)};
         const auto offer = [&](std::uint32_t index, double distance2) {
@@ -123,31 +125,31 @@ private:
     // [build]
     void build(std::span<const Vec3T<T>> points, std::size_t node, std::size_t first,
                std::size_t last) {
-        Box box{points[order_[first]], points[order_[first]]};
+        Box box{points[point_ids_[first]], points[point_ids_[first]]};
         for (std::size_t i = first; i < last; ++i) {
-            box.low = glm::min(box.low, points[order_[i]]);
-            box.high = glm::max(box.high, points[order_[i]]);
+            box.low = glm::min(box.low, points[point_ids_[i]]);
+            box.high = glm::max(box.high, points[point_ids_[i]]);
         }
         if (boxes_.size() <= node) boxes_.resize(node + 1);
         boxes_[node] = box;
         if (last - first <= leaf_size) return;
 
         // The median goes to the middle; ties are split by the point's number.
-        const int axis = longest_axis(box.low, box.high);
+        const int axis = detail::longest_axis(box.low, box.high);
         const auto less = [&](std::uint32_t a, std::uint32_t b) {
             const T x = points[a][axis], y = points[b][axis];
             return x < y || (x == y && a < b);
         };
         const std::size_t middle = first + (last - first) / 2;
-        std::uint32_t* const order = order_.data();
-        std::nth_element(order + first, order + middle, order + last, less);
+        std::uint32_t* const ids = point_ids_.data();
+        std::nth_element(ids + first, ids + middle, ids + last, less);
         build(points, 2 * node + 1, first, middle);
         build(points, 2 * node + 2, middle, last);
     }
     // [build]
 
     double distance2_to(std::size_t node, const Vec3T<T>& center) const noexcept {
-        return box_distance2(boxes_[node].low, boxes_[node].high, center);
+        return detail::box_distance2(boxes_[node].low, boxes_[node].high, center);
     }
 
     // [walk]
@@ -175,7 +177,7 @@ private:
     // [walk]
 
     std::vector<Vec3T<T>> points_;
-    std::vector<std::uint32_t> order_;
+    std::vector<std::uint32_t> point_ids_;
     std::vector<Box> boxes_; // of range i; its halves are 2i + 1 and 2i + 2
 };
 using KdTree = KdTreeT<float>; ///< KdTreeT in float.

@@ -14,6 +14,8 @@ namespace ljus {
 /// \brief Section 3.2.2: the k-d tree that the photon maps use.
 /// \{
 
+namespace detail {
+
 /// Eight points of which a search has found some.
 template <std::floating_point T>
 struct FoundBlockT {
@@ -24,6 +26,8 @@ struct FoundBlockT {
     detail::LanesT<T> distance2; ///< Squared, in T; for those found, at most infinite.
 };
 
+} // namespace detail
+
 /// The twin of KdTreeT, with the same answers: a k-d tree \cite bentley1975 of tight
 /// boxes, eight to a node, over leaves of 16 to 32 points in lanes, without a single
 /// pointer.
@@ -33,8 +37,8 @@ struct FoundBlockT {
 /// detail::ReachT.
 ///
 /// The tree keeps the positions; what belongs to them is the caller's, put into the
-/// tree's order with order(), eight to a block. Searches are const, take no memory, and
-/// may run on any number of threads.
+/// tree's order by point_ids(), eight to a block. Searches are const, take no memory,
+/// and may run on any number of threads.
 template <std::floating_point T>
 class KdTree8T {
 public:
@@ -57,15 +61,15 @@ public:
         parts_.nodes.resize(parts_.shape.first[std::size_t(parts_.shape.levels)]);
         parts_.blocks.resize(parts_.shape.blocks);
         for (std::size_t i = 0; i < 8; ++i) parts_.blocks.back().set(i, Vec3T<T>{nan});
-        order_.resize(points.size());
-        detail::KdTree8Builder<T>(parts_.shape, parts_.nodes, parts_.blocks, order_)
+        point_ids_.resize(points.size());
+        detail::KdTree8Builder<T>(parts_.shape, parts_.nodes, parts_.blocks, point_ids_)
             .build(points, threads);
     }
 
-    /// Where the points came from: order()[i] is the number of the i-th point of the
-    /// tree in the span it was built from.
-    [[nodiscard]] const std::vector<std::uint32_t>& order() const noexcept {
-        return order_;
+    /// Where the points came from: the i-th point of the tree is number point_ids()[i]
+    /// of the span it was built from.
+    [[nodiscard]] const std::vector<std::uint32_t>& point_ids() const noexcept {
+        return point_ids_;
     }
 
     /// The points, in the tree's order, eight by eight.
@@ -80,12 +84,12 @@ public:
     }
 
     /// How many points there are.
-    [[nodiscard]] std::size_t size() const noexcept { return order_.size(); }
+    [[nodiscard]] std::size_t size() const noexcept { return point_ids_.size(); }
 
     /// How many bytes the tree takes, without its own few.
     [[nodiscard]] std::size_t bytes() const noexcept {
         return parts_.blocks.size() * sizeof(parts_.blocks[0]) +
-               order_.size() * sizeof(order_[0]) +
+               point_ids_.size() * sizeof(point_ids_[0]) +
                parts_.nodes.size() * sizeof(parts_.nodes[0]);
     }
 
@@ -105,7 +109,7 @@ public:
                                 detail::in_leaf(parts_, first, last, center, reach);
                             for (std::size_t b = first; found != 0; ++b, found >>= 8)
                                 if ((found & 255) != 0)
-                                    visit(FoundBlockT<T>{
+                                    visit(detail::FoundBlockT<T>{
                                         8 * b, found & 255, parts_.blocks[b],
                                         detail::distances2(parts_.blocks[b], center)});
                             return false;
@@ -165,7 +169,7 @@ public:
     ///         the same ones.
     /// \cost In the mean O(log n) and some steps a point that is wanted, also where
     ///       many points are equal; where few of those around are wanted, more.
-    template <typename Wanted = AnyPoint>
+    template <typename Wanted = detail::AnyPoint>
     [[nodiscard]] std::size_t nearest(const Vec3T<T>& center, T radius,
                                       std::span<Neighbor> found,
                                       Wanted wanted = {}) const {
@@ -174,7 +178,7 @@ public:
 
 private:
     detail::KdTree8PartsT<T> parts_;
-    std::vector<std::uint32_t> order_;
+    std::vector<std::uint32_t> point_ids_;
 };
 using KdTree8 = KdTree8T<float>; ///< KdTree8T in float.
 

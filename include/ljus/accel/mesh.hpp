@@ -40,7 +40,7 @@ public:
         area_up_to_.reserve(size());
         double area = 0;
         for (std::uint32_t i = 0; i < size(); ++i) {
-            area += double(glm::length(cross_of_edges(triangle(i)))) / 2;
+            area += double(glm::length(detail::cross_of_edges(triangle(i)))) / 2;
             area_up_to_.push_back(area);
         }
         const bool fits = static_cast<T>(area) > T(0) && std::isfinite(T(area));
@@ -59,7 +59,7 @@ public:
         sphere_.radius = T(0);
         for (const Vec3T<T>& p : data_.positions)
             sphere_.radius = glm::max(sphere_.radius, glm::distance(p, sphere_.center));
-        sphere_.radius += rounding_bound<T>(8) *
+        sphere_.radius += detail::rounding_bound<T>(8) *
                           (sphere_.radius + max_component(glm::abs(sphere_.center)));
         require_positive("the radius around the mesh", sphere_.radius);
     }
@@ -70,7 +70,7 @@ public:
     }
     /// A triangle: the `part` of a hit.
     [[nodiscard]] TriangleT<T> triangle(std::uint32_t part) const noexcept {
-        return triangle_of(data_, part);
+        return detail::triangle_of(data_, part);
     }
     /// The triangle at a slot of the tree: triangle(tree().primitive_ids()[slot]). The
     /// fast tree has it at hand, and a search need not wait for two more parts of
@@ -91,6 +91,14 @@ public:
     }
     /// A sphere around it.
     [[nodiscard]] const SphereT<T>& sphere() const noexcept { return sphere_; }
+    /// The memory that it takes: vertices, triangles, areas and tree.
+    [[nodiscard]] std::size_t bytes() const noexcept {
+        const auto of = [](const auto& list) {
+            return list.capacity() * sizeof(list[0]);
+        };
+        return of(data_.positions) + of(data_.normals) + of(data_.triangles) +
+               of(data_.uv) + of(area_up_to_) + tree_.bytes() + sizeof(*this);
+    }
 
 private:
     MeshDataT<T> data_;
@@ -232,16 +240,6 @@ template <std::floating_point T>
 template <std::floating_point T>
 void check(const MeshT<T>& mesh) {
     require(mesh.size() > 0, "the number of a mesh's triangles", 0LL, "at least 1");
-}
-
-/// The memory of a mesh: vertices, triangles, areas and tree.
-/// \return Bytes.
-template <std::floating_point T>
-[[nodiscard]] std::size_t bytes(const MeshT<T>& mesh) noexcept {
-    const auto of = [](const auto& list) { return list.capacity() * sizeof(list[0]); };
-    return of(mesh.data().positions) + of(mesh.data().normals) +
-           of(mesh.data().triangles) + of(mesh.data().uv) + of(mesh.area_up_to()) +
-           mesh.tree().bytes() + sizeof(mesh);
 }
 
 /// \}

@@ -27,6 +27,8 @@ struct MeshDataT {
 };
 using MeshData = MeshDataT<float>; ///< MeshDataT in float.
 
+namespace detail {
+
 /// A triangle of the data.
 /// \param data  The data.
 /// \param part  Which one.
@@ -37,6 +39,8 @@ template <std::floating_point T>
     return {data.positions[corner[0]], data.positions[corner[1]],
             data.positions[corner[2]]};
 }
+
+} // namespace detail
 
 /// Refuses data that no mesh can be made of.
 /// \param data  The data.
@@ -81,11 +85,11 @@ void check(const MeshDataT<T>& data) {
 ///              that has an area gets (0, 0, 0), which counts as no normal.
 /// \cost O(n).
 template <std::floating_point T>
-void smooth(MeshDataT<T>& data) {
+void smooth_normals(MeshDataT<T>& data) {
     using Wide = Vec3T<WideT<T>>;
     std::vector<Wide> sums(data.positions.size(), Wide{0});
     for (std::size_t i = 0; i < data.triangles.size(); ++i) {
-        const Wide across = cross_of_edges(triangle_of(data, i));
+        const Wide across = detail::cross_of_edges(detail::triangle_of(data, i));
         if (!(glm::dot(across, across) > 0)) continue;
         const Wide normal = glm::normalize(across);
         const auto& corner = data.triangles[i];

@@ -26,6 +26,8 @@ struct Neighbor {
     friend auto operator<=>(const Neighbor&, const Neighbor&) = default;
 };
 
+namespace detail {
+
 /// \f$ x^2 + y^2 + z^2 \f$, the same wherever it is asked for. Where the machine can
 /// fuse a product with a sum, a compiler does so in one place and not in another, and a
 /// point on the border of a ball would lie in it or not according to who asks: there
@@ -43,6 +45,8 @@ struct Neighbor {
 }
 // [sum of squares]
 
+} // namespace detail
+
 /// What decides whether a point lies within a ball: the squared distance in double,
 /// wherever it is asked for. Of floats no term under- or overflows.
 /// \param a  A point.
@@ -50,9 +54,11 @@ struct Neighbor {
 /// \return |a - b|^2, within three roundings.
 template <std::floating_point T>
 [[nodiscard]] double distance2(const Vec3T<T>& a, const Vec3T<T>& b) noexcept {
-    return sum_of_squares(double(a.x) - double(b.x), double(a.y) - double(b.y),
-                          double(a.z) - double(b.z));
+    return detail::sum_of_squares(double(a.x) - double(b.x), double(a.y) - double(b.y),
+                                  double(a.z) - double(b.z));
 }
+
+namespace detail {
 
 /// The squared distance from a point to a box, rounded as the distances of points are:
 /// no point of the box is nearer than that.
@@ -84,6 +90,8 @@ template <std::floating_point T>
     return size.y >= size.z ? 1 : 2;
 }
 
+} // namespace detail
+
 /// The nearest points of a search so far: a heap in the caller's memory, the farthest
 /// of them on top, at `found[0]`.
 struct Nearest {
@@ -112,11 +120,15 @@ struct Nearest {
     }
 };
 
+namespace detail {
+
 /// Every index: what a search passes that wants any point.
 struct AnyPoint {
     /// True.
     constexpr bool operator()(std::uint32_t) const noexcept { return true; }
 };
+
+} // namespace detail
 
 /// \}
 

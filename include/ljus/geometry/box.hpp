@@ -51,9 +51,10 @@ template <std::floating_point T>
 }
 template <std::floating_point T>
 [[nodiscard]] BoxT<T> bounds(const SphereT<T>& sphere) noexcept {
-    const Vec3T<T> size = rounding_bound<T>(3) * (sizes(sphere.center)) +
-                          (T(1) + rounding_bound<T>(3)) * Vec3T<T>{sphere.radius} +
-                          std::numeric_limits<T>::min();
+    const Vec3T<T> size =
+        detail::rounding_bound<T>(3) * (detail::sizes(sphere.center)) +
+        (T(1) + detail::rounding_bound<T>(3)) * Vec3T<T>{sphere.radius} +
+        std::numeric_limits<T>::min();
     return {sphere.center - size, sphere.center + size};
 }
 template <std::floating_point T>
@@ -61,13 +62,15 @@ template <std::floating_point T>
     BoxT<T> box{quad.corner, quad.corner};
     for (const Vec3T<T>& way : {quad.edge_u, quad.edge_v, quad.edge_u + quad.edge_v})
         box = box_union(box, quad.corner + way);
-    const Vec3T<T> size =
-        rounding_bound<T>(4) *
-            (sizes(quad.corner) + sizes(quad.edge_u) + sizes(quad.edge_v)) +
-        std::numeric_limits<T>::min();
+    const Vec3T<T> size = detail::rounding_bound<T>(4) *
+                              (detail::sizes(quad.corner) + detail::sizes(quad.edge_u) +
+                               detail::sizes(quad.edge_v)) +
+                          std::numeric_limits<T>::min();
     return {box.low - size, box.high + size};
 }
 /// \}
+
+namespace detail {
 
 /// A ray, made ready for many boxes.
 template <std::floating_point T>
@@ -139,6 +142,8 @@ template <std::floating_point T>
     return t_min;
 }
 // [enter]
+
+} // namespace detail
 
 /// \}
 

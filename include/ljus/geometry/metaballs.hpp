@@ -65,6 +65,8 @@ template <std::floating_point T>
     return sum;
 }
 
+namespace detail {
+
 /// A bound of the gradient's length everywhere: the Lipschitz constant of the field.
 /// \param balls  The metaballs.
 /// \return The sum of \f$ \frac{8}{3\sqrt 3} |w_i| / R_i \f$: a blob is steepest where
@@ -76,6 +78,8 @@ template <std::floating_point T>
         sum += std::abs(WideT<T>(blob.weight)) / WideT<T>(blob.radius);
     return sum * detail::steepest_blob<WideT<T>>;
 }
+
+} // namespace detail
 
 /// The distance at which a ray first meets metaballs, from outside or from within.
 ///

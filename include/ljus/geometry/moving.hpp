@@ -157,7 +157,7 @@ template <typename S>
     using T = ScalarOf<S>;
     const BoxT<T> first = bounds(moving.shape), last = bounds(at_time(moving, T(1)));
     const Vec3T<T> rounding =
-        rounding_bound<T>(4) *
+        detail::rounding_bound<T>(4) *
         (glm::max(glm::abs(first.low), glm::abs(first.high)) + glm::abs(moving.way));
     const BoxT<T> both = box_union(first, last);
     return BoxT<T>{both.low - rounding, both.high + rounding};

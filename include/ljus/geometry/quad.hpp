@@ -21,6 +21,8 @@ struct QuadT {
 };
 using Quad = QuadT<float>; ///< QuadT in float.
 
+namespace detail {
+
 /// \f$ E_1 \times E_2 \f$, in double, as for a triangle.
 /// \param quad  Any quad.
 /// \return A normal as long as the area.
@@ -36,6 +38,8 @@ template <std::floating_point T>
     const auto across = cross_of_edges(quad);
     return glm::dot(across, across) > 0;
 }
+
+} // namespace detail
 
 /// Where a ray meets a quad.
 /// \tparam Compute  The precision of the arithmetic; without a wish double, as for a
@@ -53,7 +57,7 @@ template <typename Compute = void, std::floating_point T>
         [](C u, C v, C border) {
             return u <= C(1) + border && v >= -border && v <= C(1) + border;
         });
-    if (hit && !has_area(quad)) return std::nullopt;
+    if (hit && !detail::has_area(quad)) return std::nullopt;
     return hit;
 }
 
@@ -62,7 +66,7 @@ template <typename Compute = void, std::floating_point T>
 /// \return Unit vector.
 template <std::floating_point T>
 [[nodiscard]] inline Vec3T<T> normal(const QuadT<T>& quad) noexcept {
-    return Vec3T<T>(glm::normalize(cross_of_edges(quad)));
+    return Vec3T<T>(glm::normalize(detail::cross_of_edges(quad)));
 }
 
 /// The area, in squared scene units.
@@ -70,7 +74,7 @@ template <std::floating_point T>
 /// \return At least 0.
 template <std::floating_point T>
 [[nodiscard]] inline T area(const QuadT<T>& quad) noexcept {
-    return static_cast<T>(glm::length(cross_of_edges(quad)));
+    return static_cast<T>(glm::length(detail::cross_of_edges(quad)));
 }
 
 /// The point of a quad at u, v.
@@ -84,7 +88,8 @@ template <std::floating_point T>
     const Vec3T<T> b = u * quad.edge_u;
     const Vec3T<T> c = v * quad.edge_v;
     return {.position = quad.corner + b + c,
-            .error = rounding_bound<T>(5) * (sizes(quad.corner) + sizes(b) + sizes(c)),
+            .error = detail::rounding_bound<T>(5) *
+                     (detail::sizes(quad.corner) + detail::sizes(b) + detail::sizes(c)),
             .normal = normal(quad)};
 }
 

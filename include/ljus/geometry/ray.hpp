@@ -52,13 +52,17 @@ template <std::floating_point T>
 ///     for (const Triangle& triangle : mesh) intersect<Test>(ray, triangle, prepared);
 /// \{
 
+namespace detail {
+
 /// A test that prepares nothing.
 struct Unprepared {};
+
+} // namespace detail
 
 /// What a test computes once for a ray and then uses for every shape: nothing, in
 /// general; prepare<Watertight>() is another.
 template <typename Test = void, std::floating_point T>
-[[nodiscard]] constexpr Unprepared prepare(const RayT<T>&) noexcept {
+[[nodiscard]] constexpr detail::Unprepared prepare(const RayT<T>&) noexcept {
     return {};
 }
 

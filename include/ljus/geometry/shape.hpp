@@ -3,12 +3,14 @@
 /// \file ljus/geometry/shape.hpp
 /// \brief What every shape can do, and the shapes of the house together.
 
+#include <array>
 #include <numbers>
 #include <string>
 
 #include "ljus/geometry/quad.hpp"
 #include "ljus/geometry/sphere.hpp"
 #include "ljus/geometry/triangle.hpp"
+#include "ljus/hook.hpp"
 #include "ljus/math/require.hpp"
 #include "ljus/math/sampling.hpp"
 
@@ -18,20 +20,14 @@ namespace ljus {
 /// \brief What a scene asks of a shape.
 ///
 /// A new shape needs what the concept Shape lists: intersect(), surface_point(),
-/// bounding_sphere() and check(). These it may have as well:
+/// bounding_sphere() and check(). What it may have as well, what that is for, and what
+/// happens without it:
 ///
-/// | what                                | what for              | without it         |
-/// |-------------------------------------|-----------------------|--------------------|
-/// | bounds(shape)                       | a tight box in a tree | its sphere's box   |
-/// | meets(ray, shape)                   | faster shadow rays    | intersect()        |
-/// | shading_normal(shape, hit, normal)  | smooth normals        | the geometric one  |
-/// | area(shape), sample_area(shape, u)  | being a light         | refused as a light |
-/// | sample_towards(), pdf_towards()     | a lamp's solid angle  | points of its area |
-/// | center_sample(shape)                | the centre of a lamp  | u = v = 1/2        |
-/// | texture_coordinates()               | images by (u, v)      | those of the hit   |
-/// | is_flat                             | photons aimed at area | at its sphere      |
-/// | translated(shape, by)               | Moving                | does not compile   |
-/// | patch_grid(shape, size), facet_of() | radiosity             | left out, and said |
+/// \snippet{lineno} ljus/geometry/shape.hpp shape hooks
+///
+/// The survey prints which of these each shape of a scene has. Two more are for
+/// radiosity alone, patch_grid(shape, size) and facet_of(): a shape without them is
+/// left out, and Patches::left_out says so.
 /// \{
 
 /// Where a ray meets any shape; a sphere has no use for u and v.
@@ -63,7 +59,8 @@ template <std::floating_point T>
     const Vec3T<T> n{glm::normalize(way)};
     const Vec3T<T> offset = sphere.radius * n;
     return {.position = sphere.center + offset,
-            .error = rounding_bound<T>(5) * (sizes(sphere.center) + sizes(offset)),
+            .error = detail::rounding_bound<T>(5) *
+                     (detail::sizes(sphere.center) + detail::sizes(offset)),
             .normal = n};
 }
 // [surface_point]
@@ -87,7 +84,8 @@ template <std::floating_point T>
                                            const Vec2T<T>& u) noexcept {
     const Vec3T<T> n = sample_uniform_sphere(u);
     return {.position = sphere.center + sphere.radius * n,
-            .error = rounding_bound<T>(5) * (sizes(sphere.center) + sphere.radius),
+            .error = detail::rounding_bound<T>(5) *
+                     (detail::sizes(sphere.center) + sphere.radius),
             .normal = n};
 }
 
@@ -146,7 +144,7 @@ using ScalarOf = decltype(bounding_sphere(std::declval<const S&>()).radius);
 
 /// What has bounds; asked first, so that the message for what is no shape is short.
 template <typename S>
-concept HasBounds = requires(const S& shape) {
+concept HasBounds = !detail::is_stand_in<S> && requires(const S& shape) {
     bounding_sphere(shape);
 };
 
@@ -198,6 +196,47 @@ requires(!HasArea<S>) [[nodiscard]] SurfacePointT<ScalarOf<S>> sample_area(
     const S&, const Vec2T<ScalarOf<S>>&) noexcept {
     return {};
 }
+
+namespace detail {
+
+/// The hooks of a type of shape.
+template <Shape S>
+[[nodiscard]] constexpr auto shape_hooks() noexcept {
+    using T = ScalarOf<S>;
+    using V = Vec3T<T>;
+    using H = FlatHitT<T>;
+    using P = SurfacePointT<T>;
+    using O = Own<S>;
+    // clang-format off
+    return std::array{
+        // [shape hooks]
+        Hook{"bounds", "a tight box in a tree", "its sphere's box",
+             requires(O s) { bounds(s); }},
+        Hook{"meets", "faster shadow rays", "intersect()",
+             requires(O s, RayT<T> ray) { meets<void>(ray, s); }},
+        Hook{"shading_normal", "smooth normals", "the geometric one",
+             requires(O s, H hit, V normal) { shading_normal(s, hit, normal); }},
+        Hook{"area", "being a light", "refused as a light",
+             requires(O s) { area(s); }},
+        Hook{"sample_area", "being a light", "refused as a light",
+             requires(O s, Vec2T<T> u) { sample_area(s, u); }},
+        Hook{"sample_towards", "a lamp's solid angle", "points of its area",
+             requires(O s, V from, Vec2T<T> u) { sample_towards(s, from, u); }},
+        Hook{"pdf_towards", "a lamp's solid angle", "points of its area",
+             requires(O s, V from, P point) { pdf_towards(s, from, point); }},
+        Hook{"center_sample", "the centre of a lamp", "u = v = 1/2",
+             requires(O s) { center_sample(s); }},
+        Hook{"texture_coordinates", "images by (u, v)", "those of the hit",
+             requires(O s, H hit, P point) { texture_coordinates(s, hit, point); }},
+        Hook{"translated", "Moving", "does not compile",
+             requires(O s, V by) { translated(s, by); }},
+        Hook{"is_flat", "photons aimed at its area", "at its sphere", is_flat<S>},
+        // [shape hooks]
+    };
+// clang-format on
+}
+
+} // namespace detail
 
 /// \}
 

@@ -149,6 +149,22 @@ template <std::floating_point T>
     return pdf_uniform_cone(detail::cone_towards(sphere, from).one_minus_cos);
 }
 
+/// \name The centre of a lamp
+/// \{
+
+/// The point of the unit square whose sample, by sample_towards(), stands for the whole
+/// lamp: of a sphere the point that is nearest to the observer, of a quad its middle.
+/// \return The point.
+template <Shape Lamp>
+[[nodiscard]] auto center_sample(const Lamp&) noexcept {
+    return Vec2T<ScalarOf<Lamp>>{ScalarOf<Lamp>(0.5)};
+}
+template <std::floating_point T>
+[[nodiscard]] constexpr Vec2T<T> center_sample(const SphereT<T>&) noexcept {
+    return Vec2T<T>{T(0)};
+}
+/// \}
+
 /// \}
 
 } // namespace ljus

@@ -23,6 +23,8 @@ struct SurfacePointT {
 };
 using SurfacePoint = SurfacePointT<float>; ///< SurfacePointT in float.
 
+namespace detail {
+
 /// The relative error of n roundings in a row, n u / (1 - n u).
 /// \tparam T  The precision; u is its unit roundoff.
 /// \param n   How many roundings, at least 0.
@@ -32,6 +34,8 @@ template <std::floating_point T>
     const T nu = T(n) * std::numeric_limits<T>::epsilon() / T(2);
     return nu / (T(1) - nu);
 }
+
+} // namespace detail
 
 /// The origin of a ray that leaves a surface: safely on the side the direction points
 /// to, and no farther from the surface than its rounding asks for.
@@ -51,10 +55,11 @@ template <std::floating_point T>
 [[nodiscard]] Vec3T<T> offset_ray_origin(const SurfacePointT<T>& point,
                                          const Vec3T<T>& direction) noexcept {
     const Vec3T<T>& n = point.normal;
-    const T scale = max_component(sizes(point.position) + point.error);
+    const T scale = max_component(detail::sizes(point.position) + point.error);
     const T last_place = glm::max(scale * std::numeric_limits<T>::epsilon(),
                                   std::numeric_limits<T>::min());
-    const T distance = T(2) * glm::dot(sizes(n), point.error) + T(4) * last_place;
+    const T distance =
+        T(2) * glm::dot(detail::sizes(n), point.error) + T(4) * last_place;
     return point.position + std::copysign(distance, glm::dot(direction, n)) * n;
 }
 // [offset_ray_origin]
@@ -87,7 +92,7 @@ template <std::floating_point T>
                                    const SurfacePointT<T>& to, T time = T(0)) noexcept {
     const Vec3T<T> way = to.position - from.position;
     SurfacePointT<T> seen = to;
-    seen.error += rounding_bound<T>(8) * max_component(sizes(way));
+    seen.error += detail::rounding_bound<T>(8) * max_component(detail::sizes(way));
     const Vec3T<T> origin = offset_ray_origin(from, way);
     return {.origin = origin,
             .direction = offset_ray_origin(seen, -way) - origin,

@@ -38,6 +38,8 @@ struct FlatHitT {
     std::uint32_t part = 0; ///< Which triangle of a mesh; 0 for other shapes.
 };
 
+namespace detail {
+
 /// How far the rounding of moller_trumbore() may move u, v and u + v.
 ///
 /// Their numerators are sums of products with at most 8 roundings on the way, none
@@ -62,6 +64,8 @@ template <std::floating_point C>
     return border <= C(1) / C(128) ? border : C(0);
 }
 // [border]
+
+} // namespace detail
 
 /// Solves \f$ O + tD = V_1 + uE_1 + vE_2 \f$ by Cramer's rule.
 ///
@@ -107,7 +111,7 @@ moller_trumbore(const RayT<T>& ray, const Vec3T<ComputeT<Compute, T>>& v1,
 
     const Vec3T<C> q = glm::cross(to, e1);
     const C v = glm::dot(q, d) * inverse;
-    const C border = closed ? border_of_rounding(d, to, e1, e2, inverse) : C(0);
+    const C border = closed ? detail::border_of_rounding(d, to, e1, e2, inverse) : C(0);
     // Written so that NaN is a miss.
     const bool hit = u >= -border && inside(u, v, border);
     if (!(hit && inverse != C(0))) return std::nullopt;
@@ -120,6 +124,8 @@ moller_trumbore(const RayT<T>& ray, const Vec3T<ComputeT<Compute, T>>& v1,
                        static_cast<T>(glm::max(v, C(0))), 0};
 }
 // [moller_trumbore]
+
+namespace detail {
 
 /// \f$ E_1 \times E_2 \f$, in double: in float the normal of a thin triangle is off,
 /// and its length, the fourth power of a size on the way, leaves the range beyond 1e9.
@@ -141,6 +147,8 @@ template <std::floating_point T>
     return glm::dot(across, across) > 0;
 }
 
+} // namespace detail
+
 /// Where a ray meets a triangle.
 /// \tparam Compute  The precision of the arithmetic. Without a wish it is double, in
 ///                  which no ray slips between two neighbours; intersect<float>() is
@@ -159,7 +167,7 @@ intersect(const RayT<T>& ray, const TriangleT<T>& triangle) noexcept {
         ray, v1, Vec3T<C>{triangle.v2} - v1, Vec3T<C>{triangle.v3} - v1,
         [](C u, C v, C border) { return v >= -border && u + v <= C(1) + border; });
     // Rounded, corners on a line may span a triangle.
-    if (hit && !has_area(triangle)) return std::nullopt;
+    if (hit && !detail::has_area(triangle)) return std::nullopt;
     return hit;
 }
 /// The unit normal: of the side from which the vertices turn counter-clockwise.
@@ -167,7 +175,7 @@ intersect(const RayT<T>& ray, const TriangleT<T>& triangle) noexcept {
 /// \return Unit vector.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> normal(const TriangleT<T>& triangle) noexcept {
-    return Vec3T<T>(glm::normalize(cross_of_edges(triangle)));
+    return Vec3T<T>(glm::normalize(detail::cross_of_edges(triangle)));
 }
 
 /// The area, in squared scene units.
@@ -175,7 +183,7 @@ template <std::floating_point T>
 /// \return At least 0.
 template <std::floating_point T>
 [[nodiscard]] T area(const TriangleT<T>& triangle) noexcept {
-    return static_cast<T>(glm::length(cross_of_edges(triangle)) / 2);
+    return static_cast<T>(glm::length(detail::cross_of_edges(triangle)) / 2);
 }
 
 /// The point of a triangle with the barycentric coordinates u, v, from the vertices:
@@ -191,7 +199,8 @@ template <std::floating_point T>
     const Vec3T<T> b = u * triangle.v2;
     const Vec3T<T> c = v * triangle.v3;
     return {.position = a + b + c,
-            .error = rounding_bound<T>(7) * (sizes(a) + sizes(b) + sizes(c)),
+            .error = detail::rounding_bound<T>(7) *
+                     (detail::sizes(a) + detail::sizes(b) + detail::sizes(c)),
             .normal = normal(triangle)};
 }
 

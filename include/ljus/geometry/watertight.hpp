@@ -21,6 +21,8 @@ namespace ljus {
 /// has no neighbours, is then met as always, and a quad in double.
 struct Watertight {};
 
+namespace detail {
+
 /// Which axis a ray mostly follows, and how the other two lean. The same for all
 /// triangles.
 template <std::floating_point T>
@@ -33,14 +35,16 @@ struct ShearT {
     double sz = 1; ///< \f$ 1 / D_z \f$; beyond the range of T for a denormal direction.
 };
 
+} // namespace detail
+
 /// The shear that turns a ray into the z axis.
 /// \tparam Test  Watertight.
 /// \param ray    A ray. A direction of zero, NaN or infinity gives NaN or an sz of 0,
 ///               and no hit.
 /// \return Axes and factors.
 template <std::same_as<Watertight> Test, std::floating_point T>
-[[nodiscard]] ShearT<T> prepare(const RayT<T>& ray) noexcept {
-    const Vec3T<T> size = sizes(ray.direction);
+[[nodiscard]] detail::ShearT<T> prepare(const RayT<T>& ray) noexcept {
+    const Vec3T<T> size = detail::sizes(ray.direction);
     const int z = size.x > size.y ? (size.x > size.z ? 0 : 2) : size.y > size.z ? 1 : 2;
     const int x = z == 2 ? 0 : z + 1, y = x == 2 ? 0 : x + 1;
     const T* const d = &ray.direction.x;
@@ -71,9 +75,9 @@ template <std::same_as<Watertight> Test, std::floating_point T>
 /// \report{Section 3.1.5}
 // [intersect]
 template <std::same_as<Watertight> Test, std::floating_point T>
-[[nodiscard]] std::optional<FlatHitT<T>> intersect(const RayT<T>& ray,
-                                                   const TriangleT<T>& triangle,
-                                                   const ShearT<T>& shear) noexcept {
+[[nodiscard]] std::optional<FlatHitT<T>>
+intersect(const RayT<T>& ray, const TriangleT<T>& triangle,
+          const detail::ShearT<T>& shear) noexcept {
     // Wide enough for the product of two Ts.
     using W = std::conditional_t<std::is_same_v<T, float>, double, long double>;
     const T* const o = &ray.origin.x;
@@ -106,7 +110,7 @@ template <std::same_as<Watertight> Test, std::floating_point T>
     if (!(W(ray.t_min) <= t && t <= W(ray.t_max) && t <= max && shear.sz != 0))
         return std::nullopt;
     // Sheared and rounded, corners on a line may span a triangle.
-    if (!has_area(triangle)) return std::nullopt;
+    if (!detail::has_area(triangle)) return std::nullopt;
     return FlatHitT<T>{static_cast<T>(t), static_cast<T>(u * inverse),
                        static_cast<T>(v * inverse), 0};
 }

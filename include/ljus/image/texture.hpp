@@ -19,9 +19,10 @@ namespace ljus {
 /// \brief A map from the place to (u, v), and a colour for (u, v).
 ///
 /// A texture is anything with a `color_at(texture, place, uv)` and a `check(texture)`;
-/// a map is anything with a `coordinates(map, place, uv)` and a `check(map)`. `uv` are
-/// the coordinates of the place on its own shape, see texture_coordinates(); a texture
-/// gets them only if it says `static constexpr bool uses_uv = true`, and else (0, 0).
+/// a map is anything with a `map_coordinates(map, place, uv)` and a `check(map)`. `uv`
+/// are the coordinates of the place on its own shape, see texture_coordinates(); a
+/// texture gets them only if it says `static constexpr bool uses_uv = true`, and else
+/// (0, 0).
 /// Both kinds here repeat: (u, v) and (u + 1, v) look the same.
 /// \{
 
@@ -60,8 +61,8 @@ concept UsesUv = M::uses_uv;
 /// \param place  In scene units.
 /// \return (u, v), in repetitions.
 template <std::floating_point T>
-[[nodiscard]] Vec2T<T> coordinates(const PlaneMapT<T>& map, const Vec3T<T>& place,
-                                   const Vec2T<T>& = Vec2T<T>{T(0)}) noexcept {
+[[nodiscard]] Vec2T<T> map_coordinates(const PlaneMapT<T>& map, const Vec3T<T>& place,
+                                       const Vec2T<T>& = Vec2T<T>{T(0)}) noexcept {
     const Vec3T<T> from = place - map.origin;
     return {glm::dot(from, map.edge_u) / glm::dot(map.edge_u, map.edge_u),
             glm::dot(from, map.edge_v) / glm::dot(map.edge_v, map.edge_v)};
@@ -73,8 +74,8 @@ template <std::floating_point T>
 /// \return (u, v) in [0, 1].
 /// \cost Two arc tangents.
 template <std::floating_point T>
-[[nodiscard]] Vec2T<T> coordinates(const GlobeMapT<T>& map, const Vec3T<T>& place,
-                                   const Vec2T<T>& = Vec2T<T>{T(0)}) noexcept {
+[[nodiscard]] Vec2T<T> map_coordinates(const GlobeMapT<T>& map, const Vec3T<T>& place,
+                                       const Vec2T<T>& = Vec2T<T>{T(0)}) noexcept {
     const Vec3T<T> d = place - map.center;
     const T u = std::atan2(-d.z, d.x) * (std::numbers::inv_pi_v<T> / T(2));
     const T v = std::atan2(d.y, std::hypot(d.x, d.z)) * std::numbers::inv_pi_v<T>;
@@ -86,8 +87,8 @@ template <std::floating_point T>
 /// \param uv   Of texture_coordinates().
 /// \return (u, v), in repetitions.
 template <std::floating_point T>
-[[nodiscard]] Vec2T<T> coordinates(const UvMapT<T>& map, const Vec3T<T>& /*place*/,
-                                   const Vec2T<T>& uv) noexcept {
+[[nodiscard]] Vec2T<T> map_coordinates(const UvMapT<T>& map, const Vec3T<T>& /*place*/,
+                                       const Vec2T<T>& uv) noexcept {
     return map.scale * uv;
 }
 
@@ -144,7 +145,7 @@ using GlobeChecker = CheckerT<float, GlobeMapT<float>>; ///< On a globe, in floa
 template <std::floating_point T, typename Map>
 [[nodiscard]] RgbT<T> color_at(const CheckerT<T, Map>& checker, const Vec3T<T>& place,
                                const Vec2T<T>& uv = Vec2T<T>{T(0)}) noexcept {
-    const Vec2T<T> at = coordinates(checker.map, place, uv);
+    const Vec2T<T> at = map_coordinates(checker.map, place, uv);
     const T field =
         std::floor(at.x * T(checker.columns)) + std::floor(at.y * T(checker.rows));
     return std::abs(std::fmod(field, T(2))) < T(0.5) ? checker.even : checker.odd;
@@ -188,7 +189,7 @@ template <std::floating_point T, typename Map>
                                const Vec3T<T>& place,
                                const Vec2T<T>& uv = Vec2T<T>{T(0)}) noexcept {
     const ImageT<T>& image = texture.image;
-    const Vec2T<T> at = coordinates(texture.map, place, uv);
+    const Vec2T<T> at = map_coordinates(texture.map, place, uv);
     // Below 1 even after rounding, and 0 for what is no number.
     const auto repeat = [](T x) {
         const T rest = x - std::floor(x);

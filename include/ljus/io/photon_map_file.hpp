@@ -28,12 +28,12 @@ template <std::floating_point T>
     std::vector<PhotonT<T>> photons(map.records.size());
     for (std::size_t i = 0; i < photons.size(); ++i) {
         const PhotonRecordT<T> record = map.records[i];
-        photons[map.tree.order()[i]] = {.position = map.tree.point(i),
-                                        .direction = record.direction,
-                                        .flux = record.flux,
-                                        .light = record.light,
-                                        .kind = record.kind,
-                                        .normal = record.normal};
+        photons[map.tree.point_ids()[i]] = {.position = map.tree.point(i),
+                                            .direction = record.direction,
+                                            .flux = record.flux,
+                                            .light = record.light,
+                                            .kind = record.kind,
+                                            .normal = record.normal};
     }
     return photons;
 }

@@ -68,8 +68,8 @@ template <std::floating_point T, typename F>
 
 /// The BRDF: what one reflection returns, and what all others do.
 /// \param gloss  The surface.
-/// \param wo     Towards where the light goes.
-/// \param wi     Towards where it comes from.
+/// \param wo     Unit vector in the surface's frame, to where the light goes.
+/// \param wi     Unit vector in the surface's frame, to where it comes from.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
 /// \cost evaluate() of the gloss, and lost_at() twice.
 /// \cite kulla2017
@@ -91,7 +91,7 @@ namespace detail {
 
 /// How often sample() takes the first reflection: as much as it carries of the light.
 /// \param gloss  The surface.
-/// \param wo     Towards where the light goes.
+/// \param wo     Unit vector in the surface's frame, to where the light goes.
 /// \return In [0, 1]; 1 where nothing is lost.
 template <std::floating_point T, typename F>
 [[nodiscard]] T chance_of_first(const CompensatedGlossyT<T, F>& gloss,
@@ -107,8 +107,8 @@ template <std::floating_point T, typename F>
 
 /// The density of sample().
 /// \param gloss  The surface.
-/// \param wo     Towards where the light goes.
-/// \param wi     Towards where it comes from.
+/// \param wo     Unit vector in the surface's frame, to where the light goes.
+/// \param wi     Unit vector in the surface's frame, to where it comes from.
 /// \param which  The parts to sample from.
 /// \return Per steradian on the side of `wo`; 0 elsewhere.
 template <std::floating_point T, typename F>
@@ -125,7 +125,7 @@ template <std::floating_point T, typename F>
 
 /// The mirror direction of a facet that is seen, or a direction as light is lost.
 /// \param gloss  The surface.
-/// \param wo     Towards where the light goes.
+/// \param wo     Unit vector in the surface's frame, to where the light goes.
 /// \param u      Point of [0,1)^3; z chooses between the two.
 /// \param transport  Radiance or flux: the same.
 /// \param which  The parts to sample from.

@@ -65,8 +65,9 @@ inline constexpr T eon_mean_loss = fon_constant<T> -
 /// losses all have the factor A r, which is taken out: nothing is divided by a
 /// roughness of 0.
 /// \param surface  The surface.
-/// \param wo       Towards where the light goes.
-/// \param wi       Towards where it comes from, on the same side.
+/// \param wo       Unit vector in the surface's frame, to where the light goes.
+/// \param wi       Unit vector in the surface's frame, to where it comes from, on the
+///                 same side.
 /// \return At least 0.
 /// \cost Two arc tangents, four square roots, eight divisions.
 /// \cite eon2025
@@ -95,8 +96,8 @@ template <std::floating_point T>
 
 /// The BRDF.
 /// \param surface  The surface.
-/// \param wo       Towards where the light goes.
-/// \param wi       Towards where it comes from.
+/// \param wo       Unit vector in the surface's frame, to where the light goes.
+/// \param wi       Unit vector in the surface's frame, to where it comes from.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> evaluate(const EonT<T>& surface, const Vec3T<T>& wo,
@@ -107,8 +108,8 @@ template <std::floating_point T>
 
 /// The density of sample().
 /// \param surface  The surface.
-/// \param wo       Towards where the light goes.
-/// \param wi       Towards where it comes from.
+/// \param wo       Unit vector in the surface's frame, to where the light goes.
+/// \param wi       Unit vector in the surface's frame, to where it comes from.
 /// \param which    The parts to sample from.
 /// \return Per steradian on the side of `wo`; 0 elsewhere, and 0 without
 ///         Lobes::diffuse.
@@ -122,7 +123,7 @@ template <std::floating_point T>
 
 /// A direction of about the density of f cos.
 /// \param surface  The surface.
-/// \param wo       Towards where the light goes.
+/// \param wo       Unit vector in the surface's frame, to where the light goes.
 /// \param u        Point of [0,1)^3; z chooses the lobe or a uniform direction.
 /// \param which    The parts to sample from.
 /// \return The sample; nothing if `wo` lies on the surface, if the albedo is black, or

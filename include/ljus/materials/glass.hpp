@@ -47,7 +47,8 @@ struct GlassBoundaryT {
 
 /// The boundary, met along a direction.
 /// \param glass      The glass.
-/// \param wo         Towards where the light goes; z < 0 is inside.
+/// \param wo         Unit vector in the surface's frame, to where the light goes; z < 0
+///                   is inside.
 /// \param transport  Radiance from index n_t is scaled by (n_i/n_t)^2; flux is not.
 /// \return The two ways.
 /// \cost Three square roots, three divisions; F is not evaluated in total reflection.
@@ -72,7 +73,8 @@ template <std::floating_point T>
 /// is chosen as often as it carries light, so that both have the weight 1; radiance
 /// that comes from index n_t is then scaled by (n_i/n_t)^2.
 /// \param glass      The glass.
-/// \param wo         Towards where the light goes; z < 0 is inside.
+/// \param wo         Unit vector in the surface's frame, to where the light goes; z < 0
+///                   is inside.
 /// \param u          Point of [0,1)^3; z chooses the branch.
 /// \param transport  Radiance or flux.
 /// \param which      The parts to sample from.
@@ -94,7 +96,8 @@ sample(const GlassT<T>& glass, const Vec3T<T>& wo, const Vec3T<T>& u,
 /// Both branches, each with its share: for a path that goes both ways. What sample()
 /// makes noise of, a lamp mirrored in a ball, is then the same in each path.
 /// \param glass      The glass.
-/// \param wo         Towards where the light goes; z < 0 is inside.
+/// \param wo         Unit vector in the surface's frame, to where the light goes; z < 0
+///                   is inside.
 /// \param transport  Radiance or flux.
 /// \return The reflected and the refracted sample; nothing if there is only one.
 template <std::floating_point T>
@@ -193,7 +196,7 @@ template <std::floating_point T>
 
 /// What goes straight on through a pane. A material with this function is a thin sheet.
 /// \param pane  The pane.
-/// \param wo    Towards where the light goes.
+/// \param wo    Unit vector in the surface's frame, to where the light goes.
 /// \return PaneSharesT::transmitted.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> pass_through(const ThinGlassT<T>& pane,
@@ -205,7 +208,7 @@ template <std::floating_point T>
 /// The mirror direction, with PaneSharesT::reflected as weight. What goes straight on
 /// is not sampled.
 /// \param pane   The pane.
-/// \param wo     Towards where the light goes.
+/// \param wo     Unit vector in the surface's frame, to where the light goes.
 /// \param which  The parts to sample from.
 /// \return The sample; nothing if `wo` lies on the surface or without Lobes::specular.
 /// \cost pane_shares().

@@ -74,8 +74,8 @@ template <std::floating_point T, typename F>
 ///
 /// with ggx_distribution() and ggx_lambda().
 /// \param gloss  The surface.
-/// \param wo     Towards where the light goes.
-/// \param wi     Towards where it comes from.
+/// \param wo     Unit vector in the surface's frame, to where the light goes.
+/// \param wi     Unit vector in the surface's frame, to where it comes from.
 /// \return f in 1/sr, without the cosine; 0 on different sides, and where both graze so
 ///         that f is beyond the largest T.
 /// \cost Three square roots, one division for each cosine.
@@ -101,8 +101,8 @@ template <std::floating_point T, typename F>
 
 /// The density of sample().
 /// \param gloss  The surface.
-/// \param wo     Towards where the light goes.
-/// \param wi     Towards where it comes from.
+/// \param wo     Unit vector in the surface's frame, to where the light goes.
+/// \param wi     Unit vector in the surface's frame, to where it comes from.
 /// \param which  The parts to sample from.
 /// \return \f$ G_1 D / 4 w_{o,z} = D / 2 (w_{o,z} + r(w_o)) \f$ per steradian on the
 ///         side of `wo`; 0 elsewhere. Its integral is below 1: what is missing are
@@ -122,7 +122,7 @@ template <std::floating_point T, typename F>
 /// A facet that is seen from `wo`, and the mirror direction of it. The weight is
 /// \f$ F\, G_2 / G_1 \f$, at most F.
 /// \param gloss  The surface.
-/// \param wo     Towards where the light goes.
+/// \param wo     Unit vector in the surface's frame, to where the light goes.
 /// \param u      Point of [0,1)^3; z is not used.
 /// \param which  The parts to sample from.
 /// \return The sample; nothing if `wo` lies on the surface, if the direction would lead

@@ -34,8 +34,8 @@ template <std::floating_point T>
 /// The BRDF: f = albedo/pi, so that the light that comes back, the integral of f cos
 /// over the hemisphere, is the albedo.
 /// \param surface  The surface.
-/// \param wo       Towards where the light goes.
-/// \param wi       Towards where it comes from.
+/// \param wo       Unit vector in the surface's frame, to where the light goes.
+/// \param wi       Unit vector in the surface's frame, to where it comes from.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
 /// \report{Section 3.2.1}
 // [lambertian]
@@ -58,7 +58,7 @@ template <std::floating_point T>
 
 /// A direction with density cos/pi: the weight f cos/pdf is then the albedo alone.
 /// \param surface  The surface.
-/// \param wo       Towards where the light goes.
+/// \param wo       Unit vector in the surface's frame, to where the light goes.
 /// \param u        Point of [0,1)^3; z is not used.
 /// \param which    The parts to sample from.
 /// \return The sample; nothing if `wo` lies on the surface, if the albedo is black, or

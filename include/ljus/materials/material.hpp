@@ -3,11 +3,13 @@
 /// \file ljus/materials/material.hpp
 /// \brief What a material is: six functions, and the sample that one of them returns.
 
+#include <array>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <optional>
 
+#include "ljus/hook.hpp"
 #include "ljus/math/vector.hpp"
 
 namespace ljus {
@@ -27,19 +29,13 @@ namespace ljus {
 ///     void  check(m);                   // throws, and names what is wrong
 ///
 /// The `which` of pdf() and sample() are the lobes to choose from, all unless told
-/// otherwise. These a material may have as well:
+/// otherwise. What a material may have as well, what that is for, and what happens
+/// without it:
 ///
-/// | what                          | what for                 | without it        |
-/// |-------------------------------|--------------------------|-------------------|
-/// | absorption(m)                 | a medium inside          | clear             |
-/// | emission(m)                   | its own light            | black             |
-/// | at_point(m, position, uv)     | another colour per place | the same anywhere |
-/// | uses_uv                       | at_point() with uv       | uv is 0           |
-/// | both_ways(m, wo, transport)   | a path that splits       | one way by chance |
-/// | pass_through(m, position, wo) | a ThinSurface            | opaque            |
-/// | only_specular                 | no evaluate(), no pdf()  | write both        |
-/// | diffuse_albedo(m)             | radiosity                | black there       |
+/// \snippet{lineno} ljus/materials/material.hpp material hooks
 ///
+/// The survey prints which of these each material of a scene has. One more is asked for
+/// by radiosity alone, diffuse_albedo(m): a material without it is black there.
 /// \{
 
 /// The lobes of a material, as a set. A lobe is *specular* if it sends a ray into one
@@ -198,6 +194,38 @@ template <std::floating_point T>
     // Not a.z * b.z > 0, which underflows.
     return (a.z > T(0) && b.z > T(0)) || (a.z < T(0) && b.z < T(0));
 }
+
+namespace detail {
+
+/// The hooks of a type of material.
+template <Material M>
+[[nodiscard]] constexpr auto material_hooks() noexcept {
+    using V = Vec3T<typename M::Scalar>;
+    using Uv = Vec2T<typename M::Scalar>;
+    using O = Own<M>;
+    // clang-format off
+    return std::array{
+        // [material hooks]
+        Hook{"absorption", "a medium inside", "clear",
+             requires(O m) { absorption(m); }},
+        Hook{"emission", "its own light", "black",
+             requires(O m) { emission(m); }},
+        Hook{"at_point", "another colour per place", "the same anywhere",
+             requires(O m, V position, Uv uv) { at_point(m, position, uv); }},
+        Hook{"uses_uv", "at_point() with uv", "uv is 0",
+             requires { M::uses_uv; }},
+        Hook{"both_ways", "a path that splits", "one way by chance",
+             requires(O m, V wo, Transport way) { both_ways(m, wo, way); }},
+        Hook{"pass_through", "light that goes straight on", "opaque",
+             requires(O m, V position, V wo) { pass_through(m, position, wo); }},
+        Hook{"only_specular", "no evaluate(), no pdf()", "write both",
+             requires { M::only_specular; }},
+        // [material hooks]
+    };
+// clang-format on
+}
+
+} // namespace detail
 
 /// \}
 

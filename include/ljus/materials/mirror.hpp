@@ -28,7 +28,7 @@ using Mirror = MirrorT<float>; ///< MirrorT in float.
 
 /// The mirror direction. The weight is the reflectance: delta and cosine cancel.
 /// \param mirror  The mirror.
-/// \param wo      Towards where the light goes.
+/// \param wo      Unit vector in the surface's frame, to where the light goes.
 /// \param which   The parts to sample from.
 /// \return The sample; nothing if `wo` lies on the surface, if the mirror is black, or
 ///         without Lobes::specular.
@@ -72,7 +72,7 @@ using Metal = MetalT<float>; ///< MetalT in float.
 
 /// The mirror direction, with the reflectance of its angle as weight.
 /// \param metal  The metal.
-/// \param wo     Towards where the light goes.
+/// \param wo     Unit vector in the surface's frame, to where the light goes.
 /// \param which  The parts to sample from.
 /// \return The sample; nothing if `wo` lies on the surface or without Lobes::specular.
 /// \cost Three times fresnel_conductor().

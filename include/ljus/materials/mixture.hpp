@@ -90,7 +90,7 @@ struct MixtureSharesT {
 
 /// The shares by which sample() chooses.
 /// \param mixture  The material.
-/// \param wo       Towards where the light goes.
+/// \param wo       Unit vector in the surface's frame, to where the light goes.
 /// \param which    The parts that count; the others get 0.
 template <std::floating_point T>
 [[nodiscard]] MixtureSharesT<T>
@@ -109,8 +109,8 @@ mixture_shares(const MixtureT<T>& mixture, const Vec3T<T>& wo, Lobes which) noex
 /// The matt part's f: light passes the boundary twice, so that 1 - F stands there
 /// twice, and the roles of the directions can be exchanged.
 /// \param mixture  The material.
-/// \param wo       Towards where the light goes.
-/// \param wi       Towards where it comes from.
+/// \param wo       Unit vector in the surface's frame, to where the light goes.
+/// \param wi       Unit vector in the surface's frame, to where it comes from.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
 /// \report{Section 3.2.1}
 // [mixture]
@@ -129,8 +129,8 @@ template <std::floating_point T>
 
 /// The density of sample().
 /// \param mixture  The material.
-/// \param wo       Towards where the light goes.
-/// \param wi       Towards where it comes from.
+/// \param wo       Unit vector in the surface's frame, to where the light goes.
+/// \param wi       Unit vector in the surface's frame, to where it comes from.
 /// \param which    The parts to sample from.
 /// \return |cos(theta)|/pi per steradian times the probability that the matt part is
 ///         chosen, on the side of `wo`; 0 elsewhere.
@@ -146,7 +146,8 @@ template <std::floating_point T>
 /// it carries. Its weight is then the sum of the shares, for the matt part times the
 /// colour over its brightest channel, 1 - F on the way out, and Oren and Nayar's ratio.
 /// \param mixture    The material.
-/// \param wo         Towards where the light goes; z < 0 is inside a transparent body.
+/// \param wo         Unit vector in the surface's frame, to where the light goes; z < 0
+///                   is inside a transparent body.
 /// \param u          Point of [0,1)^3; z chooses the part.
 /// \param transport  Radiance from index n_t is scaled by (n_i/n_t)^2; flux is not.
 /// \param which      The parts to sample from.

@@ -47,8 +47,9 @@ namespace detail {
 /// product of the sines and the cosine of the azimuths is x_i x_o + y_i y_o, and what
 /// is left of the tangent is a division by the larger cosine: no angle is needed.
 /// \param sigma  Roughness in radians, in [0, 1000].
-/// \param wo     Towards where the light goes.
-/// \param wi     Towards where it comes from, on the same side.
+/// \param wo     Unit vector in the surface's frame, to where the light goes.
+/// \param wi     Unit vector in the surface's frame, to where it comes from, on the
+///               same side.
 /// \return The ratio: from 1/2, without bound where both directions graze.
 /// \cost Three divisions; no trigonometric function.
 // [oren nayar]
@@ -69,8 +70,8 @@ template <std::floating_point T>
 /// to facet is left out, so that white returns less than all at most angles; at grazing
 /// ones the model returns up to 1.5 percent too much.
 /// \param surface  The surface.
-/// \param wo       Towards where the light goes.
-/// \param wi       Towards where it comes from.
+/// \param wo       Unit vector in the surface's frame, to where the light goes.
+/// \param wi       Unit vector in the surface's frame, to where it comes from.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
 /// \report{Section 3.2.1}
 template <std::floating_point T>
@@ -92,7 +93,7 @@ template <std::floating_point T>
 /// A direction with density cos/pi; the weight is the albedo times the ratio to
 /// Lambert.
 /// \param surface  The surface.
-/// \param wo       Towards where the light goes.
+/// \param wo       Unit vector in the surface's frame, to where the light goes.
 /// \param u        Point of [0,1)^3; z is not used.
 /// \param which    The parts to sample from.
 /// \return The sample; nothing if `wo` lies on the surface, if the albedo is black, or

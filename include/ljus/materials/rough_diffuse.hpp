@@ -40,8 +40,9 @@ namespace detail {
 /// As the report's program has it: the cosine between the directions stands for that
 /// between their azimuths, and the sum is cut at 1.
 /// \param sigma  Radians.
-/// \param wo     Towards where the light goes.
-/// \param wi     Towards where it comes from, on the same side.
+/// \param wo     Unit vector in the surface's frame, to where the light goes.
+/// \param wi     Unit vector in the surface's frame, to where it comes from, on the
+///               same side.
 /// \return The ratio to Lambert, in [1/2, 1].
 /// \report{Section 3.2.1}
 template <std::floating_point T>
@@ -72,8 +73,9 @@ struct RoughRatiosT {
 ///
 /// with alpha the larger of the two angles to the normal, and beta the smaller.
 /// \param sigma  Radians.
-/// \param wo     Towards where the light goes.
-/// \param wi     Towards where it comes from, on the same side.
+/// \param wo     Unit vector in the surface's frame, to where the light goes.
+/// \param wi     Unit vector in the surface's frame, to where it comes from, on the
+///               same side.
 /// \return Both parts.
 /// \cost Two arc tangents and nine divisions.
 // [full]
@@ -106,8 +108,9 @@ template <std::floating_point T>
 
 /// s/t of Fujii: the sines and the cosine of the azimuths in one product; behind the
 /// normal, where it is negative, it is not divided.
-/// \param wo  Towards where the light goes.
-/// \param wi  Towards where it comes from, on the same side.
+/// \param wo  Unit vector in the surface's frame, to where the light goes.
+/// \param wi  Unit vector in the surface's frame, to where it comes from, on the same
+///            side.
 /// \return At least -1.
 // [fujii]
 template <std::floating_point T>
@@ -118,8 +121,9 @@ template <std::floating_point T>
 
 /// Fujii's improved model.
 /// \param sigma  Radians.
-/// \param wo     Towards where the light goes.
-/// \param wi     Towards where it comes from, on the same side.
+/// \param wo     Unit vector in the surface's frame, to where the light goes.
+/// \param wi     Unit vector in the surface's frame, to where it comes from, on the
+///               same side.
 /// \return Both parts.
 /// \cite fujii2012
 template <std::floating_point T>
@@ -137,8 +141,9 @@ inline constexpr T fon_constant = T(0.5) - T(2) / T(3) * std::numbers::inv_pi_v<
 
 /// Fujii's second model, called FON by \cite eon2025.
 /// \param roughness  In [0, 1].
-/// \param wo         Towards where the light goes.
-/// \param wi         Towards where it comes from, on the same side.
+/// \param wo         Unit vector in the surface's frame, to where the light goes.
+/// \param wi         Unit vector in the surface's frame, to where it comes from, on the
+///                   same side.
 /// \return The ratio to Lambert.
 /// \cost Two divisions.
 template <std::floating_point T>
@@ -157,8 +162,9 @@ namespace detail {
 
 /// Pi times the BRDF: what a cosine-weighted sample is multiplied by.
 /// \param surface  The surface.
-/// \param wo       Towards where the light goes.
-/// \param wi       Towards where it comes from, on the same side.
+/// \param wo       Unit vector in the surface's frame, to where the light goes.
+/// \param wi       Unit vector in the surface's frame, to where it comes from, on the
+///                 same side.
 /// \return At least 0.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> rough_weight(const RoughDiffuseT<T>& surface, const Vec3T<T>& wo,
@@ -189,8 +195,8 @@ template <std::floating_point T>
 
 /// The BRDF of the surface's model.
 /// \param surface  The surface.
-/// \param wo       Towards where the light goes.
-/// \param wi       Towards where it comes from.
+/// \param wo       Unit vector in the surface's frame, to where the light goes.
+/// \param wi       Unit vector in the surface's frame, to where it comes from.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> evaluate(const RoughDiffuseT<T>& surface, const Vec3T<T>& wo,
@@ -209,7 +215,7 @@ template <std::floating_point T>
 
 /// A direction with density cos/pi.
 /// \param surface  The surface.
-/// \param wo       Towards where the light goes.
+/// \param wo       Unit vector in the surface's frame, to where the light goes.
 /// \param u        Point of [0,1)^3; z is not used.
 /// \param which    The parts to sample from.
 /// \return The sample; nothing if `wo` lies on the surface, if the albedo is black, or

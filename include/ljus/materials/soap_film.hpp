@@ -113,7 +113,7 @@ template <std::floating_point T>
 /// this function is a thin sheet.
 /// \param film      The film.
 /// \param position  Where.
-/// \param wo        Towards where the light goes.
+/// \param wo        Unit vector in the surface's frame, to where the light goes.
 /// \return T = 1 - R for each channel.
 // [pass_through]
 template <std::floating_point T>
@@ -126,7 +126,7 @@ template <std::floating_point T>
 /// The mirror direction, with the film's colour there as weight. What goes straight on
 /// is not sampled; see pass_through().
 /// \param point  A point of a film.
-/// \param wo     Towards where the light goes.
+/// \param wo     Unit vector in the surface's frame, to where the light goes.
 /// \param which  The parts to sample from.
 /// \return The sample; nothing if `wo` lies on the surface or without Lobes::specular.
 /// \report{Figure 4}

@@ -66,7 +66,7 @@ template <typename Base, typename Texture, std::floating_point T>
 /// texture that looks up by the place alone, which is all that is known here.
 /// \param textured  The material.
 /// \param position  Where.
-/// \param wo        Towards where the light goes.
+/// \param wo        Unit vector in the surface's frame, to where the light goes.
 /// \return Of each channel, what the base lets through there.
 template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] auto pass_through(const Textured<Base, Texture>& textured,
@@ -109,8 +109,8 @@ emission(const Textured<Base, Texture>& m) noexcept {
 
 /// f of the base in its own colour; that of a place is evaluate(material_at(m, ...)).
 /// \param m   The material.
-/// \param wo  Towards where the light goes.
-/// \param wi  Towards where it comes from.
+/// \param wo  Unit vector in the surface's frame, to where the light goes.
+/// \param wi  Unit vector in the surface's frame, to where it comes from.
 /// \return f in 1/sr, without the cosine.
 template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] RgbT<T> evaluate(const Textured<Base, Texture>& m, const Vec3T<T>& wo,
@@ -120,8 +120,8 @@ template <typename Base, typename Texture, std::floating_point T>
 
 /// The density of the base's sample().
 /// \param m      The material.
-/// \param wo     Towards where the light goes.
-/// \param wi     Towards where it comes from.
+/// \param wo     Unit vector in the surface's frame, to where the light goes.
+/// \param wi     Unit vector in the surface's frame, to where it comes from.
 /// \param which  The parts to sample from.
 /// \return Per steradian.
 template <typename Base, typename Texture, std::floating_point T>
@@ -132,7 +132,7 @@ template <typename Base, typename Texture, std::floating_point T>
 
 /// A sample of the base in its own colour.
 /// \param m          The material.
-/// \param wo         Towards where the light goes.
+/// \param wo         Unit vector in the surface's frame, to where the light goes.
 /// \param u          Point of [0,1)^3.
 /// \param transport  Radiance or flux.
 /// \param which      The parts to sample from.

@@ -141,6 +141,8 @@ smallest_lane(const LanesT<T>& numbers, std::uint32_t among, T bound) noexcept {
 /// \brief A processor waits for its memory some hundred steps; it can be told in time.
 /// \{
 
+namespace detail {
+
 /// Says that `lines` cache lines of 64 bytes will soon be read. A hint: where a
 /// compiler has none to give, nothing happens, and all answers are the same.
 /// \param address  Where the first begins; any address.
@@ -152,6 +154,8 @@ inline void prefetch([[maybe_unused]] const void* address) noexcept {
         __builtin_prefetch(static_cast<const char*>(address) + 64 * i);
 #endif
 }
+
+} // namespace detail
 /// \}
 
 } // namespace ljus

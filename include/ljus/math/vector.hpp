@@ -57,12 +57,16 @@ template <std::floating_point T>
     return c.x == T(0) && c.y == T(0) && c.z == T(0);
 }
 
+namespace detail {
+
 /// The size of each component. Not glm::abs(), which asks each for its sign: in a ray's
 /// direction a processor cannot guess it.
 template <std::floating_point T>
 [[nodiscard]] inline Vec3T<T> sizes(const Vec3T<T>& v) noexcept {
     return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
 }
+
+} // namespace detail
 
 /// The largest of the three components.
 template <std::floating_point T>

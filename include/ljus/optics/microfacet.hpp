@@ -24,7 +24,7 @@ namespace detail {
 
 /// The middle of two directions, of unit length: the normal of the facet that mirrors
 /// one into the other. The sum is scaled first, so that its squares do not underflow.
-/// \param wo, wi  With z > 0 both.
+/// \param wo, wi  Unit vectors in the surface's frame, with z > 0 both.
 /// \return Unit vector with z > 0.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> half_vector(const Vec3T<T>& wo, const Vec3T<T>& wi) noexcept {
@@ -77,7 +77,7 @@ template <std::floating_point T>
 /// from the cap's top, t, nothing cancels: at grazing angles the cap is half the
 /// sphere, straight on the whole of it.
 /// \param alpha  Roughness.
-/// \param wo     Where the surface is seen from.
+/// \param wo     Unit vector in the surface's frame, to where the light goes.
 /// \param u      Point of the unit square.
 /// \return Unit vector with z >= 0.
 /// \cost One sine, one cosine, three square roots.

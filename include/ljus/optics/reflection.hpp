@@ -31,8 +31,8 @@ template <std::floating_point T>
 
 /// The same in a material's frame, where N = +z and both directions point *away* from
 /// the surface. Nothing is rounded.
-/// \param wo  Towards where the light comes out.
-/// \return wi, towards where it comes from, on the same side as `wo`.
+/// \param wo  Vector in the surface's frame, to where the light goes.
+/// \return wi, to where it comes from, on the same side as `wo`.
 /// \report{Section 3.2.4, Eq. (4)}
 template <std::floating_point T>
 [[nodiscard]] constexpr Vec3T<T> reflect(const Vec3T<T>& wo) noexcept {

@@ -75,7 +75,7 @@ template <std::floating_point T>
 
 /// The same in a material's frame, where N = +z and directions point *away* from the
 /// surface: P is then (x, y), without any rounding.
-/// \param wo   Unit vector towards where the light comes out.
+/// \param wo   Unit vector in the surface's frame, to where the light goes.
 /// \param eta  n_1/n_2: index on the side of `wo` over index on the other side, > 0.
 /// \return wi, the unit vector on the other side; nothing under total internal
 ///         reflection, and nothing when any input is NaN.

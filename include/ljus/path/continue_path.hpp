@@ -87,8 +87,8 @@ namespace detail {
 /// none, if it came out; else what it was.
 /// \param medium    Before, per scene unit.
 /// \param material  Of the surface.
-/// \param wo        To the vertex before, in the surface's frame.
-/// \param wi        To where the path goes, in the surface's frame.
+/// \param wo        Unit vector in the surface's frame, to where the light goes.
+/// \param wi        Unit vector in the surface's frame, to where it comes from.
 /// \return Per scene unit.
 template <typename M, std::floating_point T>
 [[nodiscard]] RgbT<T> medium_beyond(const RgbT<T>& medium, const M& material,

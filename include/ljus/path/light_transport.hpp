@@ -86,12 +86,12 @@ struct Filtered {
 /// \throws std::invalid_argument  as light_path_expression().
 /// \cost As much as the whole renderer: nothing is left out but the sums.
 template <typename R>
-[[nodiscard]] detail::Filtered<R> only(const R& whole, std::string_view carried) {
+[[nodiscard]] detail::Filtered<R> only_paths(const R& whole, std::string_view carried) {
     return {whole, light_path_expression(carried)};
 }
 
 /// The radiance of one camera path, as far as the filter lets it through.
-/// \param renderer  From only().
+/// \param renderer  From only_paths().
 /// \param ray       A primary ray.
 /// \param stream    The numbers of this path.
 /// \param counts    Counts the rays.

@@ -30,14 +30,14 @@ template <SceneLike S>
     return targets;
 }
 
+namespace detail {
+
 /// A photon that was aimed at an object.
 template <std::floating_point T>
 struct AimedPhotonT {
     EmittedPhotonT<T> photon; ///< The photon.
     ObjectId target;          ///< It counts only if this is what it meets first.
 };
-
-namespace detail {
 
 /// How a point of a light aims at an object.
 template <std::floating_point T>
@@ -181,7 +181,7 @@ template <std::floating_point T>
 ///          brightness did not depend on how much light met the glass.}
 // [aim]
 template <SceneLike S, typename Stream>
-[[nodiscard]] std::optional<AimedPhotonT<typename S::Scalar>>
+[[nodiscard]] std::optional<detail::AimedPhotonT<typename S::Scalar>>
 aim(const S& scene, const LightChoice& choice, const std::vector<ObjectId>& targets,
     Stream& stream) {
     using T = typename S::Scalar;
@@ -209,7 +209,7 @@ aim(const S& scene, const LightChoice& choice, const std::vector<ObjectId>& targ
         photon.ray = detail::sun_ray(light, bound.center, bound.radius, u_point);
         photon.ray.time = time;
         photon.flux = light.emission * (aimed->sum / chosen.probability);
-        return AimedPhotonT<T>{photon, aimed->target};
+        return detail::AimedPhotonT<T>{photon, aimed->target};
     }
 
     SurfacePointT<T> point{.position = light.position};
@@ -241,7 +241,7 @@ aim(const S& scene, const LightChoice& choice, const std::vector<ObjectId>& targ
                      ? spawn_ray(point, direction)
                      : RayT<T>{.origin = point.position, .direction = direction};
     photon.ray.time = time;
-    return AimedPhotonT<T>{photon, aimed->target};
+    return detail::AimedPhotonT<T>{photon, aimed->target};
 }
 // [aim]
 

@@ -4,6 +4,7 @@
 /// \brief How much a photon counts at a distance.
 
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 
 #include "ljus/math/vector.hpp"
@@ -12,6 +13,18 @@ namespace ljus {
 
 /// \defgroup kernel Kernels
 /// \brief Section 3.2.6: the area over which a photon's flux is spread.
+///
+/// A density estimate asks one thing of a kernel, kernel_weight(kernel, x): how much a
+/// photon counts whose squared distance is x times the squared radius, where 1 is what
+/// it counts in an even disc. The mean over the disc must be 1, or light is made or
+/// lost; check() of DensityEstimateOf refuses a kernel for which it is not. Those of
+/// the list below are here; one of your own is a type with this function beside it:
+///
+///     struct Triweight {};
+///     float kernel_weight(Triweight, float x) {
+///         return 4 * (1 - x) * (1 - x) * (1 - x);
+///     }
+///     const DensityEstimateOf<Triweight> gather{.radius = 0.2f};
 /// \{
 
 /// The shape of the hill that stands for a photon; each holds the volume 1.
@@ -49,6 +62,12 @@ template <std::floating_point T>
     return T(0);
 }
 // [kernel]
+
+/// What a density estimate asks of a kernel: see the head of this page.
+template <typename K, typename T = float>
+concept KernelLike = requires(const K& kernel, T x) {
+    { kernel_weight(kernel, x) } -> std::same_as<T>;
+};
 
 /// \}
 

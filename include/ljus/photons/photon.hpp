@@ -42,17 +42,23 @@ inline constexpr PhotonKinds light_kinds{7}; ///< All but shadow photons.
     return {static_cast<std::uint8_t>(1 << static_cast<int>(kind))};
 }
 
+namespace detail {
+
 /// A surface's normal in three bytes, in steps of 1/127: less than half a degree wrong.
 /// Zero, for a photon whose surface nobody told, is every surface's.
 using SmallNormal = glm::vec<3, std::int8_t>;
+
+} // namespace detail
 
 /// A normal, rounded to three bytes.
 /// \param normal  Unit vector.
 /// \return The nearest small normal.
 template <std::floating_point T>
-[[nodiscard]] SmallNormal small_normal(const Vec3T<T>& normal) noexcept {
-    return SmallNormal(glm::round(T(127) * normal));
+[[nodiscard]] detail::SmallNormal small_normal(const Vec3T<T>& normal) noexcept {
+    return detail::SmallNormal(glm::round(T(127) * normal));
 }
+
+namespace detail {
 
 /// Whether a photon's surface is turned away from another by 60 degrees or more: the
 /// next wall of a corner, the other side of a thin wall. On a ball, photons as far as
@@ -69,6 +75,8 @@ template <std::floating_point T>
 }
 // [turned_away]
 
+} // namespace detail
+
 /// A photon where it met a surface.
 /// \report{Section 2.3}
 /// \erratum{The report gives a photon a radiance; it carries flux, in W.}
@@ -79,7 +87,7 @@ struct PhotonT {
     RgbT<T> flux{T(0)};       ///< W that arrive; of a shadow photon, that do not.
     std::uint16_t light = 0;  ///< The number of the light it comes from.
     PhotonKind kind = PhotonKind::direct; ///< What has happened to it.
-    SmallNormal normal{0};                ///< Of the surface that it met.
+    detail::SmallNormal normal{0};        ///< Of the surface that it met.
 };
 using Photon = PhotonT<float>; ///< PhotonT in float: 44 bytes.
 

@@ -20,8 +20,8 @@ namespace ljus {
 /// was traced into them, not in what they are.
 template <std::floating_point T>
 struct PhotonMapT {
-    KdTree8T<T> tree;          ///< The positions.
-    PhotonRecordsT<T> records; ///< The rest, in the order of the tree.
+    KdTree8T<T> tree;                  ///< The positions.
+    detail::PhotonRecordsT<T> records; ///< The rest, in the order of the tree.
 
     /// Whether there is nothing to be found.
     [[nodiscard]] bool empty() const noexcept { return records.empty(); }
@@ -46,42 +46,71 @@ template <std::floating_point T>
 
     PhotonMapT<T> map{.tree = KdTree8T<T>(positions, threads), .records = {}};
     positions = {};
-    map.records = PhotonRecordsT<T>(photons, map.tree.order());
+    map.records = detail::PhotonRecordsT<T>(photons, map.tree.point_ids());
     return map;
 }
 
 /// The most photons that an estimate with the k nearest takes.
 inline constexpr std::size_t max_nearest = 512;
 
+namespace detail {
+
+/// The kernel of settings that name none.
+template <typename K>
+inline constexpr K default_kernel{};
+/// Of the kernels of the house, that of the least variance.
+template <>
+inline constexpr Kernel default_kernel<Kernel> = Kernel::epanechnikov;
+
+} // namespace detail
+
 /// How photons are gathered.
-struct DensityEstimateSettings {
+/// \tparam K  One of the kernels of the house, chosen when the program runs, or a type
+///            that is one: see KernelLike.
+template <KernelLike K>
+struct DensityEstimateOf {
     float radius = 0.1f;                  ///< In scene units, above 0.
     std::size_t nearest = 0;              ///< k within the radius; 0: all within it.
-    Kernel kernel = Kernel::epanechnikov; ///< The weight by distance.
+    K kernel = detail::default_kernel<K>; ///< The weight by distance.
     float thickness = 0.5f; ///< Half the height of the disc over its radius: photons of
                             ///< a parallel wall lie outside. With 0.5 the disc holds
                             ///< all that a ball no smaller than it has within it.
 };
+using DensityEstimateSettings = DensityEstimateOf<Kernel>; ///< With a listed kernel.
 
 /// Refuses a way to gather that gives no estimate.
 /// \param gather  The settings.
-/// \throws std::invalid_argument  with name and value.
-inline void check(const DensityEstimateSettings& gather) {
+/// \throws std::invalid_argument  with name and value; also for a kernel of the user's
+///         own that makes or loses light.
+template <typename K>
+void check(const DensityEstimateOf<K>& gather) {
     require_positive("gather.radius", gather.radius);
     require_positive("gather.thickness", gather.thickness);
     require(gather.nearest != 1 && gather.nearest <= max_nearest, "gather.nearest",
             static_cast<long long>(gather.nearest),
             "0 for all within the radius, or 2 to 512 (one photon sets the radius)");
+    if constexpr (!std::same_as<K, Kernel>) {
+        double mean = 0; // by the middles of a thousand rings of the same area
+        for (int i = 0; i < 1000; ++i)
+            mean +=
+                double(kernel_weight(gather.kernel, (float(i) + 0.5f) / 1000)) / 1000;
+        require(std::abs(mean - 1) < 0.01, "the mean of gather.kernel over the disc",
+                mean, "1, or light is made or lost");
+    }
 }
+
+namespace detail {
 
 /// Whether an estimate runs eight photons at a time: on a matt surface, unless the
 /// radius is of a size whose square no float can hold.
 /// \param gather  How.
-template <typename Material>
-[[nodiscard]] constexpr bool in_lanes(const DensityEstimateSettings& gather) noexcept {
+template <typename Material, typename K>
+[[nodiscard]] constexpr bool in_lanes(const DensityEstimateOf<K>& gather) noexcept {
     return std::same_as<Material, LambertianT<typename Material::Scalar>> &&
            1e-15f < gather.radius && gather.radius < 1e15f;
 }
+
+} // namespace detail
 
 /// The plain twin of estimate_radiance() with all photons within the radius: photon by
 /// photon, for any material. What the chapter shows, what the fast one is tested
@@ -89,27 +118,27 @@ template <typename Material>
 /// \param map       The photons.
 /// \param surface   Where they are gathered.
 /// \param material  What the surface is made of.
-/// \param wo        Unit direction to the observer, in the surface's frame.
+/// \param wo        Unit vector in the surface's frame, to where the light goes.
 /// \param gather    Radius, kernel, thickness.
 /// \param kinds     Which kinds count.
 /// \param gathered  Counts the photons that were summed.
 /// \return Radiance, W/(m^2 sr).
 // [plain estimate]
-template <std::floating_point T, typename Material>
+template <std::floating_point T, typename Material, KernelLike<T> K = Kernel>
 [[nodiscard]] RgbT<T>
 estimate_radiance_plain(const PhotonMapT<T>& map, const VertexT<T>& surface,
                         const Material& material, const Vec3T<T>& wo,
-                        const DensityEstimateSettings& gather, PhotonKinds kinds,
+                        const DensityEstimateOf<K>& gather, PhotonKinds kinds,
                         std::uint64_t& gathered) {
     const glm::dvec3 x(surface.point.position), n(surface.point.normal);
     const double r2 = double(gather.radius) * double(gather.radius);
     const double height2 = double(gather.thickness) * double(gather.thickness) * r2;
     RgbT<double> sum{0}; // many small terms: a float would lose the last of them
     const auto add = [&](std::uint32_t i, double distance2) {
-        const PhotonRecordT<T> photon = map.records[i];
+        const detail::PhotonRecordT<T> photon = map.records[i];
         const double height = glm::dot(glm::dvec3(map.tree.point(i)) - x, n);
         if (!kinds.has(photon.kind) || height * height > height2 ||
-            turned_away(photon.normal, surface.point.normal))
+            detail::turned_away(photon.normal, surface.point.normal))
             return;
         const Vec3T<T> wi = to_local(surface.frame, -photon.direction);
         const T weight = kernel_weight(gather.kernel, T(distance2 / r2));
@@ -130,16 +159,16 @@ estimate_radiance_plain(const PhotonMapT<T>& map, const VertexT<T>& surface,
 /// would be too bright by k/(k-1). Fewer than k within the radius are summed over the
 /// whole disc, and the mean stays right.
 ///
-/// Only photons of the same surface count: those whose surface is not turned_away(), in
-/// a disc of the thickness. On a ball the cap within r of a point of it has the area
-/// \f$ \pi r^2 \f$, as a plane has, so that nothing is lost on a ball of radius r or
-/// more. At a surface's edge half of the disc lies beside it, in a corner three
-/// quarters, and the estimate reads 1/2 and 1/4 of what it should.
+/// Only photons of the same surface count: those whose surface is turned by less than
+/// 60 degrees, in a disc of the thickness. On a ball the cap within r of a point of it
+/// has the area \f$ \pi r^2 \f$, as a plane has, so that nothing is lost on a ball of
+/// radius r or more. At a surface's edge half of the disc lies beside it, in a corner
+/// three quarters, and the estimate reads 1/2 and 1/4 of what it should.
 ///
 /// \param map       The photons.
 /// \param surface   Where they are gathered.
 /// \param material  What the surface is made of.
-/// \param wo        Unit direction to the observer, in the surface's frame.
+/// \param wo        Unit vector in the surface's frame, to where the light goes.
 /// \param gather    Radius, k, kernel.
 /// \param kinds     Which kinds count.
 /// \param gathered  Counts the photons that were summed.
@@ -148,11 +177,11 @@ estimate_radiance_plain(const PhotonMapT<T>& map, const VertexT<T>& surface,
 /// \report{Section 3.2.6}
 /// \erratum{The report's R_i is called a radiance; it is the BRDF times the photon's
 ///          flux. There is no cosine: the flux that arrives on the surface holds it.}
-template <std::floating_point T, typename Material>
+template <std::floating_point T, typename Material, KernelLike<T> K = Kernel>
 [[nodiscard]] RgbT<T> estimate_radiance(const PhotonMapT<T>& map,
                                         const VertexT<T>& surface,
                                         const Material& material, const Vec3T<T>& wo,
-                                        const DensityEstimateSettings& gather,
+                                        const DensityEstimateOf<K>& gather,
                                         PhotonKinds kinds, std::uint64_t& gathered) {
     if (map.empty()) return RgbT<T>{T(0)};
     const Vec3T<T>& x = surface.point.position;
@@ -160,25 +189,25 @@ template <std::floating_point T, typename Material>
 
     RgbT<double> sum{0}; // many small terms: a float would lose the last of them
     if (gather.nearest == 0) {
-        if (!in_lanes<Material>(gather))
+        if (!detail::in_lanes<Material>(gather))
             return estimate_radiance_plain(map, surface, material, wo, gather, kinds,
                                            gathered);
         // A matt surface sends back the same share of all: their flux is summed.
-        const FluxDiscT<T> disc{.center = x,
-                                .normal = surface.point.normal,
-                                .from =
-                                    std::copysign(T(1), wo.z) * surface.frame.normal,
-                                .radius = T(gather.radius),
-                                .thickness = T(gather.thickness),
-                                .kernel = gather.kernel,
-                                .kinds = kinds};
+        const detail::FluxDiscT<T, K> disc{.center = x,
+                                           .normal = surface.point.normal,
+                                           .from = std::copysign(T(1), wo.z) *
+                                                   surface.frame.normal,
+                                           .radius = T(gather.radius),
+                                           .thickness = T(gather.thickness),
+                                           .kernel = gather.kernel,
+                                           .kinds = kinds};
         sum = RgbT<double>(evaluate(material, wo, wo)) *
-              flux_in_disc(map.tree, map.records, disc, gathered);
+              detail::flux_in_disc(map.tree, map.records, disc, gathered);
     } else {
         const auto counts = [&](std::uint32_t i) {
-            const PhotonRecordT<T> photon = map.records[i];
+            const detail::PhotonRecordT<T> photon = map.records[i];
             return kinds.has(photon.kind) &&
-                   !turned_away(photon.normal, surface.point.normal);
+                   !detail::turned_away(photon.normal, surface.point.normal);
         };
         std::array<Neighbor, max_nearest> room;
         const std::span<Neighbor> found(room.data(), gather.nearest);
@@ -188,7 +217,7 @@ template <std::floating_point T, typename Material>
         // All photons in one point have no area: there is no estimate.
         if (!(radius2 > 0)) return RgbT<T>{T(0)};
         for (std::size_t k = full ? 1 : 0; k < count; ++k) {
-            const PhotonRecordT<T> photon = map.records[found[k].index];
+            const detail::PhotonRecordT<T> photon = map.records[found[k].index];
             const double height =
                 glm::dot(glm::dvec3(map.tree.point(found[k].index)) - glm::dvec3(x),
                          glm::dvec3(surface.point.normal));

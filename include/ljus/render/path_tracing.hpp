@@ -19,8 +19,8 @@ namespace ljus {
 /// How the light of a lamp that both a shadow ray and the path itself can find is
 /// divided between the two: the weights of multiple importance sampling.
 enum class MisHeuristic : std::uint8_t {
-    balance,    ///< In proportion to each one's pdf: balance_heuristic().
-    power,      ///< In proportion to the square of the pdf: power_heuristic().
+    balance,    ///< In proportion to each one's pdf.
+    power,      ///< In proportion to the square of the pdf.
     shadow_rays ///< All to the shadow ray: next-event estimation alone.
 };
 
@@ -65,6 +65,8 @@ template <SceneLike S>
 PathTracer<S> make_path_tracer(const S&& scene,
                                const PathTracingSettings& = {}) = delete;
 
+namespace detail {
+
 /// The balance heuristic: the share of one of two strategies that could have made the
 /// same sample \cite veach1997.
 /// \param pdf    Of the strategy that did.
@@ -90,8 +92,6 @@ template <std::floating_point T>
     return (pdf > other ? T(1) : q * q) / (T(1) + q * q);
 }
 // [heuristics]
-
-namespace detail {
 
 /// The weight of one of two strategies, as the settings have it.
 /// \param heuristic  balance or power.

@@ -47,7 +47,7 @@ template <SceneLike S>
 [[nodiscard]] PhotonMapsT<typename S::Scalar>
 make_photon_maps(const S& scene, const PhotonMappingSettings& settings = {}) {
     check(settings);
-    const Plan plan = survey(scene, settings);
+    const Plan plan = detail::make_plan(needs(scene), settings);
     PhotonPassSettings general = settings.general;
     general.shadow_photons = plan.shadow_photons.on;
     PhotonMapsT<typename S::Scalar> maps;
@@ -89,7 +89,7 @@ make_photon_mapper(const S& scene, const PhotonMapsT<typename S::Scalar>& maps,
                    const PhotonMappingSettings& settings = {}) {
     check(settings);
     return {detail::IndexedT<S>(scene), maps, settings,
-            survey(scene, settings).indirect_rays.on};
+            detail::make_plan(needs(scene), settings).indirect_rays.on};
 }
 /// Not of a temporary: the scene would be gone before it is rendered.
 template <SceneLike S>

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "ljus/path/next_vertex.hpp"
 #include "ljus/render/photon_mapping_settings.hpp"
@@ -32,6 +33,10 @@ struct Plan {
     PlanItem shadow_photons; ///< Part of the general map.
     PlanItem thin_film;      ///< Paths pass through soap films.
     PlanItem tree;           ///< Over the shapes, or a loop over all of them.
+    /// A line for each type of shape and of material that the scene lists, in their
+    /// order: which hooks it has, and what happens without the others. A hook that is
+    /// misspelt is among the others.
+    std::vector<std::string> types;
 
     /// All items, in the order in which they are printed.
     [[nodiscard]] std::array<const PlanItem*, 7> items() const& {
@@ -42,7 +47,7 @@ struct Plan {
     std::array<const PlanItem*, 7> items() const&& = delete;
 };
 
-/// A plan, one line an item: its name, on or off, and why.
+/// A plan, one line an item: its name, on or off, and why; then one line a type.
 /// \param plan  The plan.
 /// \return Lines that end with a line feed.
 [[nodiscard]] inline std::string to_text(const Plan& plan) {
@@ -52,6 +57,7 @@ struct Plan {
         name.resize(16, ' ');
         text += name + (item->on ? "on   " : "off  ") + item->why + "\n";
     }
+    for (const std::string& type : plan.types) text += type + "\n";
     return text;
 }
 
@@ -157,13 +163,28 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
 
 #endif
 
-/// Says which passes a scene requires.
+/// Says which passes a scene requires, and which hooks its types have.
 /// \param scene     The scene.
 /// \param settings  What the user asks for.
-/// \return As make_plan().
+/// \return The plan, as make_photon_maps() and make_photon_mapper() obey it.
 template <SceneLike S>
 [[nodiscard]] Plan survey(const S& scene, const PhotonMappingSettings& settings) {
-    return detail::make_plan(needs(scene), settings);
+    Plan plan = detail::make_plan(needs(scene), settings);
+    const auto add = [&](const char* what, int number, const auto& hooks) {
+        std::string name = std::string(what).append(std::to_string(number));
+        name.resize(16, ' ');
+        plan.types.push_back(name.append(detail::to_line(hooks)));
+    };
+    int shapes = 0, materials = 0; // neither finds what it asks for: all are asked
+    (void)S::any_shape([&]<typename G>() {
+        add("shape ", ++shapes, detail::shape_hooks<G>());
+        return false;
+    });
+    (void)S::any_material([&]<typename M>() {
+        add("material ", ++materials, detail::material_hooks<M>());
+        return false;
+    });
+    return plan;
 }
 
 /// \}

@@ -55,22 +55,6 @@ template <SceneLike S>
 template <SceneLike S>
 WhittedTracer<S> make_whitted(const S&& scene, const WhittedSettings& = {}) = delete;
 
-/// \name The centre of a lamp
-/// \{
-
-/// The point of the unit square whose sample stands for the whole lamp: of a sphere the
-/// point that is nearest to the observer, of a quad its middle.
-/// \return The point.
-template <typename Lamp>
-[[nodiscard]] auto center_sample(const Lamp&) noexcept {
-    return Vec2T<ScalarOf<Lamp>>{ScalarOf<Lamp>(0.5)};
-}
-template <std::floating_point T>
-[[nodiscard]] constexpr Vec2T<T> center_sample(const SphereT<T>&) noexcept {
-    return Vec2T<T>{T(0)};
-}
-/// \}
-
 namespace detail {
 
 /// The light that a diffuse surface sends back: of each light by one shadow ray, which

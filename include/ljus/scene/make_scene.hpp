@@ -77,19 +77,11 @@ struct PartOf<Placed<S, M>> {
 };
 
 /// \copydoc PartOf
-template <typename T>
-struct PartOf<PointLightT<T>> {
+template <LightSource L>
+struct PartOf<L> {
     using Shape = TypeList<>;    ///< None.
     using Material = TypeList<>; ///< None.
 };
-
-/// \copydoc PartOf
-template <typename T>
-struct PartOf<SpotLightT<T>> : PartOf<PointLightT<T>> {};
-
-/// \copydoc PartOf
-template <typename T>
-struct PartOf<SunLightT<T>> : PartOf<PointLightT<T>> {};
 
 /// Adds a part to a scene that lists its types.
 /// \param scene  The scene.
@@ -99,10 +91,10 @@ void add_part(Scene& scene, const Placed<S, M>& part) {
     scene.add(part.shape, scene.add(part.material), part.emission, part.inside_out);
 }
 
-/// Adds a point light, a spot light or a sun to a scene.
+/// Adds a light that is no object to a scene.
 /// \param scene  The scene.
 /// \param light  The light.
-template <typename Scene, typename Light>
+template <typename Scene, LightSource Light>
 void add_part(Scene& scene, const Light& light) {
     scene.add(light);
 }

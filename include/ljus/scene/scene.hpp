@@ -137,12 +137,15 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
 
     /// Adds a light that is no object. A sun's flux is what falls into a sphere around
     /// all shapes; it grows with each that is added, before or after.
-    /// \param light  A PointLight, a SpotLight or a SunLight.
-    /// \throws std::invalid_argument  as make_light().
-    void add(const detail::LightSourceT<Scalar>& light) {
+    /// \param light  A PointLight, a SpotLight, a SunLight, or another LightSource of
+    ///               the scene's precision.
+    /// \throws std::invalid_argument  if a value is out of range, or the flux.
+    void add(const detail::AnyLightT<Scalar>& light) {
         LightT<Scalar> made = light.made;
         if (is_black(made.emission)) return;
-        if (made.kind == LightKind::sun) {
+        if (made.kind != LightKind::sun) {
+            detail::require_flux(made.flux);
+        } else {
             if (size() > 0) detail::widen(made, low, high);
             suns.push_back(static_cast<std::uint32_t>(lights.size()));
         }

@@ -14,13 +14,11 @@
 #include "ljus/math/require.hpp"
 #include "ljus/parallel.hpp"
 
-namespace ljus {
+namespace ljus::detail {
 
 /// \defgroup bvh_build Building trees of boxes
 /// \brief Where to split a range in two. Chapter: \ref ch_bvh.
 /// \{
-
-namespace detail {
 
 template <std::floating_point T>
 class BvhBuilder {
@@ -115,8 +113,6 @@ private:
     std::vector<PrimitiveRefT<T>> refs_;
 };
 
-} // namespace detail
-
 /// Builds a tree over boxes: top down, each range split where that is cheapest for
 /// rays, of 16 slots along each axis \cite wald2007.
 /// \param boxes     Any boxes, equal and flat ones too; below 2^31.
@@ -134,9 +130,9 @@ template <std::floating_point T>
             static_cast<long long>(settings.leaf_size), "at least 1");
     require(settings.at_a_time >= 1, "at_a_time",
             static_cast<long long>(settings.at_a_time), "at least 1");
-    return detail::BvhBuilder<T>(boxes, settings).build();
+    return BvhBuilder<T>(boxes, settings).build();
 }
 
 /// \}
 
-} // namespace ljus
+} // namespace ljus::detail

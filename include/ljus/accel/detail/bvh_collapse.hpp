@@ -9,7 +9,7 @@
 
 #include "ljus/accel/detail/bvh_nodes.hpp"
 
-namespace ljus {
+namespace ljus::detail {
 
 /// \defgroup bvh_collapse Collapsing a tree
 /// \brief From two children a node to eight, so that rays meet as few nodes as can be.
@@ -106,4 +106,4 @@ private:
 
 /// \}
 
-} // namespace ljus
+} // namespace ljus::detail

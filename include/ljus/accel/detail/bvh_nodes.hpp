@@ -14,6 +14,16 @@ namespace ljus {
 /// \brief Boxes within boxes \cite rubin1980. Chapter: \ref ch_bvh.
 /// \{
 
+/// How a tree is built.
+struct BvhSettings {
+    std::uint32_t leaf_size = 4; ///< No leaf has more, at least 1.
+    std::uint32_t at_a_time = 1; ///< How many primitives one test asks, side by side.
+    float node_cost = 1;         ///< Of a step down, in tests.
+    int threads = 0;             ///< 0: all that there are.
+};
+
+namespace detail {
+
 /// A node: its box, and either two children or some of the primitives themselves. 32
 /// bytes in float, so that two children share a cache line.
 // [tree node]
@@ -36,16 +46,10 @@ struct BvhNodesT {
         primitive_ids{}; ///< primitive_ids[slot] is a primitive's number.
 };
 
-/// How a tree is built.
-struct BvhSettings {
-    std::uint32_t leaf_size = 4; ///< No leaf has more, at least 1.
-    std::uint32_t at_a_time = 1; ///< How many primitives one test asks, side by side.
-    float node_cost = 1;         ///< Of a step down, in tests.
-    int threads = 0;             ///< 0: all that there are.
-};
-
 /// The deepest that a tree may be; what a search keeps in mind is no more.
 inline constexpr int bvh_depth = 64;
+
+} // namespace detail
 
 /// \}
 

@@ -117,7 +117,7 @@ public:
     /// \param count     How many triangles, below 2^26.
     /// \param triangle  Called as triangle(i) for each; returns a Triangle.
     /// \param threads   0: all that there are.
-    /// \throws As build_bvh().
+    /// \throws std::invalid_argument  as BvhT.
     template <typename TriangleOf>
     TriangleBvh(std::uint32_t count, TriangleOf&& triangle, int threads = 0) {
         std::vector<Box> boxes;

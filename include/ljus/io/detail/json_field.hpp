@@ -72,6 +72,17 @@ struct JsonField {
     refuse(field, why);
 }
 
+// What a call returns; what it finds wrong, though it was right for the file, as a
+// number too small or too large for T, is said of the field.
+template <typename Call>
+auto made_of(const JsonField& field, Call call) {
+    try {
+        return call();
+    } catch (const std::invalid_argument& error) {
+        refuse_for(field, error);
+    }
+}
+
 // Names in a row: "a, b or c". Of names that a file chooses not too many are shown.
 [[nodiscard]] inline std::string in_a_row(const std::vector<std::string>& names,
                                           std::string_view last,

@@ -3,9 +3,6 @@
 /// \file ljus/io/detail/json_lights.hpp
 /// \brief The lights of a scene file that are no objects.
 
-#include <stdexcept>
-#include <string>
-
 #include <nlohmann/json.hpp>
 
 #include "ljus/io/detail/json_textures.hpp"
@@ -27,7 +24,6 @@ namespace detail {
 
 template <typename Scene, std::floating_point T = typename Scene::Scalar>
 void read_light(const JsonField& field, Scene& scene) {
-    if (!field.value.is_object()) refuse_value(field, "an object");
     const JsonField type = member(field, "type");
     require_one_of(type, {"point", "spot", "sun"});
     const auto strength = [&](const char* what) {
@@ -41,12 +37,7 @@ void read_light(const JsonField& field, Scene& scene) {
         return number(member(field, what), 0, most, right);
     };
     const auto add = [&](const auto& light) {
-        try {
-            scene.add(LightSourceT<T>(light));
-        } catch (const std::invalid_argument& error) {
-            // What is too small or too large for T, though not for the file.
-            refuse_for(field, error);
-        }
+        made_of(field, [&] { scene.add(light); });
     };
     if (text(type) == "point") {
         require_object(field, {"type", "position", "intensity"});

@@ -6,7 +6,6 @@
 #include <array>
 #include <numbers>
 #include <tuple>
-#include <type_traits>
 
 #include <nlohmann/json.hpp>
 
@@ -19,7 +18,7 @@
 #include "ljus/materials/mixture.hpp"
 #include "ljus/materials/soap_film.hpp"
 #include "ljus/materials/textured.hpp"
-#include "ljus/scene/scene.hpp"
+#include "ljus/scene/make_scene.hpp"
 
 namespace ljus {
 
@@ -91,8 +90,8 @@ struct MaterialFields {
     ConductorIndexT<T> metal() const {
         const JsonField metal = member(field, "metal");
         require_one_of(metal, {"gold", "copper", "silver"});
-        if (text(metal) == "gold") return gold<T>;
-        return text(metal) == "copper" ? copper<T> : silver<T>;
+        const std::string& name = text(metal);
+        return name == "gold" ? gold<T> : name == "copper" ? copper<T> : silver<T>;
     }
     GlossyT<T, ConductorIndexT<T>> rough_metal() const {
         return {metal(), roughness()};
@@ -211,28 +210,21 @@ constexpr auto material_rows() {
 }
 
 // The types of the rows, each once: several names may stand for one type.
-template <typename... Listed, typename M>
-constexpr auto operator+(Materials<Listed...>, std::type_identity<M>) {
-    if constexpr ((std::is_same_v<M, Listed> || ...))
-        return Materials<Listed...>{};
-    else
-        return Materials<Listed..., M>{};
-}
+template <typename... M>
+Materials<M...> listed(TypeList<M...>);
 template <std::floating_point T, typename... Row>
 constexpr auto materials_of(const std::tuple<Row...>&) {
     using In = const MaterialFields<T>&;
-    return (
-        Materials<>{} + ... +
-        std::type_identity<decltype(std::declval<Row>().read(std::declval<In>()))>{});
+    return (TypeList<>{} + ... +
+            TypeList<decltype(std::declval<Row>().read(std::declval<In>()))>{});
 }
 
 /// Whatever a scene file may name.
 template <std::floating_point T>
-using FileMaterialsT = decltype(detail::materials_of<T>(detail::material_rows<T>()));
+using FileMaterialsT = decltype(listed(materials_of<T>(material_rows<T>())));
 
 template <typename Scene, std::floating_point T = typename Scene::Scalar>
 MaterialId read_material(const JsonField& field, Scene& scene) {
-    if (!field.value.is_object()) refuse_value(field, "an object");
     const JsonField type = member(field, "type");
     MaterialId id{};
     const auto read = [&](const auto& row) {
@@ -240,11 +232,7 @@ MaterialId read_material(const JsonField& field, Scene& scene) {
         std::vector<std::string> known{"type"};
         known.insert(known.end(), row.fields.begin(), row.fields.end());
         require_object(field, known);
-        try {
-            id = scene.add(row.read({field}));
-        } catch (const std::invalid_argument& error) {
-            refuse_for(field, error); // right for the file, though not for T
-        }
+        id = made_of(field, [&] { return scene.add(row.read({field})); });
         return true;
     };
     std::apply(

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ljus/accel/mesh.hpp"
-#include "ljus/accel/pair_triangles.hpp"
+#include "ljus/geometry/detail/pair_triangles.hpp"
 #include "ljus/io/detail/json_field.hpp"
 #include "ljus/io/detail/json_materials.hpp"
 #include "ljus/scene/scene.hpp"
@@ -125,12 +125,7 @@ void read_object(const JsonField& field,
         emission = RgbT<T>{vector_field(*emitted, 0, max_radiance, "within [0, 1e12]")};
 
     const auto add = [&](const auto& shape) {
-        try {
-            scene.add(shape, known->second, emission);
-        } catch (const std::invalid_argument& error) {
-            // What is too small or too large for T, though not for the file.
-            refuse_for(field, error);
-        }
+        made_of(field, [&] { scene.add(shape, known->second, emission); });
     };
     if (sphere) {
         const JsonField radius = member(field, "radius");

@@ -46,9 +46,9 @@ struct FileMapT {
     std::variant<PlaneMapT<T>, GlobeMapT<T>, UvMapT<T>> map{};
 };
 template <std::floating_point T>
-[[nodiscard]] Vec2T<T> coordinates(const FileMapT<T>& any, const Vec3T<T>& place,
-                                   const Vec2T<T>& uv) noexcept {
-    return std::visit([&](const auto& map) { return coordinates(map, place, uv); },
+[[nodiscard]] Vec2T<T> map_coordinates(const FileMapT<T>& any, const Vec3T<T>& place,
+                                       const Vec2T<T>& uv) noexcept {
+    return std::visit([&](const auto& map) { return map_coordinates(map, place, uv); },
                       any.map);
 }
 template <std::floating_point T>

@@ -23,7 +23,7 @@ namespace ljus {
 /// Which normals a mesh from a file gets.
 enum class ObjNormals : std::uint8_t {
     file,   ///< The file's; where it has none, the triangles'.
-    smooth, ///< Those of smooth(), whatever the file has.
+    smooth, ///< Those of smooth_normals(), whatever the file has.
     flat    ///< The triangles'.
 };
 
@@ -221,8 +221,8 @@ struct ObjReader {
     }
 };
 
-// smooth(), but vertices that only their texture coordinates tell apart stay one: a
-// seam of the picture is no edge of the surface.
+// smooth_normals(), but vertices that only their texture coordinates tell apart stay
+// one: a seam of the picture is no edge of the surface.
 template <std::floating_point T>
 void smooth_across_seams(typename ObjReader<T>::Part& part) {
     MeshDataT<T> seamless{.triangles = part.data.triangles};
@@ -236,7 +236,7 @@ void smooth_across_seams(typename ObjReader<T>::Part& part) {
     }
     for (auto& triangle : seamless.triangles)
         for (std::uint32_t& vertex : triangle) vertex = of[vertex];
-    smooth(seamless);
+    smooth_normals(seamless);
     part.data.normals.clear();
     for (const std::uint32_t vertex : of)
         part.data.normals.push_back(seamless.normals[vertex]);

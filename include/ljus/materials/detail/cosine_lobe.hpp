@@ -14,8 +14,8 @@ namespace ljus {
 /// \{
 
 /// The density of sample_cosine_lobe().
-/// \param wo     Towards where the light goes.
-/// \param wi     Towards where it comes from.
+/// \param wo     Unit vector in the surface's frame, to where the light goes.
+/// \param wi     Unit vector in the surface's frame, to where it comes from.
 /// \param which  The parts to sample from.
 /// \return |cos(theta)|/pi per steradian on the side of `wo`; 0 elsewhere, and 0
 ///         without Lobes::diffuse.
@@ -28,7 +28,7 @@ template <std::floating_point T>
 }
 
 /// A direction on the side of `wo`, with density cos/pi.
-/// \param wo      Towards where the light goes.
+/// \param wo      Unit vector in the surface's frame, to where the light goes.
 /// \param u       Point of [0,1)^3; z is not used.
 /// \param which   The parts to sample from.
 /// \param weight  Called with `wi`; returns f cos/pdf, which is pi f.

@@ -33,7 +33,7 @@ struct EonLobeT {
 
 /// The lobe for a direction.
 /// \param roughness  In [0, 1].
-/// \param wo         Towards where the light goes.
+/// \param wo         Unit vector in the surface's frame, to where the light goes.
 /// \return The lobe.
 template <std::floating_point T>
 [[nodiscard]] EonLobeT<T> eon_lobe(T roughness, const Vec3T<T>& wo) noexcept {

@@ -14,35 +14,41 @@
 #include "ljus/photons/detail/photon_records.hpp"
 #include "ljus/photons/kernel.hpp"
 
-namespace ljus {
+namespace ljus::detail {
 
 /// \addtogroup photon_map
 /// \{
 
 /// A disc in which flux is summed: what decides on a photon, in the precision of the
 /// photons.
-template <std::floating_point T>
+template <std::floating_point T, KernelLike<T> K = Kernel>
 struct FluxDiscT {
-    Vec3T<T> center{T(0)};                ///< Its middle.
-    Vec3T<T> normal{T(0), T(0), T(1)};    ///< Of the surface; unit.
-    Vec3T<T> from{T(0), T(0), T(1)};      ///< Photons must travel against it.
-    T radius = T(1);                      ///< Between 1e-15 and 1e15.
-    T thickness = T(0.5);                 ///< Half its height over its radius.
-    Kernel kernel = Kernel::epanechnikov; ///< The weight by distance.
-    PhotonKinds kinds = all_kinds;        ///< Which kinds count.
+    Vec3T<T> center{T(0)};             ///< Its middle.
+    Vec3T<T> normal{T(0), T(0), T(1)}; ///< Of the surface; unit.
+    Vec3T<T> from{T(0), T(0), T(1)};   ///< Photons must travel against it.
+    T radius = T(1);                   ///< Between 1e-15 and 1e15.
+    T thickness = T(0.5);              ///< Half its height over its radius.
+    K kernel{};                        ///< The weight by distance.
+    PhotonKinds kinds = all_kinds;     ///< Which kinds count.
 };
 
 /// kernel_weight() of eight photons.
 /// \param kernel  The shape.
 /// \param x       Squared distances over the squared radius, each in [0, 1].
+template <std::floating_point T, KernelLike<T> K>
+[[nodiscard]] LanesT<T> kernel_weights(const K& kernel, const LanesT<T>& x) noexcept {
+    LanesT<T> weight;
+    for_lanes([&](int i) { weight.lane[i] = kernel_weight(kernel, x.lane[i]); });
+    return weight;
+}
+
+/// The same of a kernel that is known only when a program runs.
 template <std::floating_point T>
-[[nodiscard]] detail::LanesT<T> kernel_weights(Kernel kernel,
-                                               const detail::LanesT<T>& x) noexcept {
-    detail::LanesT<T> weight;
+[[nodiscard]] LanesT<T> kernel_weights(Kernel kernel, const LanesT<T>& x) noexcept {
+    LanesT<T> weight;
     // One loop a kernel: a constant in it, and no choice.
     const auto fill = [&](auto chosen) {
-        detail::for_lanes(
-            [&](int i) { weight.lane[i] = kernel_weight(chosen(), x.lane[i]); });
+        for_lanes([&](int i) { weight.lane[i] = kernel_weight(chosen(), x.lane[i]); });
     };
     switch (kernel) {
     case Kernel::box:
@@ -64,42 +70,38 @@ template <std::floating_point T>
     return weight;
 }
 
-namespace detail {
-
 // Which of eight photons lie in a disc: 1 for those that do, or else 0. Small loops,
 // each of a few numbers: a long one is not always made a vector of.
-template <std::floating_point T>
-[[nodiscard]] inline detail::LanesT<T>
-lanes_in_disc(const detail::Lanes3T<T>& points, const RecordBlockT<T>& record,
-              const FluxDiscT<T>& disc, std::uint32_t found) noexcept {
+template <std::floating_point T, typename K>
+[[nodiscard]] inline LanesT<T>
+lanes_in_disc(const Lanes3T<T>& points, const RecordBlockT<T>& record,
+              const FluxDiscT<T, K>& disc, std::uint32_t found) noexcept {
     const T nx = disc.normal.x, ny = disc.normal.y, nz = disc.normal.z;
     const T cx = disc.center.x, cy = disc.center.y, cz = disc.center.z;
     const T limit = disc.thickness * disc.radius;
     const std::uint32_t kinds = std::uint32_t{disc.kinds.bits}
                                 << RecordCode::kind_shift;
-    detail::LanesT<T> height, along, length2, inside;
-    detail::for_lanes([&](int i) {
+    LanesT<T> height, along, length2, inside;
+    for_lanes([&](int i) {
         height.lane[i] =
             (points.x[i] - cx) * nx + (points.y[i] - cy) * ny + (points.z[i] - cz) * nz;
     });
-    detail::for_lanes([&](int i) {
+    for_lanes([&](int i) {
         const T x = T(RecordCode::normal<0>(record.code[i]));
         const T y = T(RecordCode::normal<1>(record.code[i]));
         const T z = T(RecordCode::normal<2>(record.code[i]));
         along.lane[i] = T(2) * T(127) * (x * nx + y * ny + z * nz);
         length2.lane[i] = x * x + y * y + z * z;
     });
-    detail::for_lanes([&](int i) {
+    for_lanes([&](int i) {
         const T h = height.lane[i];
-        const bool in =
-            (h <= limit) & (-h <= limit) & !(along.lane[i] < length2.lane[i]) &
-            ((record.code[i] & kinds) != 0) & ((found & detail::lane_bit[i]) != 0);
+        const bool in = (h <= limit) & (-h <= limit) &
+                        !(along.lane[i] < length2.lane[i]) &
+                        ((record.code[i] & kinds) != 0) & ((found & lane_bit[i]) != 0);
         inside.lane[i] = in ? T(1) : T(0);
     });
     return inside;
 }
-
-} // namespace detail
 
 /// The weighted flux in a disc, of photons that come from one side.
 ///
@@ -109,23 +111,23 @@ lanes_in_disc(const detail::Lanes3T<T>& points, const RecordBlockT<T>& record,
 /// \param disc      Which of them count.
 /// \param gathered  Counts those that lie in the disc, from either side.
 /// \return The sum of weight times flux; W.
-template <std::floating_point T>
+template <std::floating_point T, typename K>
 [[nodiscard]] RgbT<double>
 flux_in_disc(const KdTree8T<T>& tree, const PhotonRecordsT<T>& records,
-             const FluxDiscT<T>& disc, std::uint64_t& gathered) {
+             const FluxDiscT<T, K>& disc, std::uint64_t& gathered) {
     const T per_radius2 = T(1) / (disc.radius * disc.radius);
     const T limit = disc.thickness * disc.radius;
     const std::uint32_t kinds = std::uint32_t{disc.kinds.bits}
-                                << detail::RecordCode::kind_shift;
+                                << RecordCode::kind_shift;
     const Vec3T<T> d = disc.from;
     RgbT<double> sum{0};
     // Of some blocks: more terms would cost a float its last digits.
-    detail::Lanes3T<T> part{};
-    std::int32_t count[detail::lane_count] = {};
+    Lanes3T<T> part{};
+    std::int32_t count[lane_count] = {};
     int parts = 0;
     const auto add_part = [&] {
-        for (std::size_t i = 0; i < detail::lane_count / 2; ++i)
-            sum += RgbT<double>(part[i] + part[i + detail::lane_count / 2]);
+        for (std::size_t i = 0; i < lane_count / 2; ++i)
+            sum += RgbT<double>(part[i] + part[i + lane_count / 2]);
         part = {};
         parts = 0;
     };
@@ -135,7 +137,7 @@ flux_in_disc(const KdTree8T<T>& tree, const PhotonRecordsT<T>& records,
         const auto i = static_cast<std::size_t>(lane);
         const std::uint32_t code = record.code[i];
         const T height = glm::dot(block.points[i] - disc.center, disc.normal);
-        const SmallNormal normal = detail::RecordCode::normal(code);
+        const SmallNormal normal = RecordCode::normal(code);
         if ((code & kinds) == 0 || std::abs(height) > limit ||
             turned_away(normal, disc.normal))
             return;
@@ -149,28 +151,27 @@ flux_in_disc(const KdTree8T<T>& tree, const PhotonRecordsT<T>& records,
     };
     const auto add_eight = [&](const FoundBlockT<T>& block,
                                const RecordBlockT<T>& record) {
-        const detail::LanesT<T> inside =
-            detail::lanes_in_disc(block.points, record, disc, block.found);
+        const LanesT<T> inside = lanes_in_disc(block.points, record, disc, block.found);
         // No choices between products: compilers make jumps of them. What does not lie
         // inside is infinite or NaN at worst, and becomes 1.
-        detail::LanesT<T> shares, lit;
-        detail::for_lanes([&](int i) {
+        LanesT<T> shares, lit;
+        for_lanes([&](int i) {
             const T share = block.distance2.lane[i] * per_radius2;
             shares.lane[i] = share < T(1) ? share : T(1);
         });
-        const detail::LanesT<T> weight = kernel_weights(disc.kernel, shares);
-        detail::for_lanes([&](int i) {
+        const LanesT<T> weight = kernel_weights(disc.kernel, shares);
+        for_lanes([&](int i) {
             const T towards = record.direction.x[i] * d.x +
                               record.direction.y[i] * d.y + record.direction.z[i] * d.z;
             const T facing = towards < T(0) ? T(1) : T(0);
             lit.lane[i] = inside.lane[i] * facing * weight.lane[i];
         });
-        detail::for_lanes([&](int i) {
+        for_lanes([&](int i) {
             part.x[i] += lit.lane[i] * record.flux.x[i];
             part.y[i] += lit.lane[i] * record.flux.y[i];
             part.z[i] += lit.lane[i] * record.flux.z[i];
         });
-        detail::for_lanes(
+        for_lanes(
             [&](int i) { count[i] += static_cast<std::int32_t>(inside.lane[i]); });
     };
     const auto visit = [&](const FoundBlockT<T>& block) {
@@ -189,6 +190,7 @@ flux_in_disc(const KdTree8T<T>& tree, const PhotonRecordsT<T>& records,
     for (const std::int32_t lane : count) gathered += static_cast<std::uint64_t>(lane);
     return sum;
 }
+
 /// \}
 
-} // namespace ljus
+} // namespace ljus::detail

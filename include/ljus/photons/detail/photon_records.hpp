@@ -11,7 +11,7 @@
 #include "ljus/math/lanes.hpp"
 #include "ljus/photons/photon.hpp"
 
-namespace ljus {
+namespace ljus::detail {
 
 /// \addtogroup photon_map
 /// \{
@@ -29,14 +29,11 @@ struct PhotonRecordT {
 /// Eight records, field by field: 256 bytes in float, which an estimate reads at once.
 template <std::floating_point T>
 struct RecordBlockT {
-    detail::Lanes3T<T> direction;            ///< Unit, the way they travel.
-    detail::Lanes3T<T> flux;                 ///< W.
-    std::uint16_t light[detail::lane_count]; ///< The numbers of their lights.
-    std::uint32_t
-        code[detail::lane_count]; ///< What has happened to them, and their normals.
+    Lanes3T<T> direction;            ///< Unit, the way they travel.
+    Lanes3T<T> flux;                 ///< W.
+    std::uint16_t light[lane_count]; ///< The numbers of their lights.
+    std::uint32_t code[lane_count];  ///< What has happened to them, and their normals.
 };
-
-namespace detail {
 
 // A photon's kind and its normal in 32 bits. To shift all of eight numbers by the same
 // is one instruction everywhere: so the lanes take them apart.
@@ -63,8 +60,6 @@ struct RecordCode {
         return {normal<0>(code), normal<1>(code), normal<2>(code)};
     }
 };
-
-} // namespace detail
 
 /// Records in the order of a tree. To the reader a list of PhotonRecordT.
 template <std::floating_point T>
@@ -128,13 +123,16 @@ public:
         const RecordBlockT<T>& block = blocks_[index / 8];
         const std::size_t i = index % 8;
         return {block.direction[i], block.flux[i], block.light[i],
-                detail::RecordCode::kind(block.code[i]),
-                detail::RecordCode::normal(block.code[i])};
+                RecordCode::kind(block.code[i]), RecordCode::normal(block.code[i])};
     }
     /// The first one.
     [[nodiscard]] Iterator begin() const noexcept { return {*this, 0}; }
     /// Behind the last one.
     [[nodiscard]] Iterator end() const noexcept { return {*this, size_}; }
+    /// The memory that they take.
+    [[nodiscard]] std::size_t bytes() const noexcept {
+        return blocks_.size() * sizeof(RecordBlockT<T>);
+    }
     /// All of them, eight by eight; what fills up the last eight is 0.
     [[nodiscard]] const std::vector<RecordBlockT<T>>& blocks() const noexcept {
         return blocks_;
@@ -147,7 +145,7 @@ private:
         block.direction.set(i, record.direction);
         block.flux.set(i, record.flux);
         block.light[i] = record.light;
-        block.code[i] = detail::RecordCode::of(record.kind, record.normal);
+        block.code[i] = RecordCode::of(record.kind, record.normal);
     }
 
     std::vector<RecordBlockT<T>> blocks_;
@@ -156,4 +154,4 @@ private:
 
 /// \}
 
-} // namespace ljus
+} // namespace ljus::detail

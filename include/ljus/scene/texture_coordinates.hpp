@@ -1,6 +1,6 @@
 #pragma once
 
-/// \file ljus/geometry/texture_coordinates.hpp
+/// \file ljus/scene/texture_coordinates.hpp
 /// \brief The coordinates (u, v) that a place has on its own shape.
 
 #include "ljus/geometry/moving.hpp"
@@ -39,7 +39,7 @@ template <std::floating_point T>
 [[nodiscard]] Vec2T<T> texture_coordinates(const SphereT<T>& /*sphere*/,
                                            const FlatHitT<T>& /*hit*/,
                                            const SurfacePointT<T>& point) noexcept {
-    return coordinates(GlobeMapT<T>{}, point.normal);
+    return map_coordinates(GlobeMapT<T>{}, point.normal);
 }
 
 /// Of a moving shape: where it is does not matter.

@@ -1,6 +1,6 @@
 #pragma once
 
-/// \file ljus/accel/pair_triangles.hpp
+/// \file ljus/geometry/detail/pair_triangles.hpp
 /// \brief Two triangles that are one parallelogram, found again.
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 #include "ljus/geometry/quad.hpp"
 
-namespace ljus {
+namespace ljus::detail {
 
 /// \defgroup pair_triangles Pairs of triangles
 /// \brief A file of triangles has two for each wall and each lamp. As one quad they
@@ -90,6 +90,7 @@ pair_triangles(const std::vector<glm::dvec3>& vertices,
                                         .v3 = Vec3T<T>{vertices[indices[i][2]]}});
     return shapes;
 }
+
 /// \}
 
-} // namespace ljus
+} // namespace ljus::detail
