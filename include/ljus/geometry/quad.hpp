@@ -52,12 +52,12 @@ template <typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<FlatHitT<T>> intersect(const RayT<T>& ray,
                                                    const QuadT<T>& quad) noexcept {
     using C = ComputeT<Compute, WideT<T>>;
-    const auto hit = moller_trumbore<C>(
-        ray, Vec3T<C>{quad.corner}, Vec3T<C>{quad.edge_u}, Vec3T<C>{quad.edge_v},
-        [](C u, C v, C border) {
-            return u <= C(1) + border && v >= -border && v <= C(1) + border;
-        });
-    if (hit && !detail::has_area(quad)) return std::nullopt;
+    auto hit = moller_trumbore<C>(ray, Vec3T<C>{quad.corner}, Vec3T<C>{quad.edge_u},
+                                  Vec3T<C>{quad.edge_v}, [](C u, C v, C border) {
+                                      return u <= C(1) + border && v >= -border &&
+                                             v <= C(1) + border;
+                                  });
+    if (hit && !detail::has_area(quad)) hit.reset();
     return hit;
 }
 

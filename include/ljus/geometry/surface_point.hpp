@@ -52,8 +52,8 @@ template <std::floating_point T>
 /// \report{Definition 3.1}
 // [offset_ray_origin]
 template <std::floating_point T>
-[[nodiscard]] Vec3T<T> offset_ray_origin(const SurfacePointT<T>& point,
-                                         const Vec3T<T>& direction) noexcept {
+[[nodiscard]] inline Vec3T<T> offset_ray_origin(const SurfacePointT<T>& point,
+                                                const Vec3T<T>& direction) noexcept {
     const Vec3T<T>& n = point.normal;
     const T scale = max_component(detail::sizes(point.position) + point.error);
     const T last_place = glm::max(scale * std::numeric_limits<T>::epsilon(),

@@ -204,9 +204,10 @@ template <SceneLike S, std::floating_point T, typename Stream>
     detail::PassageT<T> passage;
     if (detail::lists_thin_surfaces<S> && detail::has_thin_surfaces(scene))
         passage = detail::pass_thin_surfaces(scene, path.ray, hit, stream);
-    if (!hit) return std::nullopt;
+    std::optional<VertexT<T>> vertex;
+    if (!hit) return vertex;
 
-    std::optional<VertexT<T>> vertex(vertex_at(scene, path.ray, *hit));
+    detail::fill_vertex(vertex.emplace(), scene, path.ray, *hit);
     const bool from_behind = glm::dot(vertex->frame.normal, path.ray.direction) > T(0);
     if (path.depth == 1 && from_behind)
         path.medium = scene.visit_material(vertex->object.material,

@@ -52,25 +52,20 @@ template <SceneLike S>
         return false;
 }
 
-} // namespace detail
-
-/// The vertex at a hit.
-///
-/// The geometric normal decides on which side a direction is. A ray that comes from
-/// different sides of the two normals finds the frame around the geometric one: so the
-/// z of `wo` always tells the side, and no surface is seen from behind.
-/// \param scene  The scene.
-/// \param ray    The ray that hit; its direction of unit length.
-/// \param hit    What closest_hit() returned.
-/// \return The vertex; its medium is not known yet.
+/// Sets a vertex to what vertex_at() returns. next_vertex() has the vertex in the
+/// optional that it returns: a copy of these 160 bytes for each ray is slow.
+/// \param vertex  A new one; all but its medium is set.
+/// \param scene   The scene.
+/// \param ray     The ray that hit; its direction of unit length.
+/// \param hit     What closest_hit() returned.
 // [vertex_at]
 template <SceneLike S, std::floating_point T>
-[[nodiscard]] VertexT<T> vertex_at(const S& scene, const RayT<T>& ray,
-                                   const SceneHitT<T>& hit) {
-    VertexT<T> vertex{.id = hit.object,
-                      .object = scene.object(hit.object),
-                      .distance = hit.at.t,
-                      .time = ray.time};
+inline void fill_vertex(VertexT<T>& vertex, const S& scene, const RayT<T>& ray,
+                        const SceneHitT<T>& hit) {
+    vertex.id = hit.object;
+    vertex.object = scene.object(hit.object);
+    vertex.distance = hit.at.t;
+    vertex.time = ray.time;
     Vec3T<T>& geometric = vertex.point.normal;
     Vec3T<T> normal = scene.visit_shape(hit.object, [&](const auto& shape) {
         vertex.point = surface_point(shape, ray, hit.at);
@@ -93,9 +88,27 @@ template <SceneLike S, std::floating_point T>
     }
     vertex.frame = frame_around(vertex.turned ? geometric : normal);
     vertex.wo = to_local(vertex.frame, -ray.direction);
-    return vertex;
 }
 // [vertex_at]
+
+} // namespace detail
+
+/// The vertex at a hit.
+///
+/// The geometric normal decides on which side a direction is. A ray that comes from
+/// different sides of the two normals finds the frame around the geometric one: so the
+/// z of `wo` always tells the side, and no surface is seen from behind.
+/// \param scene  The scene.
+/// \param ray    The ray that hit; its direction of unit length.
+/// \param hit    What closest_hit() returned.
+/// \return The vertex; its medium is not known yet.
+template <SceneLike S, std::floating_point T>
+[[nodiscard]] VertexT<T> vertex_at(const S& scene, const RayT<T>& ray,
+                                   const SceneHitT<T>& hit) {
+    VertexT<T> vertex;
+    detail::fill_vertex(vertex, scene, ray, hit);
+    return vertex;
+}
 
 /// Calls f(material) with what a surface is made of at a vertex: what visit_material()
 /// does for an object, this does for a place of it. A textured material is its base in

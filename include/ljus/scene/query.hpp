@@ -31,14 +31,19 @@ namespace detail {
 /// \return The hit; nothing for a miss.
 template <typename Compute, std::floating_point T, typename S>
 [[nodiscard]] std::optional<FlatHitT<T>> hit_of(const RayT<T>& ray, const S& shape) {
-    const auto hit = [&] {
+    const auto ask = [&] {
         if constexpr (requires { intersect<Compute>(ray, shape); })
             return intersect<Compute>(ray, shape);
         else
             return intersect(ray, shape);
-    }();
-    if (!hit) return std::nullopt;
-    return as_hit(*hit);
+    };
+    if constexpr (std::is_same_v<decltype(ask()), std::optional<FlatHitT<T>>>) {
+        return ask(); // without a copy, which is slow enough to show
+    } else {
+        const auto hit = ask();
+        if (!hit) return std::nullopt;
+        return as_hit(*hit);
+    }
 }
 
 /// Whether a ray meets a shape of any type: by the shape's own meets(), if it has one
