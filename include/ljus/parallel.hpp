@@ -6,7 +6,6 @@
 #include <concepts>
 #include <cstddef>
 #include <exception>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -245,7 +244,7 @@ bool parallel_blocks(long long count, Body&& body,
     const auto call = [](void* any, long long block) {
         (*static_cast<B*>(any))(block);
     };
-    void* const any = const_cast<void*>(static_cast<const void*>(std::addressof(body)));
+    void* const any = const_cast<void*>(static_cast<const void*>(&body));
     return detail::run_blocks(count, {any, call}, options);
 }
 
