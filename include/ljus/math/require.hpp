@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -19,33 +20,65 @@ namespace ljus {
 /// \brief Data are checked once, where a scene, a camera, a map or an image is made.
 /// \{
 
+namespace detail {
+
+// What follows is one function for all types: text takes a compiler long.
+
+// See to_text(); `single` says that the value came from a float.
+[[nodiscard]] LJUS_CORE_INLINE std::string number_text(double value, bool single);
+
+// Throws the sentence of require().
+[[noreturn]] LJUS_CORE_INLINE void refuse_text(std::string_view what,
+                                               std::string_view value,
+                                               std::string_view right);
+
+#ifndef LJUS_CORE // else they are there already
+LJUS_CORE_INLINE std::string number_text(double value, bool single) {
+    if (std::isnan(value)) return "NaN";
+    if (std::isinf(value)) return value < 0 ? "-infinity" : "infinity";
+    char digits[40];
+    const int most = single ? std::numeric_limits<float>::max_digits10
+                            : std::numeric_limits<double>::max_digits10;
+    for (int count = 6; count <= most; ++count) {
+        std::snprintf(digits, sizeof digits, "%.*g", count, value);
+        const double read = std::strtod(digits, nullptr);
+        if (read == value || (single && float(read) == float(value))) break;
+    }
+    // C writes at least two digits of an exponent: 1e-07.
+    char* const e = std::strchr(digits, 'e');
+    if (e != nullptr && e[2] == '0') std::memmove(e + 2, e + 3, std::strlen(e + 2));
+    return digits;
+}
+
+LJUS_CORE_INLINE void refuse_text(std::string_view what, std::string_view value,
+                                  std::string_view right) {
+    std::string text;
+    for (const std::string_view part : {what, std::string_view(" is "), value,
+                                        std::string_view("; it must be "), right,
+                                        std::string_view(".")})
+        text.append(part);
+    throw std::invalid_argument(text);
+}
+#endif
+
+} // namespace detail
+
 /// A number as a person writes it: -1, 0.5, 1e-7, 1e+30, NaN, infinity; with as many
 /// digits, from 6 on, as bring the same value back, so that 1.0000001 is not "1".
 /// \param value  Any number.
 /// \return The text.
 template <std::floating_point T>
 [[nodiscard]] std::string to_text(T value) {
-    if (std::isnan(value)) return "NaN";
-    if (std::isinf(value)) return value < T(0) ? "-infinity" : "infinity";
-    char digits[40];
-    for (int count = 6; count <= std::numeric_limits<T>::max_digits10; ++count) {
-        std::snprintf(digits, sizeof digits, "%.*g", count, double(value));
-        if (static_cast<T>(std::strtod(digits, nullptr)) == value) break;
-    }
-    std::string text = digits;
-    // C writes at least two digits of an exponent: 1e-07.
-    const std::size_t e = text.find('e');
-    if (e != std::string::npos && text[e + 2] == '0') text.erase(e + 2, 1);
-    return text;
+    return detail::number_text(double(value), std::is_same_v<T, float>);
 }
 
 /// A vector as a message shows it.
 template <std::floating_point T>
 [[nodiscard]] std::string to_text(const Vec3T<T>& v) {
-    // Appended, because g++ 12 warns of "x" + std::string (-Wrestrict, its bug 105651).
-    std::string text(1, '(');
-    text.append(to_text(v.x)).append(", ").append(to_text(v.y)).append(", ");
-    return text.append(to_text(v.z)).append(")");
+    std::string text;
+    for (int i = 0; i < 3; ++i)
+        text.append(i == 0 ? "(" : ", ").append(to_text(v[i]));
+    return text.append(")");
 }
 
 /// An integer as a message shows it.
@@ -59,8 +92,7 @@ namespace detail {
 template <typename Value>
 [[noreturn]] void refuse(std::string_view what, const Value& value,
                          std::string_view right) {
-    throw std::invalid_argument(std::string(what) + " is " + to_text(value) +
-                                "; it must be " + std::string(right) + ".");
+    refuse_text(what, to_text(value), right);
 }
 
 } // namespace detail
