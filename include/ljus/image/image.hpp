@@ -95,8 +95,8 @@ void require_same_size(const ImageT<T>& image, const ImageT<U>& reference) {
     if (image.width == reference.width && image.height == reference.height) return;
     char text[128];
     std::snprintf(text, sizeof text,
-                  "The image's size is %d x %d; the reference has %d x %d.", image.width,
-                  image.height, reference.width, reference.height);
+                  "The image's size is %d x %d; the reference has %d x %d.",
+                  image.width, image.height, reference.width, reference.height);
     throw std::invalid_argument(text);
 }
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <initializer_list>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -22,42 +23,43 @@ namespace ljus {
 
 namespace detail {
 
-// What follows is one function for all types: text takes a compiler long.
+// Text takes a compiler long: what follows is made once for all types of values.
 
+// The text of a number.
+struct NumberText {
+    char digits[40];
+};
 // See to_text(); `single` says that the value came from a float.
-[[nodiscard]] LJUS_CORE_INLINE std::string number_text(double value, bool single);
+[[nodiscard]] LJUS_CORE_INLINE NumberText number_text(double value, bool single);
 
-// Throws the sentence of require().
-[[noreturn]] LJUS_CORE_INLINE void refuse_text(std::string_view what,
-                                               std::string_view value,
-                                               std::string_view right);
+// Several texts, one after the other.
+[[nodiscard]] LJUS_CORE_INLINE std::string
+join(std::initializer_list<std::string_view> parts);
 
 #ifndef LJUS_CORE // else they are there already
-LJUS_CORE_INLINE std::string number_text(double value, bool single) {
-    if (std::isnan(value)) return "NaN";
-    if (std::isinf(value)) return value < 0 ? "-infinity" : "infinity";
-    char digits[40];
+LJUS_CORE_INLINE NumberText number_text(double value, bool single) {
+    if (std::isnan(value)) return {"NaN"};
+    if (std::isinf(value) && value < 0) return {"-infinity"};
+    if (std::isinf(value)) return {"infinity"};
+    NumberText text{};
+    char* const digits = text.digits;
     const int most = single ? std::numeric_limits<float>::max_digits10
                             : std::numeric_limits<double>::max_digits10;
     for (int count = 6; count <= most; ++count) {
-        std::snprintf(digits, sizeof digits, "%.*g", count, value);
+        std::snprintf(digits, sizeof text.digits, "%.*g", count, value);
         const double read = std::strtod(digits, nullptr);
         if (read == value || (single && float(read) == float(value))) break;
     }
     // C writes at least two digits of an exponent: 1e-07.
     char* const e = std::strchr(digits, 'e');
     if (e != nullptr && e[2] == '0') std::memmove(e + 2, e + 3, std::strlen(e + 2));
-    return digits;
+    return text;
 }
 
-LJUS_CORE_INLINE void refuse_text(std::string_view what, std::string_view value,
-                                  std::string_view right) {
+LJUS_CORE_INLINE std::string join(std::initializer_list<std::string_view> parts) {
     std::string text;
-    for (const std::string_view part : {what, std::string_view(" is "), value,
-                                        std::string_view("; it must be "), right,
-                                        std::string_view(".")})
-        text.append(part);
-    throw std::invalid_argument(text);
+    for (const std::string_view part : parts) text.append(part);
+    return text;
 }
 #endif
 
@@ -69,21 +71,26 @@ LJUS_CORE_INLINE void refuse_text(std::string_view what, std::string_view value,
 /// \return The text.
 template <std::floating_point T>
 [[nodiscard]] std::string to_text(T value) {
-    return detail::number_text(double(value), std::is_same_v<T, float>);
+    return detail::number_text(double(value), std::is_same_v<T, float>).digits;
 }
 
 /// A vector as a message shows it.
 template <std::floating_point T>
 [[nodiscard]] std::string to_text(const Vec3T<T>& v) {
-    std::string text;
+    detail::NumberText part[3];
     for (int i = 0; i < 3; ++i)
-        text.append(i == 0 ? "(" : ", ").append(to_text(v[i]));
-    return text.append(")");
+        part[i] = detail::number_text(double(v[i]), std::is_same_v<T, float>);
+    char text[sizeof part + 8];
+    std::snprintf(text, sizeof text, "(%s, %s, %s)", part[0].digits, part[1].digits,
+                  part[2].digits);
+    return text;
 }
 
 /// An integer as a message shows it.
 [[nodiscard]] inline std::string to_text(long long value) {
-    return std::to_string(value);
+    char digits[24];
+    std::snprintf(digits, sizeof digits, "%lld", value);
+    return digits;
 }
 
 namespace detail {
@@ -92,7 +99,8 @@ namespace detail {
 template <typename Value>
 [[noreturn]] void refuse(std::string_view what, const Value& value,
                          std::string_view right) {
-    refuse_text(what, to_text(value), right);
+    throw std::invalid_argument(
+        join({what, " is ", to_text(value), "; it must be ", right, "."}));
 }
 
 } // namespace detail

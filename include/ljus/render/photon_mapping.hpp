@@ -57,7 +57,7 @@ make_photon_maps(const S& scene, const PhotonMappingSettings& settings = {}) {
         map = make_photon_map(traced.photons);
         audit = traced.audit;
         maps.complete = maps.complete && traced.complete;
-        if (!traced.remark.empty()) maps.remarks += traced.remark + "\n";
+        if (!traced.remark.empty()) maps.remarks.append(traced.remark).append("\n");
     };
     if (run.caustics_map)
         make(MapType::caustics, settings.caustics, maps.caustics, maps.caustics_audit);
