@@ -57,6 +57,12 @@ LJUS_CORE_EXTERN template RgbT<double> flux_in_disc(const KdTree8&,
                                                     const PhotonRecordsT<float>&,
                                                     const FluxDiscT<float>&,
                                                     std::uint64_t&);
+namespace detail {
+LJUS_CORE_EXTERN template std::size_t nearest_photons(const PhotonMap&,
+                                                      const SurfacePointT<float>&,
+                                                      float, PhotonKinds,
+                                                      std::span<Neighbor>);
+} // namespace detail
 LJUS_CORE_EXTERN template Rgb estimate_radiance(const PhotonMap&, const VertexT<float>&,
                                                 const Lambertian&, const Vec3&,
                                                 const DensityEstimateSettings&,

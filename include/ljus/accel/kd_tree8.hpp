@@ -161,15 +161,18 @@ public:
     /// \param found   Room for as many as are wanted; the farthest is put first, the
     ///                others in any order.
     /// \param wanted  Called with a place in the tree's order; false passes it over.
+    /// \tparam Most   The caller promises to want no more: up to 512 a compiler is
+    ///                spared the heap that more of them need.
     /// \return How many were found; of several that are equally far, any, but always
     ///         the same ones.
     /// \cost In the mean O(log n) and some steps a point that is wanted, also where
     ///       many points are equal; where few of those around are wanted, more.
-    template <typename Wanted = AnyPoint>
+    template <std::size_t Most = std::numeric_limits<std::size_t>::max(),
+              typename Wanted = AnyPoint>
     [[nodiscard]] std::size_t nearest(const Vec3T<T>& center, T radius,
                                       std::span<Neighbor> found,
                                       Wanted wanted = {}) const {
-        return detail::nearest_points(parts_, center, radius, found, wanted);
+        return detail::nearest_points<Most>(parts_, center, radius, found, wanted);
     }
 
 private:

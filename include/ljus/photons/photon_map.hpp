@@ -121,6 +121,30 @@ estimate_radiance_plain(const PhotonMapT<T>& map, const VertexT<T>& surface,
 }
 // [plain estimate]
 
+namespace detail {
+
+/// The nearest photons that count at a point: a search for all materials.
+/// \param map     The photons.
+/// \param point   Of a surface, from which they must not be turned_away().
+/// \param radius  They lie within it.
+/// \param kinds   Which kinds count.
+/// \param found   Room for as many as are wanted, at most max_nearest; the farthest is
+///                put first.
+/// \return How many were found.
+template <std::floating_point T>
+[[nodiscard]] std::size_t
+nearest_photons(const PhotonMapT<T>& map, const SurfacePointT<T>& point, T radius,
+                PhotonKinds kinds, std::span<Neighbor> found) {
+    const auto counts = [&](std::uint32_t i) {
+        const PhotonRecordT<T> photon = map.records[i];
+        return kinds.has(photon.kind) && !turned_away(photon.normal, point.normal);
+    };
+    return map.tree.template nearest<max_nearest>(point.position, radius,
+                                                  found, counts);
+}
+
+} // namespace detail
+
 /// The radiance that the photons around a point send towards an observer:
 ///
 /// \f[ L(x, \omega_o) = \frac{1}{\pi r^2} \sum_i w_i\, f(\omega_o, \omega_i)\,
@@ -175,14 +199,10 @@ template <std::floating_point T, typename Material>
         sum = RgbT<double>(evaluate(material, wo, wo)) *
               flux_in_disc(map.tree, map.records, disc, gathered);
     } else {
-        const auto counts = [&](std::uint32_t i) {
-            const PhotonRecordT<T> photon = map.records[i];
-            return kinds.has(photon.kind) &&
-                   !turned_away(photon.normal, surface.point.normal);
-        };
         std::array<Neighbor, max_nearest> room;
         const std::span<Neighbor> found(room.data(), gather.nearest);
-        const std::size_t count = map.tree.nearest(x, T(gather.radius), found, counts);
+        const std::size_t count =
+            detail::nearest_photons(map, surface.point, T(gather.radius), kinds, found);
         const bool full = count == gather.nearest;
         if (full) radius2 = found[0].distance2;
         // All photons in one point have no area: there is no estimate.

@@ -194,9 +194,11 @@ template <SceneLike S, std::floating_point T, typename Log = NoLog>
 
             const bool gather =
                 path.met_diffuse && settings.indirect == IndirectLight::map;
-            const auto at_material = [&](const auto& material) {
-                if (has(lobes(material), Lobes::non_specular))
-                    light_at(mapper, *vertex, material, gather, stream, counts, add);
+            const auto at_material = [&]<typename M>(const M& material) {
+                if constexpr (!OnlySpecular<M>)
+                    if (has(lobes(material), Lobes::non_specular))
+                        light_at(mapper, *vertex, material, gather, stream, counts,
+                                 add);
                 if (path.depth == settings.max_depth) return false;
                 if (settings.split_glass && !path.met_diffuse &&
                     branches.size() < detail::max_splits)
