@@ -54,10 +54,11 @@ public:
         if (points.empty()) return;
         parts_.shape = detail::KdTree8Shape::of(points.size());
         constexpr T nan = std::numeric_limits<T>::quiet_NaN();
-        parts_.nodes.resize(parts_.shape.first[std::size_t(parts_.shape.levels)]);
-        parts_.blocks.resize(parts_.shape.blocks);
+        parts_.nodes = std::vector<detail::KdTree8NodeT<T>>(
+            parts_.shape.first[std::size_t(parts_.shape.levels)]);
+        parts_.blocks = std::vector<detail::Lanes3T<T>>(parts_.shape.blocks);
         for (std::size_t i = 0; i < 8; ++i) parts_.blocks.back().set(i, Vec3T<T>{nan});
-        order_.resize(points.size());
+        order_ = std::vector<std::uint32_t>(points.size());
         detail::KdTree8Builder<T>(parts_.shape, parts_.nodes, parts_.blocks, order_)
             .build(points, threads);
     }

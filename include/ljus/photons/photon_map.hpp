@@ -28,6 +28,23 @@ struct PhotonMapT {
 };
 using PhotonMap = PhotonMapT<float>; ///< PhotonMapT in float.
 
+namespace detail {
+
+// Where photons are, if all that they carry is finite.
+template <std::floating_point T>
+[[nodiscard]] std::vector<Vec3T<T>>
+checked_positions(const std::vector<PhotonT<T>>& photons) {
+    std::vector<Vec3T<T>> positions(photons.size());
+    for (std::size_t i = 0; i < photons.size(); ++i) {
+        require_finite("photon.direction", photons[i].direction);
+        require_finite("photon.flux", photons[i].flux);
+        positions[i] = photons[i].position;
+    }
+    return positions;
+}
+
+} // namespace detail
+
 /// Builds a map.
 /// \param photons  In any order, which it does not keep.
 /// \param threads  As in ParallelSettings.
@@ -36,16 +53,8 @@ using PhotonMap = PhotonMapT<float>; ///< PhotonMapT in float.
 template <std::floating_point T>
 [[nodiscard]] PhotonMapT<T> make_photon_map(const std::vector<PhotonT<T>>& photons,
                                             int threads = 0) {
-    std::vector<Vec3T<T>> positions;
-    positions.reserve(photons.size());
-    for (const PhotonT<T>& photon : photons) {
-        require_finite("photon.direction", photon.direction);
-        require_finite("photon.flux", photon.flux);
-        positions.push_back(photon.position);
-    }
-
-    PhotonMapT<T> map{.tree = KdTree8T<T>(positions, threads), .records = {}};
-    positions = {};
+    PhotonMapT<T> map;
+    map.tree = KdTree8T<T>(detail::checked_positions(photons), threads);
     map.records = PhotonRecordsT<T>(photons, map.tree.order());
     return map;
 }

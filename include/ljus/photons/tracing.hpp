@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <utility>
 #include <vector>
 
 #include "ljus/parallel.hpp"
@@ -70,8 +71,8 @@ long long join_blocks(std::vector<PhotonBlockT<T>>& blocks, TracedPhotonsT<T>& r
     result.photons.reserve(stored);
     long long unsent = 0;
     for (PhotonBlockT<T>& block : blocks) {
-        result.photons.insert(result.photons.end(), block.photons.begin(),
-                              block.photons.end());
+        for (PhotonT<T>& photon : block.photons)
+            result.photons.push_back(std::move(photon));
         result.audit += block.audit;
         unsent += block.unsent;
         block = {};
