@@ -49,8 +49,10 @@ LJUS_CORE_EXTERN template detail::Bvh8Nodes detail::make_bvh8(const BvhNodesT<fl
 // Photons.
 LJUS_CORE_EXTERN template LightChoice light_choice(const std::vector<LightT<float>>&);
 namespace detail {
-LJUS_CORE_EXTERN template long long join_blocks(std::vector<PhotonBlockT<float>>&,
-                                                TracedPhotonsT<float>&);
+LJUS_CORE_EXTERN template LightChoice start_pass(const PhotonPassSettings&,
+                                                 const std::vector<LightT<float>>&);
+LJUS_CORE_EXTERN template TracedPhotonsT<float>
+run_pass(MapType, const PhotonPassSettings&, BlockTracerT<float>);
 } // namespace detail
 LJUS_CORE_EXTERN template PhotonMap make_photon_map(const std::vector<Photon>&, int);
 LJUS_CORE_EXTERN template RgbT<double> flux_in_disc(const KdTree8&,
