@@ -45,7 +45,7 @@ namespace detail {
     // Not in the middle of a UTF-8 character.
     while (limit > 0 && (static_cast<unsigned char>(text[limit]) & 0xc0u) == 0x80u)
         --limit;
-    return text.substr(0, limit).append("...");
+    return join({std::string_view(text).substr(0, limit), "..."});
 }
 
 // A path as a message shows it: another file may have named it.

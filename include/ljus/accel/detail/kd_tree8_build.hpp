@@ -31,8 +31,8 @@ public:
         Item() noexcept {} // nothing is set: all are written before they are read
     };
 
-    KdTree8Builder(const KdTree8Shape& shape, std::span<KdTree8NodeT<T>> nodes,
-                   std::span<Lanes3T<T>> blocks, std::span<std::uint32_t> order)
+    KdTree8Builder(const KdTree8Shape& shape, std::vector<KdTree8NodeT<T>>& nodes,
+                   std::vector<Lanes3T<T>>& blocks, std::vector<std::uint32_t>& order)
         : shape_(shape), nodes_(nodes), blocks_(blocks), order_(order) {
         for (auto& items : items_) items = std::vector<Item>(shape.points);
     }
@@ -171,7 +171,7 @@ private:
 
     // Two numbers between which the item of a rank is likely to lie: of a few items,
     // twice its own coordinate; of many, what a sample says.
-    static std::pair<T, T> pivots(const Item* items, std::uint64_t count,
+    static Extremes<T> pivots(const Item* items, std::uint64_t count,
                                   std::uint64_t rank, int axis) {
         constexpr std::uint64_t few = 2048;
         constexpr std::uint64_t sample = 512;
@@ -193,9 +193,9 @@ private:
     }
 
     const KdTree8Shape& shape_;
-    std::span<KdTree8NodeT<T>> nodes_;
-    std::span<Lanes3T<T>> blocks_;
-    std::span<std::uint32_t> order_;
+    std::vector<KdTree8NodeT<T>>& nodes_;
+    std::vector<Lanes3T<T>>& blocks_;
+    std::vector<std::uint32_t>& order_;
     std::vector<Item> items_[2];
 };
 
