@@ -46,6 +46,20 @@ LJUS_CORE_EXTERN template BvhNodesT<float> build_bvh(std::span<const Box>,
 LJUS_CORE_EXTERN template detail::Bvh8Nodes detail::make_bvh8(const BvhNodesT<float>&,
                                                               std::uint32_t);
 
+// Paths.
+LJUS_CORE_EXTERN template SeenPointT<float> sample_towards(const Sphere&, const Vec3&,
+                                                           const Vec2&);
+LJUS_CORE_EXTERN template std::optional<detail::ScatteredT<float>>
+scatter(const VertexT<float>&, const Lambertian&, const Vec3&, Transport, Lobes);
+LJUS_CORE_EXTERN template std::optional<detail::ScatteredT<float>>
+scatter(const VertexT<float>&, const OrenNayar&, const Vec3&, Transport, Lobes);
+LJUS_CORE_EXTERN template std::optional<detail::ScatteredT<float>>
+scatter(const VertexT<float>&, const Mirror&, const Vec3&, Transport, Lobes);
+LJUS_CORE_EXTERN template std::optional<detail::ScatteredT<float>>
+scatter(const VertexT<float>&, const Glass&, const Vec3&, Transport, Lobes);
+LJUS_CORE_EXTERN template std::optional<PathStateT<float>>
+split_path(PathStateT<float>&, const VertexT<float>&, const Glass&);
+
 // Photons.
 LJUS_CORE_EXTERN template LightChoice light_choice(const std::vector<LightT<float>>&);
 namespace detail {

@@ -83,10 +83,10 @@ template <std::floating_point T>
             options.exposure, "a finite number of stops");
     const double scale = std::exp2(options.exposure);
     Bytes screen(image.pixels.size() * 3);
-    for (std::size_t i = 0; i < screen.size(); ++i) {
-        const T channel = image.pixels[i / 3][static_cast<int>(i % 3)];
-        screen[i] = srgb_byte(scale * static_cast<double>(channel));
-    }
+    std::size_t next = 0;
+    for (const RgbT<T>& c : image.pixels)
+        for (const T channel : {c.x, c.y, c.z})
+            screen[next++] = srgb_byte(scale * static_cast<double>(channel));
 
     Bytes file;
     const auto append = [](void* context, void* data, int size) {

@@ -25,41 +25,45 @@ namespace detail {
 
 // Text takes a compiler long: what follows is made once for all types of values.
 
-// The text of a number.
-struct NumberText {
-    char digits[40];
-};
-// See to_text(); `single` says that the value came from a float.
-[[nodiscard]] LJUS_CORE_INLINE NumberText number_text(double value, bool single);
-
 // Several texts, one after the other.
 [[nodiscard]] LJUS_CORE_INLINE std::string
 join(std::initializer_list<std::string_view> parts);
 
-#ifndef LJUS_CORE // else they are there already
-LJUS_CORE_INLINE NumberText number_text(double value, bool single) {
-    if (std::isnan(value)) return {"NaN"};
-    if (std::isinf(value) && value < 0) return {"-infinity"};
-    if (std::isinf(value)) return {"infinity"};
-    NumberText text{};
-    char* const digits = text.digits;
-    const int most = single ? std::numeric_limits<float>::max_digits10
-                            : std::numeric_limits<double>::max_digits10;
-    for (int count = 6; count <= most; ++count) {
-        std::snprintf(digits, sizeof text.digits, "%.*g", count, value);
-        const double read = std::strtod(digits, nullptr);
-        if (read == value || (single && float(read) == float(value))) break;
-    }
-    // C writes at least two digits of an exponent: 1e-07.
-    char* const e = std::strchr(digits, 'e');
-    if (e != nullptr && e[2] == '0') std::memmove(e + 2, e + 3, std::strlen(e + 2));
-    return text;
-}
+// One number, or several as the components of a vector; `single` says that they came
+// from floats. See to_text().
+[[nodiscard]] LJUS_CORE_INLINE std::string
+numbers_to_text(std::initializer_list<double> values, bool single);
 
+#ifndef LJUS_CORE // else they are there already
 LJUS_CORE_INLINE std::string join(std::initializer_list<std::string_view> parts) {
     std::string text;
     for (const std::string_view part : parts) text.append(part);
     return text;
+}
+
+LJUS_CORE_INLINE std::string numbers_to_text(std::initializer_list<double> values,
+                                             bool single) {
+    const int most = single ? std::numeric_limits<float>::max_digits10
+                            : std::numeric_limits<double>::max_digits10;
+    std::string text;
+    for (const double value : values) {
+        char digits[40];
+        for (int count = 6; count <= most; ++count) {
+            std::snprintf(digits, sizeof digits, "%.*g", count, value);
+            const double read = std::strtod(digits, nullptr);
+            if (read == value || (single && float(read) == float(value))) break;
+        }
+        // C writes at least two digits of an exponent: 1e-07.
+        char* const e = std::strchr(digits, 'e');
+        if (e != nullptr && e[2] == '0')
+            std::memmove(e + 2, e + 3, std::strlen(e + 2));
+        text.append(text.empty() ? "" : ", ");
+        text.append(std::isnan(value)   ? "NaN"
+                    : std::isfinite(value) ? digits
+                    : value < 0            ? "-infinity"
+                                           : "infinity");
+    }
+    return values.size() == 1 ? text : join({"(", text, ")"});
 }
 #endif
 
@@ -71,19 +75,14 @@ LJUS_CORE_INLINE std::string join(std::initializer_list<std::string_view> parts)
 /// \return The text.
 template <std::floating_point T>
 [[nodiscard]] std::string to_text(T value) {
-    return detail::number_text(double(value), std::is_same_v<T, float>).digits;
+    return detail::numbers_to_text({double(value)}, std::is_same_v<T, float>);
 }
 
 /// A vector as a message shows it.
 template <std::floating_point T>
 [[nodiscard]] std::string to_text(const Vec3T<T>& v) {
-    detail::NumberText part[3];
-    for (int i = 0; i < 3; ++i)
-        part[i] = detail::number_text(double(v[i]), std::is_same_v<T, float>);
-    char text[sizeof part + 8];
-    std::snprintf(text, sizeof text, "(%s, %s, %s)", part[0].digits, part[1].digits,
-                  part[2].digits);
-    return text;
+    return detail::numbers_to_text({double(v.x), double(v.y), double(v.z)},
+                                   std::is_same_v<T, float>);
 }
 
 /// An integer as a message shows it.
