@@ -19,7 +19,7 @@ int main() {
     const Camera camera = look_at({.position{0, 3, 7}, .target{0, 0.9f, 0}});
     const auto maps = make_photon_maps(scene);
     const auto picture =
-        render(make_photon_mapper(scene, maps), camera, {.samples = 16});
+        render(make_photon_mapper(scene, maps), camera, {.samples = 9});
     save_png(picture.image, "first_picture.png");
 }
 // [first picture]

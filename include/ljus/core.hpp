@@ -46,16 +46,38 @@ detail::build_bvh(std::span<const Box>, const BvhSettings&);
 LJUS_CORE_EXTERN template detail::Bvh8Nodes
 detail::make_bvh8(const detail::BvhNodesT<float>&, std::uint32_t);
 
+// Paths.
+LJUS_CORE_EXTERN template SeenPointT<float> sample_towards(const Sphere&, const Vec3&,
+                                                           const Vec2&);
+LJUS_CORE_EXTERN template std::optional<detail::ScatteredT<float>>
+scatter(const VertexT<float>&, const Lambertian&, const Vec3&, Transport, Lobes);
+LJUS_CORE_EXTERN template std::optional<detail::ScatteredT<float>>
+scatter(const VertexT<float>&, const OrenNayar&, const Vec3&, Transport, Lobes);
+LJUS_CORE_EXTERN template std::optional<detail::ScatteredT<float>>
+scatter(const VertexT<float>&, const Mirror&, const Vec3&, Transport, Lobes);
+LJUS_CORE_EXTERN template std::optional<detail::ScatteredT<float>>
+scatter(const VertexT<float>&, const Glass&, const Vec3&, Transport, Lobes);
+LJUS_CORE_EXTERN template std::optional<PathStateT<float>>
+split_path(PathStateT<float>&, const VertexT<float>&, const Glass&);
+
 // Photons.
 LJUS_CORE_EXTERN template LightChoice light_choice(const std::vector<LightT<float>>&);
 namespace detail {
-LJUS_CORE_EXTERN template long long join_blocks(std::vector<PhotonBlockT<float>>&,
-                                                TracedPhotonsT<float>&);
+LJUS_CORE_EXTERN template LightChoice start_pass(const PhotonPassSettings&,
+                                                 const std::vector<LightT<float>>&);
+LJUS_CORE_EXTERN template TracedPhotonsT<float>
+run_pass(MapType, const PhotonPassSettings&, BlockTracerT<float>);
 } // namespace detail
 LJUS_CORE_EXTERN template PhotonMap make_photon_map(const std::vector<Photon>&, int);
 LJUS_CORE_EXTERN template RgbT<double>
 detail::flux_in_disc(const KdTree8&, const detail::PhotonRecordsT<float>&,
                      const detail::FluxDiscT<float>&, std::uint64_t&);
+namespace detail {
+LJUS_CORE_EXTERN template std::size_t nearest_photons(const PhotonMap&,
+                                                      const SurfacePointT<float>&,
+                                                      float, PhotonKinds,
+                                                      std::span<Neighbor>);
+} // namespace detail
 LJUS_CORE_EXTERN template Rgb estimate_radiance(const PhotonMap&, const VertexT<float>&,
                                                 const Lambertian&, const Vec3&,
                                                 const DensityEstimateSettings&,

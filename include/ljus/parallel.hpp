@@ -4,11 +4,9 @@
 /// \brief Loops over blocks by several threads: the one place that knows OpenMP.
 
 #include <concepts>
-#include <cstddef>
+#include <cstdio>
 #include <exception>
-#include <memory>
 #include <stdexcept>
-#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -131,10 +129,13 @@ private:
 
 LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
                                  const ParallelSettings& options) {
-    if (options.threads < 0 || options.threads > max_threads_allowed)
-        throw std::invalid_argument(
-            "The number of threads is " + std::to_string(options.threads) +
-            "; it must be within [0, " + std::to_string(max_threads_allowed) + "].");
+    if (options.threads < 0 || options.threads > max_threads_allowed) {
+        char text[80];
+        std::snprintf(text, sizeof text,
+                      "The number of threads is %d; it must be within [0, %d].",
+                      options.threads, max_threads_allowed);
+        throw std::invalid_argument(text);
+    }
 
     Mutex turns;                    // what follows is changed in turn
     long long next = 0;             // the block to begin next
@@ -241,7 +242,7 @@ bool parallel_blocks(long long count, Body&& body,
     const auto call = [](void* any, long long block) {
         (*static_cast<B*>(any))(block);
     };
-    void* const any = const_cast<void*>(static_cast<const void*>(std::addressof(body)));
+    void* const any = const_cast<void*>(static_cast<const void*>(&body));
     return detail::run_blocks(count, {any, call}, options);
 }
 

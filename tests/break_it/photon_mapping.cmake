@@ -44,6 +44,6 @@ ljus_break_it(NAME photon-mapping-start HEADER path/next_vertex.hpp TEST photon_
 
 # The plan says that nothing is lit, and rays look for light all the same.
 ljus_break_it(NAME photon-mapping-plan HEADER render/photon_mapping.hpp TEST survey
-    FROM "detail::make_plan(needs(scene), settings).indirect_rays.on"
+    FROM "detail::choose_passes(needs(scene), settings).indirect_rays"
     TO   "settings.max_depth > 0"
     CASES "survey: what the plan leaves out*")

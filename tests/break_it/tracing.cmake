@@ -6,8 +6,8 @@ ljus_break_it(NAME tracing-roulette HEADER photons/photon_path.hpp TEST tracing
 
 # Photons share the flux among those that were stored, not those that were emitted.
 ljus_break_it(NAME tracing-stored HEADER photons/tracing.hpp TEST tracing
-    FROM "const long long unsent = detail::join_blocks(blocks, result);"
-    TO   "const long long unsent = detail::join_blocks(blocks, result);
+    FROM "const long long unsent = join_blocks(blocks, result);"
+    TO   "const long long unsent = join_blocks(blocks, result);
     for (auto& photon : result.photons)
         photon.flux *= T(pass.photons) / T(result.photons.size());"
     CASES "tracing: a caustic has*")

@@ -58,10 +58,11 @@ public:
         if (points.empty()) return;
         parts_.shape = detail::KdTree8Shape::of(points.size());
         constexpr T nan = std::numeric_limits<T>::quiet_NaN();
-        parts_.nodes.resize(parts_.shape.first[std::size_t(parts_.shape.levels)]);
-        parts_.blocks.resize(parts_.shape.blocks);
+        parts_.nodes = std::vector<detail::KdTree8NodeT<T>>(
+            parts_.shape.first[std::size_t(parts_.shape.levels)]);
+        parts_.blocks = std::vector<detail::Lanes3T<T>>(parts_.shape.blocks);
         for (std::size_t i = 0; i < 8; ++i) parts_.blocks.back().set(i, Vec3T<T>{nan});
-        point_ids_.resize(points.size());
+        point_ids_ = std::vector<std::uint32_t>(points.size());
         detail::KdTree8Builder<T>(parts_.shape, parts_.nodes, parts_.blocks, point_ids_)
             .build(points, threads);
     }
@@ -165,15 +166,18 @@ public:
     /// \param found   Room for as many as are wanted; the farthest is put first, the
     ///                others in any order.
     /// \param wanted  Called with a place in the tree's order; false passes it over.
+    /// \tparam Most   The caller promises to want no more: up to 512 a compiler is
+    ///                spared the heap that more of them need.
     /// \return How many were found; of several that are equally far, any, but always
     ///         the same ones.
     /// \cost In the mean O(log n) and some steps a point that is wanted, also where
     ///       many points are equal; where few of those around are wanted, more.
-    template <typename Wanted = detail::AnyPoint>
+    template <std::size_t Most = std::numeric_limits<std::size_t>::max(),
+              typename Wanted = detail::AnyPoint>
     [[nodiscard]] std::size_t nearest(const Vec3T<T>& center, T radius,
                                       std::span<Neighbor> found,
                                       Wanted wanted = {}) const {
-        return detail::nearest_points(parts_, center, radius, found, wanted);
+        return detail::nearest_points<Most>(parts_, center, radius, found, wanted);
     }
 
 private:

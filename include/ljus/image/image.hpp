@@ -6,8 +6,8 @@
 #include <cassert>
 #include <concepts>
 #include <cstddef>
+#include <cstdio>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "ljus/math/vector.hpp"
@@ -44,11 +44,12 @@ namespace detail {
 inline void require_image_size(long long width, long long height) {
     // The division keeps the test itself from overflowing.
     if (width >= 1 && height >= 1 && width <= max_pixels / height) return;
-    throw std::invalid_argument("The image's size is " + std::to_string(width) + " x " +
-                                std::to_string(height) +
-                                "; width and height must be at least 1, and their "
-                                "product at most " +
-                                std::to_string(max_pixels) + ".");
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "The image's size is %lld x %lld; width and height must be at least "
+                  "1, and their product at most %lld.",
+                  width, height, max_pixels);
+    throw std::invalid_argument(text);
 }
 
 } // namespace detail
@@ -76,10 +77,11 @@ void check(const ImageT<T>& image) {
     detail::require_image_size(image.width, image.height);
     const long long count = static_cast<long long>(image.width) * image.height;
     if (static_cast<long long>(image.pixels.size()) == count) return;
-    throw std::invalid_argument("The image has " + std::to_string(image.pixels.size()) +
-                                " pixels; its size, " + std::to_string(image.width) +
-                                " x " + std::to_string(image.height) + ", requires " +
-                                std::to_string(count) + ".");
+    char text[128];
+    std::snprintf(text, sizeof text,
+                  "The image has %zu pixels; its size, %d x %d, requires %lld.",
+                  image.pixels.size(), image.width, image.height, count);
+    throw std::invalid_argument(text);
 }
 
 namespace detail {
@@ -91,11 +93,11 @@ void require_same_size(const ImageT<T>& image, const ImageT<U>& reference) {
     check(image);
     check(reference);
     if (image.width == reference.width && image.height == reference.height) return;
-    throw std::invalid_argument("The image's size is " + std::to_string(image.width) +
-                                " x " + std::to_string(image.height) +
-                                "; the reference has " +
-                                std::to_string(reference.width) + " x " +
-                                std::to_string(reference.height) + ".");
+    char text[128];
+    std::snprintf(text, sizeof text,
+                  "The image's size is %d x %d; the reference has %d x %d.",
+                  image.width, image.height, reference.width, reference.height);
+    throw std::invalid_argument(text);
 }
 
 /// Where pixel (x, y) stands in `pixels`.

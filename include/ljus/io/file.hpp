@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ljus/version.hpp"
+#include "ljus/math/require.hpp"
 
 #if __has_include(<unistd.h>)
 #include <cstdlib>
@@ -45,7 +45,7 @@ namespace detail {
     // Not in the middle of a UTF-8 character.
     while (limit > 0 && (static_cast<unsigned char>(text[limit]) & 0xc0u) == 0x80u)
         --limit;
-    return text.substr(0, limit).append("...");
+    return join({std::string_view(text).substr(0, limit), "..."});
 }
 
 // A path as a message shows it: another file may have named it.
@@ -54,13 +54,13 @@ namespace detail {
 }
 
 [[noreturn]] inline void fail_to_write(const std::string& path, int error) {
-    throw std::runtime_error("cannot write '" + shown_path(path) +
-                             "': " + std::strerror(error == 0 ? EIO : error) + ".");
+    throw std::runtime_error(join({"cannot write '", shown_path(path), "': ",
+                                   std::strerror(error == 0 ? EIO : error), "."}));
 }
 
 [[noreturn]] inline void fail_to_read(const std::string& path, std::string_view why) {
-    throw std::runtime_error("cannot read '" + shown_path(path) +
-                             "': " + std::string(why) + ".");
+    throw std::runtime_error(
+        join({"cannot read '", shown_path(path), "': ", why, "."}));
 }
 
 // The file that a save replaces: behind a symbolic link its target, so that the link
@@ -85,8 +85,8 @@ class FileBeside {
 public:
     explicit FileBeside(const std::string& path) : path_(path) {
         // "x": never a file that is there already, e.g. of another process.
-        for (int number = 0; file_ == nullptr && number < 100; ++number) {
-            name_ = path + ".part" + std::to_string(number);
+        for (long long number = 0; file_ == nullptr && number < 100; ++number) {
+            name_ = join({path, ".part", to_text(number)});
             errno = 0;
             file_ = std::fopen(name_.c_str(), "wbx");
             if (file_ == nullptr && errno != EEXIST) break;
@@ -191,11 +191,13 @@ inline void save_file(const std::string& path, const Bytes& bytes) {
         const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
                                     bytes.size());
         if (!text.starts_with(begin))
-            detail::fail_to_read(path, "it does not begin with '" + std::string(begin) +
-                                           "', so that it is another kind of file");
+            detail::fail_to_read(
+                path, detail::join({"it does not begin with '", begin,
+                                    "', so that it is another kind of file"}));
         if (bytes.size() > most)
-            detail::fail_to_read(path, "it is longer than the " + std::to_string(most) +
-                                           " bytes that are allowed");
+            detail::fail_to_read(
+                path, detail::join({"it is longer than the ", std::to_string(most),
+                                    " bytes that are allowed"}));
         if (got < wanted) return bytes;
     }
 }

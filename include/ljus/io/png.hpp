@@ -79,28 +79,26 @@ template <std::floating_point T>
                                const PngSettings& options = {}) {
 #ifdef LJUS_HAS_STB
     check(image);
-    if (!std::isfinite(options.exposure))
-        throw std::invalid_argument("The exposure of a PNG file is " +
-                                    std::to_string(options.exposure) +
-                                    "; it must be a finite number of stops.");
+    require(std::isfinite(options.exposure), "the exposure of a PNG file",
+            options.exposure, "a finite number of stops");
     const double scale = std::exp2(options.exposure);
-    Bytes screen;
-    screen.reserve(image.pixels.size() * 3);
+    Bytes screen(image.pixels.size() * 3);
+    std::size_t next = 0;
     for (const RgbT<T>& c : image.pixels)
         for (const T channel : {c.x, c.y, c.z})
-            screen.push_back(srgb_byte(scale * static_cast<double>(channel)));
+            screen[next++] = srgb_byte(scale * static_cast<double>(channel));
 
     Bytes file;
     const auto append = [](void* context, void* data, int size) {
-        const auto* first = static_cast<const unsigned char*>(data);
-        auto& bytes = *static_cast<Bytes*>(context);
-        bytes.insert(bytes.end(), first, first + size);
+        const auto* bytes = static_cast<const unsigned char*>(data);
+        Bytes& whole = *static_cast<Bytes*>(context);
+        for (int i = 0; i < size; ++i) whole.push_back(bytes[i]);
     };
     if (stbi_write_png_to_func(append, &file, image.width, image.height, 3,
                                screen.data(), 3 * image.width) == 0)
-        throw std::runtime_error("PNG: no memory for an image of " +
-                                 std::to_string(image.width) + " x " +
-                                 std::to_string(image.height) + " pixels.");
+        throw std::runtime_error(join({"PNG: no memory for an image of ",
+                                       to_text(image.width * 1LL), " x ",
+                                       to_text(image.height * 1LL), " pixels."}));
     return file;
 #elif defined(LJUS_NO_STB)
     static_assert(sizeof(T) == 0, "LJUS_NO_STB switches PNG off: save a .pfm or .hdr "

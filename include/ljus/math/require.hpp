@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <initializer_list>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -19,38 +21,75 @@ namespace ljus {
 /// \brief Data are checked once, where a scene, a camera, a map or an image is made.
 /// \{
 
+namespace detail {
+
+// Text takes a compiler long: what follows is made once for all types of values.
+
+// Several texts, one after the other.
+[[nodiscard]] LJUS_CORE_INLINE std::string
+join(std::initializer_list<std::string_view> parts);
+
+// One number, or several as the components of a vector; `single` says that they came
+// from floats. See to_text().
+[[nodiscard]] LJUS_CORE_INLINE std::string
+numbers_to_text(std::initializer_list<double> values, bool single);
+
+#ifndef LJUS_CORE // else they are there already
+LJUS_CORE_INLINE std::string join(std::initializer_list<std::string_view> parts) {
+    std::string text;
+    for (const std::string_view part : parts) text.append(part);
+    return text;
+}
+
+LJUS_CORE_INLINE std::string numbers_to_text(std::initializer_list<double> values,
+                                             bool single) {
+    const int most = single ? std::numeric_limits<float>::max_digits10
+                            : std::numeric_limits<double>::max_digits10;
+    std::string text;
+    for (const double value : values) {
+        char digits[40];
+        for (int count = 6; count <= most; ++count) {
+            std::snprintf(digits, sizeof digits, "%.*g", count, value);
+            const double read = std::strtod(digits, nullptr);
+            if (read == value || (single && float(read) == float(value))) break;
+        }
+        // C writes at least two digits of an exponent: 1e-07.
+        char* const e = std::strchr(digits, 'e');
+        if (e != nullptr && e[2] == '0')
+            std::memmove(e + 2, e + 3, std::strlen(e + 2));
+        text.append(text.empty() ? "" : ", ");
+        text.append(std::isnan(value)   ? "NaN"
+                    : std::isfinite(value) ? digits
+                    : value < 0            ? "-infinity"
+                                           : "infinity");
+    }
+    return values.size() == 1 ? text : join({"(", text, ")"});
+}
+#endif
+
+} // namespace detail
+
 /// A number as a person writes it: -1, 0.5, 1e-7, 1e+30, NaN, infinity; with as many
 /// digits, from 6 on, as bring the same value back, so that 1.0000001 is not "1".
 /// \param value  Any number.
 /// \return The text.
 template <std::floating_point T>
 [[nodiscard]] std::string to_text(T value) {
-    if (std::isnan(value)) return "NaN";
-    if (std::isinf(value)) return value < T(0) ? "-infinity" : "infinity";
-    char digits[40];
-    for (int count = 6; count <= std::numeric_limits<T>::max_digits10; ++count) {
-        std::snprintf(digits, sizeof digits, "%.*g", count, double(value));
-        if (static_cast<T>(std::strtod(digits, nullptr)) == value) break;
-    }
-    std::string text = digits;
-    // C writes at least two digits of an exponent: 1e-07.
-    const std::size_t e = text.find('e');
-    if (e != std::string::npos && text[e + 2] == '0') text.erase(e + 2, 1);
-    return text;
+    return detail::numbers_to_text({double(value)}, std::is_same_v<T, float>);
 }
 
 /// A vector as a message shows it.
 template <std::floating_point T>
 [[nodiscard]] std::string to_text(const Vec3T<T>& v) {
-    // Appended, because g++ 12 warns of "x" + std::string (-Wrestrict, its bug 105651).
-    std::string text(1, '(');
-    text.append(to_text(v.x)).append(", ").append(to_text(v.y)).append(", ");
-    return text.append(to_text(v.z)).append(")");
+    return detail::numbers_to_text({double(v.x), double(v.y), double(v.z)},
+                                   std::is_same_v<T, float>);
 }
 
 /// An integer as a message shows it.
 [[nodiscard]] inline std::string to_text(long long value) {
-    return std::to_string(value);
+    char digits[24];
+    std::snprintf(digits, sizeof digits, "%lld", value);
+    return digits;
 }
 
 namespace detail {
@@ -59,8 +98,8 @@ namespace detail {
 template <typename Value>
 [[noreturn]] void refuse(std::string_view what, const Value& value,
                          std::string_view right) {
-    throw std::invalid_argument(std::string(what) + " is " + to_text(value) +
-                                "; it must be " + std::string(right) + ".");
+    throw std::invalid_argument(
+        join({what, " is ", to_text(value), "; it must be ", right, "."}));
 }
 
 } // namespace detail

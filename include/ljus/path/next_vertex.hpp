@@ -107,6 +107,28 @@ template <SceneLike S, std::floating_point T>
 /// A ray passes so many thin surfaces, at most; then its way counts as blocked.
 inline constexpr int max_thin_surfaces = 1000;
 
+// visibility() in a scene with thin surfaces.
+// [visibility]
+template <SceneLike S, std::floating_point T>
+[[nodiscard]] RgbT<T> visibility_through(const S& scene, const SurfacePointT<T>& from,
+                                         const SurfacePointT<T>& to, T time) {
+    RgbT<T> through{T(1)};
+    SurfacePointT<T> last = from;
+    for (int surfaces = 0; surfaces < max_thin_surfaces; ++surfaces) {
+        const RayT<T> ray = spawn_ray_to(last, to, time);
+        const auto hit = closest_hit(scene, ray);
+        if (!hit) return through;
+        VertexT<T> vertex = vertex_at(scene, ray, *hit);
+        vertex.wo = glm::normalize(vertex.wo); // the ray is as long as the way
+        const auto passed = passed_through(scene, vertex);
+        if (!passed) break;
+        through *= *passed;
+        last = vertex.point;
+    }
+    return RgbT<T>{T(0)};
+}
+// [visibility]
+
 } // namespace detail
 
 /// How much of the light from one point arrives at another.
@@ -118,29 +140,14 @@ inline constexpr int max_thin_surfaces = 1000;
 ///         the way let through.
 /// \cost Without thin surfaces that of occluded(); with them a closest_hit() for each,
 ///       and one more.
-// [visibility]
 template <SceneLike S, std::floating_point T>
 [[nodiscard]] RgbT<T> visibility(const S& scene, const SurfacePointT<T>& from,
                                  const SurfacePointT<T>& to, T time = T(0)) {
-    if (!detail::lists_thin_surfaces<S> || !detail::has_thin_surfaces(scene))
-        return RgbT<T>{occluded(scene, spawn_ray_to(from, to, time)) ? T(0) : T(1)};
-
-    RgbT<T> through{T(1)};
-    SurfacePointT<T> last = from;
-    for (int surfaces = 0; surfaces < detail::max_thin_surfaces; ++surfaces) {
-        const RayT<T> ray = spawn_ray_to(last, to, time);
-        const auto hit = closest_hit(scene, ray);
-        if (!hit) return through;
-        VertexT<T> vertex = vertex_at(scene, ray, *hit);
-        vertex.wo = glm::normalize(vertex.wo); // the ray is as long as the way
-        const auto passed = detail::passed_through(scene, vertex);
-        if (!passed) break;
-        through *= *passed;
-        last = vertex.point;
-    }
-    return RgbT<T>{T(0)};
+    if constexpr (detail::lists_thin_surfaces<S>)
+        if (detail::has_thin_surfaces(scene))
+            return detail::visibility_through(scene, from, to, time);
+    return RgbT<T>{occluded(scene, spawn_ray_to(from, to, time)) ? T(0) : T(1)};
 }
-// [visibility]
 
 namespace detail {
 
@@ -202,8 +209,9 @@ template <SceneLike S, std::floating_point T, typename Stream>
     start_bounce(stream, path.branch + static_cast<std::uint64_t>(++path.depth));
     auto hit = closest_hit(scene, path.ray);
     detail::PassageT<T> passage;
-    if (detail::lists_thin_surfaces<S> && detail::has_thin_surfaces(scene))
-        passage = detail::pass_thin_surfaces(scene, path.ray, hit, stream);
+    if constexpr (detail::lists_thin_surfaces<S>)
+        if (detail::has_thin_surfaces(scene))
+            passage = detail::pass_thin_surfaces(scene, path.ray, hit, stream);
     std::optional<VertexT<T>> vertex;
     if (!hit) return vertex;
 

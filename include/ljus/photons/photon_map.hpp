@@ -28,6 +28,23 @@ struct PhotonMapT {
 };
 using PhotonMap = PhotonMapT<float>; ///< PhotonMapT in float.
 
+namespace detail {
+
+// Where photons are, if all that they carry is finite.
+template <std::floating_point T>
+[[nodiscard]] std::vector<Vec3T<T>>
+checked_positions(const std::vector<PhotonT<T>>& photons) {
+    std::vector<Vec3T<T>> positions(photons.size());
+    for (std::size_t i = 0; i < photons.size(); ++i) {
+        require_finite("photon.direction", photons[i].direction);
+        require_finite("photon.flux", photons[i].flux);
+        positions[i] = photons[i].position;
+    }
+    return positions;
+}
+
+} // namespace detail
+
 /// Builds a map.
 /// \param photons  In any order, which it does not keep.
 /// \param threads  As in ParallelSettings.
@@ -36,16 +53,8 @@ using PhotonMap = PhotonMapT<float>; ///< PhotonMapT in float.
 template <std::floating_point T>
 [[nodiscard]] PhotonMapT<T> make_photon_map(const std::vector<PhotonT<T>>& photons,
                                             int threads = 0) {
-    std::vector<Vec3T<T>> positions;
-    positions.reserve(photons.size());
-    for (const PhotonT<T>& photon : photons) {
-        require_finite("photon.direction", photon.direction);
-        require_finite("photon.flux", photon.flux);
-        positions.push_back(photon.position);
-    }
-
-    PhotonMapT<T> map{.tree = KdTree8T<T>(positions, threads), .records = {}};
-    positions = {};
+    PhotonMapT<T> map;
+    map.tree = KdTree8T<T>(detail::checked_positions(photons), threads);
     map.records = detail::PhotonRecordsT<T>(photons, map.tree.point_ids());
     return map;
 }
@@ -150,6 +159,30 @@ estimate_radiance_plain(const PhotonMapT<T>& map, const VertexT<T>& surface,
 }
 // [plain estimate]
 
+namespace detail {
+
+/// The nearest photons that count at a point: a search for all materials.
+/// \param map     The photons.
+/// \param point   Of a surface, from which they must not be turned_away().
+/// \param radius  They lie within it.
+/// \param kinds   Which kinds count.
+/// \param found   Room for as many as are wanted, at most max_nearest; the farthest is
+///                put first.
+/// \return How many were found.
+template <std::floating_point T>
+[[nodiscard]] std::size_t
+nearest_photons(const PhotonMapT<T>& map, const SurfacePointT<T>& point, T radius,
+                PhotonKinds kinds, std::span<Neighbor> found) {
+    const auto counts = [&](std::uint32_t i) {
+        const PhotonRecordT<T> photon = map.records[i];
+        return kinds.has(photon.kind) && !turned_away(photon.normal, point.normal);
+    };
+    return map.tree.template nearest<max_nearest>(point.position, radius,
+                                                  found, counts);
+}
+
+} // namespace detail
+
 /// The radiance that the photons around a point send towards an observer:
 ///
 /// \f[ L(x, \omega_o) = \frac{1}{\pi r^2} \sum_i w_i\, f(\omega_o, \omega_i)\,
@@ -204,14 +237,10 @@ template <std::floating_point T, typename Material, KernelLike<T> K = Kernel>
         sum = RgbT<double>(evaluate(material, wo, wo)) *
               detail::flux_in_disc(map.tree, map.records, disc, gathered);
     } else {
-        const auto counts = [&](std::uint32_t i) {
-            const detail::PhotonRecordT<T> photon = map.records[i];
-            return kinds.has(photon.kind) &&
-                   !detail::turned_away(photon.normal, surface.point.normal);
-        };
         std::array<Neighbor, max_nearest> room;
         const std::span<Neighbor> found(room.data(), gather.nearest);
-        const std::size_t count = map.tree.nearest(x, T(gather.radius), found, counts);
+        const std::size_t count =
+            detail::nearest_photons(map, surface.point, T(gather.radius), kinds, found);
         const bool full = count == gather.nearest;
         if (full) radius2 = found[0].distance2;
         // All photons in one point have no area: there is no estimate.

@@ -179,8 +179,9 @@ void trace_photon(const S& scene, MapType map, const EmittedPhotonT<T>& photon,
         audit.absorbed += sent - RgbT<double>(path.throughput); // by what lies between
         if (is_black(path.throughput)) return;
 
-        const auto at_material = [&](const auto& material) {
-            store_photon(path, *vertex, material, photon.light, map, out);
+        const auto at_material = [&]<typename M>(const M& material) {
+            if constexpr (!OnlySpecular<M>)
+                store_photon(path, *vertex, material, photon.light, map, out);
             return scatter_photon(path, *vertex, material, map, stream, audit);
         };
         if (!visit_material_at(scene, *vertex, at_material)) return;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <utility>
 #include <vector>
 
 #include "ljus/parallel.hpp"
@@ -70,13 +71,86 @@ long long join_blocks(std::vector<PhotonBlockT<T>>& blocks, TracedPhotonsT<T>& r
     result.photons.reserve(stored);
     long long unsent = 0;
     for (PhotonBlockT<T>& block : blocks) {
-        result.photons.insert(result.photons.end(), block.photons.begin(),
-                              block.photons.end());
+        for (PhotonT<T>& photon : block.photons)
+            result.photons.push_back(std::move(photon));
         result.audit += block.audit;
         unsent += block.unsent;
         block = {};
     }
     return unsent;
+}
+
+/// Checks what a pass starts from.
+/// \param pass    The settings.
+/// \param lights  Of the scene.
+/// \return The choice between the lights.
+/// \throws std::invalid_argument  as trace_photons().
+template <std::floating_point T>
+[[nodiscard]] LightChoice start_pass(const PhotonPassSettings& pass,
+                                     const std::vector<LightT<T>>& lights) {
+    check(pass);
+    require(!lights.empty(), "the number of lights", 0LL,
+            "at least 1, because photons start at lights");
+    require(lights.size() <= 65536, "the number of lights",
+            static_cast<long long>(lights.size()),
+            "at most 65536, because a photon has 16 bits for its light's number");
+    LightChoice choice = light_choice(lights);
+    require(choice.cumulative.back() > 0, "the power of all lights",
+            choice.cumulative.back(), "above 0: a sun needs objects to shine on");
+    require_memory<T>(pass, 0);
+    return choice;
+}
+
+/// A trace_block() for a scene of any type, as compiled code can call it: run_pass() is
+/// the same for all of them, and not compiled again for each.
+template <std::floating_point T>
+struct BlockTracerT {
+    const void* tracer; ///< What `call` knows the type of.
+    void (*call)(const void* tracer, const BlockRange& paths, PhotonBlockT<T>& block);
+};
+
+/// Traces the blocks of a pass, by several threads, and joins them.
+/// \param map    For which map.
+/// \param pass   How many paths.
+/// \param trace  Traces a block.
+/// \return The photons in the order of emission.
+/// \throws std::invalid_argument  if the memory would not do.
+template <std::floating_point T>
+[[nodiscard]] TracedPhotonsT<T> run_pass(MapType map, const PhotonPassSettings& pass,
+                                         BlockTracerT<T> trace) {
+    TracedPhotonsT<T> result{.emitted = pass.photons};
+    std::vector<PhotonBlockT<T>> blocks;
+    const long long count = block_count(pass.photons, photon_block);
+    long long done = 0;  // blocks
+    bool nothing = true; // has been stored so far
+    for (const long long paths : {pilot_paths, pass.give_up, pass.photons}) {
+        const long long last = std::min(block_count(paths, photon_block), count);
+        if (last <= done) continue;
+        blocks.resize(static_cast<std::size_t>(last));
+        const auto body = [&](long long i) {
+            trace.call(trace.tracer, block_range(done + i, photon_block, pass.photons),
+                       blocks[static_cast<std::size_t>(done + i)]);
+        };
+        const auto progress = [&](long long now, long long) {
+            return pass.progress(done + now, count);
+        };
+        result.complete = parallel_blocks(
+            last - done, body, {.threads = pass.threads, .progress = progress});
+        done = last;
+        result.emitted = std::min(last * photon_block, pass.photons);
+        std::size_t stored = 0;
+        for (const auto& block : blocks) stored += block.photons.size();
+        nothing = stored == 0;
+        if (!result.complete) break;
+        require_memory<T>(pass, double(stored) / double(std::max(result.emitted, 1LL)));
+        if (nothing && result.emitted >= pass.give_up) break;
+    }
+    const long long unsent = join_blocks(blocks, result);
+    if (nothing && result.complete && result.emitted < pass.photons) {
+        result.audit *= double(pass.photons) / double(result.emitted);
+        result.remark = why_nothing(pass, map, result.emitted, unsent, result.audit);
+    }
+    return result;
 }
 
 } // namespace detail
@@ -97,60 +171,21 @@ template <SceneLike S>
 [[nodiscard]] TracedPhotonsT<typename S::Scalar>
 trace_photons(const S& scene, MapType map, const PhotonPassSettings& pass) {
     using T = typename S::Scalar;
-    check(pass);
-    require(!scene.lights.empty(), "the number of lights", 0LL,
-            "at least 1, because photons start at lights");
-    require(scene.lights.size() <= 65536, "the number of lights",
-            static_cast<long long>(scene.lights.size()),
-            "at most 65536, because a photon has 16 bits for its light's number");
-    const LightChoice choice = light_choice(scene.lights);
-    require(choice.cumulative.back() > 0, "the power of all lights",
-            choice.cumulative.back(), "above 0: a sun needs objects to shine on");
-    detail::require_memory<T>(pass, 0);
-
+    const LightChoice choice = detail::start_pass(pass, scene.lights);
     const detail::IndexedT<S> indexed(scene);
-    TracedPhotonsT<T> result{.emitted = pass.photons};
     const bool caustics = map == MapType::caustics;
     const auto targets = caustics ? specular_objects(scene) : std::vector<ObjectId>{};
-    if (caustics && targets.empty()) return result;
+    if (caustics && targets.empty()) return {.emitted = pass.photons};
 
-    std::vector<detail::PhotonBlockT<T>> blocks;
-    const long long count = detail::block_count(pass.photons, detail::photon_block);
-    long long done = 0;  // blocks
-    bool nothing = true; // has been stored so far
-    for (const long long paths : {detail::pilot_paths, pass.give_up, pass.photons}) {
-        const long long last =
-            std::min(detail::block_count(paths, detail::photon_block), count);
-        if (last <= done) continue;
-        blocks.resize(static_cast<std::size_t>(last));
-        const auto body = [&](long long i) {
-            const detail::BlockRange range =
-                detail::block_range(done + i, detail::photon_block, pass.photons);
-            detail::trace_block(indexed, map, choice, targets, pass, range,
-                                blocks[static_cast<std::size_t>(done + i)]);
-        };
-        const auto progress = [&](long long now, long long) {
-            return pass.progress(done + now, count);
-        };
-        result.complete = parallel_blocks(
-            last - done, body, {.threads = pass.threads, .progress = progress});
-        done = last;
-        result.emitted = std::min(last * detail::photon_block, pass.photons);
-        std::size_t stored = 0;
-        for (const auto& block : blocks) stored += block.photons.size();
-        nothing = stored == 0;
-        if (!result.complete) break;
-        detail::require_memory<T>(pass, double(stored) /
-                                            double(std::max(result.emitted, 1LL)));
-        if (nothing && result.emitted >= pass.give_up) break;
-    }
-    const long long unsent = detail::join_blocks(blocks, result);
-    if (nothing && result.complete && result.emitted < pass.photons) {
-        result.audit *= double(pass.photons) / double(result.emitted);
-        result.remark =
-            detail::why_nothing(pass, map, result.emitted, unsent, result.audit);
-    }
-    return result;
+    const auto trace = [&](const detail::BlockRange& paths,
+                           detail::PhotonBlockT<T>& block) {
+        detail::trace_block(indexed, map, choice, targets, pass, paths, block);
+    };
+    const auto call = [](const void* tracer, const detail::BlockRange& paths,
+                         detail::PhotonBlockT<T>& block) {
+        (*static_cast<const decltype(trace)*>(tracer))(paths, block);
+    };
+    return detail::run_pass<T>(map, pass, {&trace, call});
 }
 
 /// \}

@@ -47,22 +47,22 @@ template <SceneLike S>
 [[nodiscard]] PhotonMapsT<typename S::Scalar>
 make_photon_maps(const S& scene, const PhotonMappingSettings& settings = {}) {
     check(settings);
-    const Plan plan = detail::make_plan(needs(scene), settings);
+    const detail::Passes run = detail::choose_passes(needs(scene), settings);
     PhotonPassSettings general = settings.general;
-    general.shadow_photons = plan.shadow_photons.on;
+    general.shadow_photons = run.shadow_photons;
     PhotonMapsT<typename S::Scalar> maps;
-    const auto run = [&](MapType type, const PhotonPassSettings& pass, auto& map,
-                         auto& audit) {
+    const auto make = [&](MapType type, const PhotonPassSettings& pass, auto& map,
+                          auto& audit) {
         const auto traced = trace_photons(scene, type, pass);
         map = make_photon_map(traced.photons);
         audit = traced.audit;
         maps.complete = maps.complete && traced.complete;
-        if (!traced.remark.empty()) maps.remarks += traced.remark + "\n";
+        if (!traced.remark.empty()) maps.remarks.append(traced.remark).append("\n");
     };
-    if (plan.caustics_map.on)
-        run(MapType::caustics, settings.caustics, maps.caustics, maps.caustics_audit);
-    if (plan.general_map.on)
-        run(MapType::general, general, maps.general, maps.general_audit);
+    if (run.caustics_map)
+        make(MapType::caustics, settings.caustics, maps.caustics, maps.caustics_audit);
+    if (run.general_map)
+        make(MapType::general, general, maps.general, maps.general_audit);
     return maps;
 }
 
@@ -89,7 +89,7 @@ make_photon_mapper(const S& scene, const PhotonMapsT<typename S::Scalar>& maps,
                    const PhotonMappingSettings& settings = {}) {
     check(settings);
     return {detail::IndexedT<S>(scene), maps, settings,
-            detail::make_plan(needs(scene), settings).indirect_rays.on};
+            detail::choose_passes(needs(scene), settings).indirect_rays};
 }
 /// Not of a temporary: the scene would be gone before it is rendered.
 template <SceneLike S>
@@ -194,9 +194,11 @@ template <SceneLike S, std::floating_point T, typename Log = NoLog>
 
             const bool gather =
                 path.met_diffuse && settings.indirect == IndirectLight::map;
-            const auto at_material = [&](const auto& material) {
-                if (has(lobes(material), Lobes::non_specular))
-                    light_at(mapper, *vertex, material, gather, stream, counts, add);
+            const auto at_material = [&]<typename M>(const M& material) {
+                if constexpr (!OnlySpecular<M>)
+                    if (has(lobes(material), Lobes::non_specular))
+                        light_at(mapper, *vertex, material, gather, stream, counts,
+                                 add);
                 if (path.depth == settings.max_depth) return false;
                 if (settings.split_glass && !path.met_diffuse &&
                     branches.size() < detail::max_splits)

@@ -90,20 +90,49 @@ template <SceneLike S>
 
 namespace detail {
 
-/// Says which passes a scene requires.
+/// Which passes run: the decisions of a plan, without their reasons.
+struct Passes {
+    bool shadow_rays = false;    ///< As in Plan.
+    bool indirect_rays = false;  ///< As in Plan.
+    bool caustics_map = false;   ///< As in Plan.
+    bool general_map = false;    ///< As in Plan.
+    bool shadow_photons = false; ///< As in Plan.
+};
+
+/// Decides which passes run; make_photon_maps() and make_photon_mapper() obey it, and
+/// make_plan() says why.
 /// \param found     What the scene is made of.
 /// \param settings  What the user asks for.
-/// \return The plan. make_photon_maps() and make_photon_mapper() obey it; thin films
-///         and the tree are decided by the same questions where a ray is traced.
+/// \return The decisions.
+// [survey]
+[[nodiscard]] inline Passes choose_passes(const SceneNeeds& found,
+                                          const PhotonMappingSettings& settings) {
+    const bool lit = found.diffuse > 0 && found.lights > 0;
+    const bool rays_asked = settings.indirect == IndirectLight::rays ||
+                            settings.indirect == IndirectLight::map;
+    const bool rays = lit && rays_asked && settings.max_depth > 1;
+    const bool map_asked = (rays && settings.indirect == IndirectLight::map) ||
+                           settings.indirect == IndirectLight::photons ||
+                           settings.keep_general_map;
+    const bool general = lit && map_asked && settings.general.photons > 0;
+    return {.shadow_rays = lit,
+            .indirect_rays = rays,
+            .caustics_map =
+                lit && found.specular > 0 && settings.caustics.photons > 0,
+            .general_map = general,
+            .shadow_photons = general && settings.general.shadow_photons};
+}
+// [survey]
+
+/// The plan: choose_passes() with its reasons. Thin films and the tree are decided by
+/// the same questions where a ray is traced.
+/// \param found     What the scene is made of.
+/// \param settings  What the user asks for.
+/// \return The plan.
 [[nodiscard]] LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
                                               const PhotonMappingSettings& settings);
 
-} // namespace detail
-
 #ifndef LJUS_CORE // else it is there already
-namespace detail {
-
-// [survey]
 LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
                                 const PhotonMappingSettings& settings) {
     const auto of_all = [&](std::size_t count, const char* what) {
@@ -113,40 +142,31 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
     const auto item = [](const char* pass, bool on, std::string why) {
         return PlanItem{pass, on, std::move(why)};
     };
+    const Passes run = choose_passes(found, settings);
     Plan plan;
-    const bool lit = found.diffuse > 0 && found.lights > 0;
     plan.shadow_rays =
-        item("shadow rays", lit,
+        item("shadow rays", run.shadow_rays,
              found.lights == 0 ? "the scene has no light"
                                : of_all(found.diffuse, "reflect diffusely, lit by ") +
                                      std::to_string(found.lights) + " light(s)");
-    const bool asked = settings.indirect == IndirectLight::rays ||
-                       settings.indirect == IndirectLight::map;
-    const bool rays = lit && asked && settings.max_depth > 1;
     plan.indirect_rays =
-        item("indirect rays", rays,
-             rays                      ? of_all(found.diffuse, "light each other")
+        item("indirect rays", run.indirect_rays,
+             run.indirect_rays         ? of_all(found.diffuse, "light each other")
              : settings.max_depth <= 1 ? "the depth ends at the first surface"
-             : lit                     ? "not asked for"
+             : run.shadow_rays         ? "not asked for"
                                        : "nothing is lit");
-    const bool caustics = lit && found.specular > 0 && settings.caustics.photons > 0;
     plan.caustics_map =
-        item("caustics map", caustics,
+        item("caustics map", run.caustics_map,
              found.specular == 0              ? "no object mirrors or refracts"
              : settings.caustics.photons == 0 ? "0 photons were asked for"
-             : lit ? of_all(found.specular, "mirror or refract")
-                   : "nothing is lit");
-    const bool general =
-        lit && settings.general.photons > 0 &&
-        ((rays && settings.indirect == IndirectLight::map) ||
-         settings.indirect == IndirectLight::photons || settings.keep_general_map);
+             : run.shadow_rays ? of_all(found.specular, "mirror or refract")
+                               : "nothing is lit");
     plan.general_map =
-        item("general map", general,
-             general ? "indirect light is asked of it" : "no ray asks it");
-    const bool shadows = general && settings.general.shadow_photons;
+        item("general map", run.general_map,
+             run.general_map ? "indirect light is asked of it" : "no ray asks it");
     plan.shadow_photons =
-        item("shadow photons", shadows,
-             shadows ? "the general map keeps them" : "no map keeps them");
+        item("shadow photons", run.shadow_photons,
+             run.shadow_photons ? "the general map keeps them" : "no map keeps them");
     plan.thin_film = item("thin film", found.films,
                           found.films ? "paths pass through the listed films"
                                       : "no material is one");
@@ -157,11 +177,9 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
                                : " object(s), a loop asks each"));
     return plan;
 }
-// [survey]
+#endif
 
 } // namespace detail
-
-#endif
 
 /// Says which passes a scene requires, and which hooks its types have.
 /// \param scene     The scene.

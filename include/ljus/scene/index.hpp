@@ -59,20 +59,22 @@ struct IndexedScene {
         : scene(of), shapes(of.shapes), objects(of.objects), materials(of.materials),
           lights(of.lights) {
         if (!detail::needs_tree(scene.size())) return;
-        std::vector<BoxT<Scalar>> boxes;
-        std::vector<ObjectId> all;
+        std::vector<BoxT<Scalar>> boxes(scene.size());
+        std::vector<ObjectId> all(scene.size());
         std::uint32_t type = 0;
+        std::size_t number = 0;
         const auto add = [&](const auto& list) {
-            for (std::uint32_t i = 0; i < list.size(); ++i) {
-                boxes.push_back(detail::box_around(list[i]));
-                all.push_back({type, i});
+            for (std::uint32_t i = 0; i < list.size(); ++i, ++number) {
+                boxes[number] = detail::box_around(list[i]);
+                all[number] = {type, i};
             }
             ++type;
         };
         std::apply([&](const auto&... lists) { (add(lists), ...); }, shapes);
         tree = Tree(boxes, {.leaf_size = 1});
-        for (const std::uint32_t number : tree.primitive_ids())
-            ids.push_back(all[number]);
+        ids = std::vector<ObjectId>(scene.size());
+        for (std::size_t slot = 0; slot < ids.size(); ++slot)
+            ids[slot] = all[tree.primitive_ids()[slot]];
     }
 
     /// Not of a temporary: the scene would be gone before it is asked.

@@ -38,11 +38,11 @@ struct ChosenLightT {
 /// \return One sum a light.
 template <std::floating_point T>
 [[nodiscard]] LightChoice light_choice(const std::vector<LightT<T>>& lights) {
-    LightChoice choice;
+    LightChoice choice{std::vector<double>(lights.size())};
     double sum = 0;
-    for (const LightT<T>& light : lights) {
-        sum += double(light.flux.x) + double(light.flux.y) + double(light.flux.z);
-        choice.cumulative.push_back(sum);
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const RgbT<double> flux{lights[i].flux};
+        choice.cumulative[i] = sum += flux.x + flux.y + flux.z;
     }
     return choice;
 }

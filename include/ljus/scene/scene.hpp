@@ -96,36 +96,15 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
         add(const G& shape, MaterialId material, RgbT<Scalar> radiance = {},
             bool inside_out = false) {
         check(shape);
-        require_radiance("emission", radiance);
-        require(material.type < sizeof...(M), "the material's type",
-                static_cast<long long>(material.type), "one that add() returned");
-        require(has(material), "the material's number",
-                static_cast<long long>(material.index), "one that add() returned");
-        radiance += visit_material(material, [](const auto& m) { return emission(m); });
-
-        const bool thin = visit_material(material, [](const auto& m) {
-            return requires {
-                pass_through(m, Vec3T<Scalar>{}, Vec3T<Scalar>{});
-            };
-        });
-        require(!thin || is_black(radiance), "the radiance of a thin surface", radiance,
-                "black: light goes straight on through it");
-
+        radiance = emitted_radiance(material, radiance);
         auto& array = std::get<std::vector<G>>(shapes);
         const ObjectId id{type_of<G, FirstShape, S...>(),
                           static_cast<std::uint32_t>(array.size())};
         if constexpr (!HasArea<G>)
             require(is_black(radiance), "the radiance of a shape of unknown area",
                     radiance, "black: it can be lit, but cannot be a light");
-        else if (!is_black(radiance)) {
-            require_positive("the area of a light", area(shape));
-            const RgbT<Scalar> flux = detail::diffuse_flux(radiance, area(shape));
-            detail::require_flux(flux);
-            lights.push_back({.kind = LightKind::object,
-                              .object = id,
-                              .emission = radiance,
-                              .flux = flux});
-        }
+        else if (!is_black(radiance))
+            add_light(id, radiance, area(shape));
         reach(bounding_sphere(shape));
         array.push_back(shape);
         const std::uint32_t light = is_black(radiance)
@@ -195,6 +174,34 @@ private:
         std::uint32_t place = 0;
         (void)((std::is_same_v<X, List> ? true : (++place, false)) || ...);
         return place;
+    }
+
+    // What an object emits, with what its material does: the same for all shapes.
+    RgbT<Scalar> emitted_radiance(MaterialId material, RgbT<Scalar> radiance) const {
+        require_radiance("emission", radiance);
+        require(material.type < sizeof...(M), "the material's type",
+                static_cast<long long>(material.type), "one that add() returned");
+        require(has(material), "the material's number",
+                static_cast<long long>(material.index), "one that add() returned");
+        radiance += visit_material(material, [](const auto& m) { return emission(m); });
+        const bool thin = visit_material(material, [](const auto& m) {
+            return requires {
+                pass_through(m, Vec3T<Scalar>{}, Vec3T<Scalar>{});
+            };
+        });
+        require(!thin || is_black(radiance), "the radiance of a thin surface", radiance,
+                "black: light goes straight on through it");
+        return radiance;
+    }
+
+    void add_light(ObjectId id, const RgbT<Scalar>& radiance, Scalar area) {
+        require_positive("the area of a light", area);
+        const RgbT<Scalar> flux = detail::diffuse_flux(radiance, area);
+        detail::require_flux(flux);
+        lights.push_back({.kind = LightKind::object,
+                          .object = id,
+                          .emission = radiance,
+                          .flux = flux});
     }
 
     // Widens the box, and with it what each sun has to light.

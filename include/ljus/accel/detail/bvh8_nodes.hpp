@@ -72,7 +72,7 @@ void widen(Bvh8Nodes& wide, const BvhNodesT<T>& tree, const BvhCollapse<T>& coll
         if (below.count == 0) {
             node.child[i] =
                 static_cast<std::uint32_t>(wide.nodes.size()) * Bvh8Child::stride;
-            wide.nodes.emplace_back();
+            wide.nodes.resize(wide.nodes.size() + 1);
             continue;
         }
         node.child[i] = Bvh8Child::leaf |
@@ -102,13 +102,14 @@ template <std::floating_point T>
     wide.box = tree.nodes[0].box;
     wide.middle = 0.5f * wide.box.low + 0.5f * wide.box.high;
     wide.half = 0.5f * wide.box.high - 0.5f * wide.box.low;
-    wide.nodes.emplace_back();
+    wide.nodes.resize(1);
     widen(wide, tree, BvhCollapse<T>(tree), 0, 0, multiple);
     require(wide.primitive_ids.size() < Bvh8Child::first,
             "the number of slots in a tree",
             static_cast<long long>(wide.primitive_ids.size()), "below 2^27");
-    wide.nodes.shrink_to_fit();
-    wide.primitive_ids.shrink_to_fit();
+    // Copies have no room to spare.
+    wide.nodes = std::vector<Bvh8Node>(wide.nodes);
+    wide.primitive_ids = std::vector<std::uint32_t>(wide.primitive_ids);
     return wide;
 }
 

@@ -153,9 +153,16 @@ template <std::floating_point T>
 }
 // [best_split]
 
+// The two halves of a range.
+template <std::floating_point T>
+struct HalvesT {
+    PrimitiveRangeT<T> low;
+    PrimitiveRangeT<T> high;
+};
+
 // Sorts a range into its two halves; without a split, by number.
 template <std::floating_point T>
-[[nodiscard]] std::pair<PrimitiveRangeT<T>, PrimitiveRangeT<T>>
+[[nodiscard]] HalvesT<T>
 divide(std::vector<PrimitiveRefT<T>>& refs, const PrimitiveRangeT<T>& range,
        const Split& split) {
     PrimitiveRangeT<T> low{

@@ -24,14 +24,14 @@ template <std::floating_point T>
 class BvhBuilder {
 public:
     BvhBuilder(std::span<const BoxT<T>> boxes, const BvhSettings& settings)
-        : settings_(settings) {
-        refs_.reserve(boxes.size());
-        for (const BoxT<T>& box : boxes) {
+        : settings_(settings), refs_(boxes.size()) {
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            const BoxT<T>& box = boxes[i];
             require_finite("a box's low corner", box.low);
             require_finite("a box's high corner", box.high);
-            refs_.push_back({{{box.low.x, box.low.y, box.low.z, T(0), -box.high.x,
-                               -box.high.y, -box.high.z, T(0)}},
-                             static_cast<std::uint32_t>(refs_.size())});
+            refs_[i] = {{{box.low.x, box.low.y, box.low.z, T(0), -box.high.x,
+                          -box.high.y, -box.high.z, T(0)}},
+                        static_cast<std::uint32_t>(i)};
         }
     }
 
@@ -56,8 +56,9 @@ public:
                         {.threads = settings_.threads});
         for (std::size_t i = 0; i < jobs.size(); ++i)
             append(tree.nodes, jobs[i].node, parts[i]);
-        tree.primitive_ids.reserve(refs_.size());
-        for (const PrimitiveRefT<T>& ref : refs_) tree.primitive_ids.push_back(ref.id);
+        tree.primitive_ids = std::vector<std::uint32_t>(refs_.size());
+        for (std::size_t i = 0; i < refs_.size(); ++i)
+            tree.primitive_ids[i] = refs_[i].id;
         return tree;
     }
 
@@ -99,14 +100,12 @@ private:
     static void append(std::vector<BvhNodeT<T>>& nodes, std::size_t root,
                        const std::vector<BvhNodeT<T>>& part) {
         const auto shift = static_cast<std::uint32_t>(nodes.size()) - 1;
-        for (std::size_t i = 0; i < part.size(); ++i) {
-            BvhNodeT<T> node = part[i];
+        const auto shifted = [&](BvhNodeT<T> node) {
             if (node.count == 0) node.first += shift;
-            if (i == 0)
-                nodes[root] = node;
-            else
-                nodes.push_back(node);
-        }
+            return node;
+        };
+        nodes[root] = shifted(part[0]);
+        for (std::size_t i = 1; i < part.size(); ++i) nodes.push_back(shifted(part[i]));
     }
 
     BvhSettings settings_;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -26,15 +25,16 @@ class KdTree8Builder {
 public:
     // A point on its way: 16 bytes in float, moved as one.
     struct Item {
+        using Index = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
         T v[3];
-        std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t> index;
+        Index index;
+        Item() noexcept {} // nothing is set: all are written before they are read
     };
 
-    KdTree8Builder(const KdTree8Shape& shape, std::span<KdTree8NodeT<T>> nodes,
-                   std::span<Lanes3T<T>> blocks, std::span<std::uint32_t> order)
+    KdTree8Builder(const KdTree8Shape& shape, std::vector<KdTree8NodeT<T>>& nodes,
+                   std::vector<Lanes3T<T>>& blocks, std::vector<std::uint32_t>& order)
         : shape_(shape), nodes_(nodes), blocks_(blocks), order_(order) {
-        for (auto& items : items_)
-            items = std::make_unique_for_overwrite<Item[]>(shape.points);
+        for (auto& items : items_) items = std::vector<Item>(shape.points);
     }
     void build(std::span<const Vec3T<T>> points, int threads) {
         constexpr long long piece = 1 << 14;
@@ -46,8 +46,9 @@ public:
                             for (auto i = std::size_t(first); i < std::size_t(last);
                                  ++i) {
                                 require_finite("a point of the k-d tree", points[i]);
-                                items_[0][i] = {{points[i].x, points[i].y, points[i].z},
-                                                static_cast<decltype(Item::index)>(i)};
+                                Item& item = items_[0][i];
+                                for (int c = 0; c < 3; ++c) item.v[c] = points[i][c];
+                                item.index = static_cast<typename Item::Index>(i);
                             }
                         },
                         {.threads = threads});
@@ -81,7 +82,7 @@ private:
         };
         const std::uint64_t first = point(shape_.first_block(depth, number));
         const std::uint64_t last = point(shape_.first_block(depth, number + 1));
-        Item* const from = items_[depth % 2].get() + first;
+        Item* const from = items_[depth % 2].data() + first;
         Vec3T<T> low, high;
         bounds(from, last - first, low, high);
         const int below = shape_.halvings - depth;
@@ -102,7 +103,7 @@ private:
         }
         const std::uint64_t middle =
             point(shape_.first_block(depth + 1, 2 * number + 1));
-        partition(from, items_[(depth + 1) % 2].get() + first, last - first,
+        partition(from, items_[(depth + 1) % 2].data() + first, last - first,
                   middle - first, longest_axis(low, high));
     }
     static void bounds(const Item* items, std::uint64_t count, Vec3T<T>& low,
@@ -170,7 +171,7 @@ private:
 
     // Two numbers between which the item of a rank is likely to lie: of a few items,
     // twice its own coordinate; of many, what a sample says.
-    static std::pair<T, T> pivots(const Item* items, std::uint64_t count,
+    static Extremes<T> pivots(const Item* items, std::uint64_t count,
                                   std::uint64_t rank, int axis) {
         constexpr std::uint64_t few = 2048;
         constexpr std::uint64_t sample = 512;
@@ -192,10 +193,10 @@ private:
     }
 
     const KdTree8Shape& shape_;
-    std::span<KdTree8NodeT<T>> nodes_;
-    std::span<Lanes3T<T>> blocks_;
-    std::span<std::uint32_t> order_;
-    std::unique_ptr<Item[]> items_[2];
+    std::vector<KdTree8NodeT<T>>& nodes_;
+    std::vector<Lanes3T<T>>& blocks_;
+    std::vector<std::uint32_t>& order_;
+    std::vector<Item> items_[2];
 };
 
 /// \}

@@ -148,20 +148,11 @@ template <std::floating_point T, typename Wanted>
     return count;
 }
 
+// Takes the k nearest by a heap: any number of them.
 template <std::floating_point T, typename Wanted>
-[[nodiscard]] std::size_t nearest_points(const KdTree8PartsT<T>& tree,
-                                         const Vec3T<T>& center, T radius,
-                                         std::span<Neighbor> found, Wanted wanted) {
-    if (found.empty() || !(radius >= T(0)) || tree.blocks.empty()) return 0;
-    if (std::is_same_v<Wanted, AnyPoint> && found.size() == 1) {
-        const auto one = nearest_point(tree, center, radius);
-        if (one) found[0] = *one;
-        return one ? 1 : 0;
-    }
-    auto reach = ReachT<T>::up_to(double(radius) * double(radius), false);
-    if (found.size() <= max_counted)
-        return count_nearest(tree, center, reach, found, wanted);
-
+[[nodiscard]] std::size_t heap_nearest(const KdTree8PartsT<T>& tree,
+                                       const Vec3T<T>& center, ReachT<T> reach,
+                                       std::span<Neighbor> found, Wanted& wanted) {
     Nearest best{.found = found, .limit2 = reach.limit2};
     towards(tree, center, reach, [&](std::size_t first, std::size_t last) {
         for (std::size_t b = first; b < last; ++b) {
@@ -178,6 +169,25 @@ template <std::floating_point T, typename Wanted>
             reach = ReachT<T>::up_to(found[0].distance2, true);
     });
     return best.count;
+}
+
+// The k nearest, by one of the two; `Most` is the most that the caller may want.
+template <std::size_t Most, std::floating_point T, typename Wanted>
+[[nodiscard]] std::size_t nearest_points(const KdTree8PartsT<T>& tree,
+                                         const Vec3T<T>& center, T radius,
+                                         std::span<Neighbor> found, Wanted wanted) {
+    if (found.empty() || !(radius >= T(0)) || tree.blocks.empty()) return 0;
+    if constexpr (std::is_same_v<Wanted, AnyPoint>)
+        if (found.size() == 1) {
+            const auto one = nearest_point(tree, center, radius);
+            if (one) found[0] = *one;
+            return one ? 1 : 0;
+        }
+    const auto reach = ReachT<T>::up_to(double(radius) * double(radius), false);
+    if constexpr (Most > max_counted)
+        if (found.size() > max_counted)
+            return heap_nearest(tree, center, reach, found, wanted);
+    return count_nearest(tree, center, reach, found, wanted);
 }
 /// \}
 

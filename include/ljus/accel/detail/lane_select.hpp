@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <limits>
 #include <type_traits>
-#include <utility>
 
 #include "ljus/math/lanes.hpp"
 
@@ -50,6 +49,13 @@ template <std::floating_point T>
     return static_cast<std::size_t>(sum);
 }
 
+/// Two numbers, the smaller one first.
+template <std::floating_point T>
+struct Extremes {
+    T low;
+    T high;
+};
+
 /// The smallest of all numbers above a bound, and the largest finite one that does not
 /// exceed another.
 /// \param values  The numbers, filled up to whole eights with infinity.
@@ -58,7 +64,7 @@ template <std::floating_point T>
 /// \param up_to   Larger ones do not count for the largest.
 /// \return Both; infinity and minus infinity if there are none.
 template <std::floating_point T>
-[[nodiscard]] constexpr std::pair<T, T>
+[[nodiscard]] constexpr Extremes<T>
 smallest_and_largest(const T* values, std::size_t count, T above, T up_to) noexcept {
     constexpr T infinity = std::numeric_limits<T>::infinity();
     T low[lane_count], high[lane_count];
@@ -71,10 +77,10 @@ smallest_and_largest(const T* values, std::size_t count, T above, T up_to) noexc
             low[j] = for_low < low[j] ? for_low : low[j];
             high[j] = for_high > high[j] ? for_high : high[j];
         });
-    std::pair<T, T> result{low[0], high[0]};
+    Extremes<T> result{low[0], high[0]};
     for (std::size_t j = 1; j < lane_count; ++j) {
-        result.first = low[j] < result.first ? low[j] : result.first;
-        result.second = high[j] > result.second ? high[j] : result.second;
+        result.low = low[j] < result.low ? low[j] : result.low;
+        result.high = high[j] > result.high ? high[j] : result.high;
     }
     return result;
 }
@@ -110,9 +116,9 @@ template <std::floating_point T>
     for (int step = 0;; ++step) {
         if (spare > 0 && up_to_high <= k + spare) return high;
         if (up_to_high == k)
-            return smallest_and_largest(values, count, infinity, high).second;
+            return smallest_and_largest(values, count, infinity, high).high;
         if (up_to_low + 1 == k)
-            return smallest_and_largest(values, count, low, -infinity).first;
+            return smallest_and_largest(values, count, low, -infinity).low;
         const T part = (T(k - up_to_low) - T(0.5)) / T(up_to_high - up_to_low);
         T guess = low + (high - low) * part;
         if (step % 3 == 2 || !(low < guess && guess < high)) {

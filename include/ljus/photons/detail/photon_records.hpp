@@ -5,7 +5,6 @@
 
 #include <bit>
 #include <cstddef>
-#include <span>
 #include <vector>
 
 #include "ljus/math/lanes.hpp"
@@ -103,8 +102,8 @@ public:
     /// The records of photons, in a given order.
     /// \param photons  The photons.
     /// \param order    Their numbers, in the order that the records shall have.
-    PhotonRecordsT(std::span<const PhotonT<T>> photons,
-                   std::span<const std::uint32_t> order)
+    PhotonRecordsT(const std::vector<PhotonT<T>>& photons,
+                   const std::vector<std::uint32_t>& order)
         : blocks_((order.size() + 7) / 8, RecordBlockT<T>{}), size_(order.size()) {
         for (std::size_t i = 0; i < size_; ++i) {
             const PhotonT<T>& photon = photons[order[i]];
