@@ -55,10 +55,9 @@ LJUS_CORE_INLINE std::string numbers_to_text(std::initializer_list<double> value
         }
         // C writes at least two digits of an exponent: 1e-07.
         char* const e = std::strchr(digits, 'e');
-        if (e != nullptr && e[2] == '0')
-            std::memmove(e + 2, e + 3, std::strlen(e + 2));
+        if (e != nullptr && e[2] == '0') std::memmove(e + 2, e + 3, std::strlen(e + 2));
         text.append(text.empty() ? "" : ", ");
-        text.append(std::isnan(value)   ? "NaN"
+        text.append(std::isnan(value)      ? "NaN"
                     : std::isfinite(value) ? digits
                     : value < 0            ? "-infinity"
                                            : "infinity");

@@ -177,8 +177,8 @@ nearest_photons(const PhotonMapT<T>& map, const SurfacePointT<T>& point, T radiu
         const PhotonRecordT<T> photon = map.records[i];
         return kinds.has(photon.kind) && !turned_away(photon.normal, point.normal);
     };
-    return map.tree.template nearest<max_nearest>(point.position, radius,
-                                                  found, counts);
+    const Vec3T<T>& x = point.position;
+    return map.tree.template nearest<max_nearest>(x, radius, found, counts);
 }
 
 } // namespace detail

@@ -117,8 +117,7 @@ struct Passes {
     const bool general = lit && map_asked && settings.general.photons > 0;
     return {.shadow_rays = lit,
             .indirect_rays = rays,
-            .caustics_map =
-                lit && found.specular > 0 && settings.caustics.photons > 0,
+            .caustics_map = lit && found.specular > 0 && settings.caustics.photons > 0,
             .general_map = general,
             .shadow_photons = general && settings.general.shadow_photons};
 }

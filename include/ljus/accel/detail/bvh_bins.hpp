@@ -162,9 +162,8 @@ struct HalvesT {
 
 // Sorts a range into its two halves; without a split, by number.
 template <std::floating_point T>
-[[nodiscard]] HalvesT<T>
-divide(std::vector<PrimitiveRefT<T>>& refs, const PrimitiveRangeT<T>& range,
-       const Split& split) {
+[[nodiscard]] HalvesT<T> divide(std::vector<PrimitiveRefT<T>>& refs,
+                                const PrimitiveRangeT<T>& range, const Split& split) {
     PrimitiveRangeT<T> low{
         .first = range.first, .last = range.first, .depth = range.depth + 1};
     PrimitiveRangeT<T> high{

@@ -172,7 +172,7 @@ private:
     // Two numbers between which the item of a rank is likely to lie: of a few items,
     // twice its own coordinate; of many, what a sample says.
     static Extremes<T> pivots(const Item* items, std::uint64_t count,
-                                  std::uint64_t rank, int axis) {
+                              std::uint64_t rank, int axis) {
         constexpr std::uint64_t few = 2048;
         constexpr std::uint64_t sample = 512;
         constexpr std::uint64_t margin = 32; // 2.8 standard deviations of its median
