@@ -1,26 +1,27 @@
 # Shadow photons only where the surface's own normal faces the light: the other side of a
 # quad, lit or not, would look as if nothing could ever stand in its way.
 ljus_break_it(NAME general-map-shadow-normal HEADER photons/photon_path.hpp TEST general_map
-    FROM "if (diffuse)"
-    TO   "if (diffuse && glm::dot(vertex.point.normal, ray.direction) < T(0))"
+    FROM "if (scene.visit_material(vertex->object.material, diffuse))"
+    TO   [[if (scene.visit_material(vertex->object.material, diffuse) &&
+               glm::dot(vertex->point.normal, path.ray.direction) < T(0))]]
     CASES "general map: direct + shadow*")
 
 # And the wrong way round.
 ljus_break_it(NAME general-map-shadow-side HEADER photons/photon_path.hpp TEST general_map
-    FROM "out.push_back({vertex.point.position, ray.direction, photon.flux,"
-    TO   "out.push_back({vertex.point.position, -ray.direction, photon.flux,"
+    FROM "out.push_back({vertex->point.position, path.ray.direction, photon.flux,"
+    TO   "out.push_back({vertex->point.position, -path.ray.direction, photon.flux,"
     CASES "general map: direct + shadow*")
 
 # One shadow photon a path: only the next surface behind is told.
 ljus_break_it(NAME general-map-shadow-one HEADER photons/photon_path.hpp TEST general_map
-    FROM "surfaces < 1000"
-    TO   "surfaces < 1"
+    FROM "path.depth < 1000"
+    TO   "path.depth < 1"
     CASES "general map: direct + shadow*")
 
 # The surface that hides counts itself among the hidden.
 ljus_break_it(NAME general-map-shadow-first HEADER photons/photon_path.hpp TEST general_map
-    FROM [[RayT<T> ray = spawn_ray(first, photon.ray.direction, photon.ray.time);]]
-    TO   [[(void)first; RayT<T> ray = photon.ray;]]
+    FROM "PathStateT<T> path{.ray = straight_on(first)};"
+    TO   "(void)first; PathStateT<T> path{.ray = photon.ray};"
     CASES "general map: direct + shadow*")
 
 # Photons on mirrors and glass.
@@ -31,8 +32,8 @@ ljus_break_it(NAME general-map-mirror HEADER photons/photon_path.hpp TEST genera
 
 # Shadow photons on mirrors and glass.
 ljus_break_it(NAME general-map-shadow-mirror HEADER photons/photon_path.hpp TEST general_map
-    FROM "if (diffuse)"
-    TO   "if (diffuse || true)"
+    FROM "has(lobes(m), Lobes::non_specular)"
+    TO   "has(lobes(m), Lobes::all)"
     CASES "general map: photons lie on matt*")
 
 # Each photon says that it comes from the first light.

@@ -59,28 +59,32 @@ namespace detail {
 /// \param scene   The scene.
 /// \param photon  As it left its light.
 /// \param first   The first surface it met.
+/// \param stream  A copy: the photon's own path draws from where it was. A number is
+///                drawn for each thin surface.
 /// \param out     Takes the photons.
 /// \cost One search for the closest surface for each surface behind the first, and one
 ///       more; it ends after 1000.
 /// \report{Section 3.2.2.1} \cite jensen1995
 // [trace_shadow]
-template <SceneLike S, std::floating_point T>
+template <SceneLike S, std::floating_point T, typename Stream>
 void trace_shadow(const S& scene, const EmittedPhotonT<T>& photon,
-                  const SurfacePointT<T>& first, std::vector<PhotonT<T>>& out) {
-    RayT<T> ray = spawn_ray(first, photon.ray.direction, photon.ray.time);
-    for (int surfaces = 0; surfaces < 1000; ++surfaces) {
-        const auto hit = closest_hit(scene, ray);
-        if (!hit) return;
-        const VertexT<T> vertex = vertex_at(scene, ray, *hit);
-        const bool diffuse =
-            scene.visit_material(vertex.object.material, [](const auto& m) {
-                return has(lobes(m), Lobes::non_specular);
-            });
-        if (diffuse)
-            out.push_back({vertex.point.position, ray.direction, photon.flux,
+                  const SurfacePointT<T>& first, Stream stream,
+                  std::vector<PhotonT<T>>& out) {
+    const auto straight_on = [&](const SurfacePointT<T>& from) {
+        return spawn_ray(from, photon.ray.direction, photon.ray.time);
+    };
+    PathStateT<T> path{.ray = straight_on(first)};
+    while (path.depth < 1000) {
+        const auto vertex = next_vertex(scene, path, stream);
+        if (!vertex) return;
+        const auto diffuse = [](const auto& m) {
+            return has(lobes(m), Lobes::non_specular);
+        };
+        if (scene.visit_material(vertex->object.material, diffuse))
+            out.push_back({vertex->point.position, path.ray.direction, photon.flux,
                            photon.light, PhotonKind::shadow,
-                           small_normal(vertex.point.normal)});
-        ray = spawn_ray(vertex.point, ray.direction, ray.time);
+                           small_normal(vertex->point.normal)});
+        path.ray = straight_on(vertex->point);
     }
 }
 // [trace_shadow]
@@ -175,7 +179,7 @@ void trace_photon(const S& scene, MapType map, const EmittedPhotonT<T>& photon,
             return;
         }
         if (first && map == MapType::general && pass.shadow_photons)
-            trace_shadow(scene, photon, vertex->point, out);
+            trace_shadow(scene, photon, vertex->point, stream, out);
         audit.absorbed += sent - RgbT<double>(path.throughput); // by what lies between
         if (is_black(path.throughput)) return;
 
