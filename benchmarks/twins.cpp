@@ -28,7 +28,7 @@
 #include <ljus/accel/detail/triangle_bvh.hpp>
 #include <ljus/accel/kd_tree.hpp>
 #include <ljus/geometry/shape.hpp>
-#include <ljus/photons/photon_map.hpp>
+#include <ljus/photons/density_estimate.hpp>
 
 #include "rays_scenes.hpp"
 #include "rays_timing.hpp"

@@ -16,7 +16,7 @@
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
-#include "ljus/photons/photon_map.hpp"
+#include "ljus/photons/density_estimate.hpp"
 #include "ljus/photons/tracing.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/scene/scene.hpp"

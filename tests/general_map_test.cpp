@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "ljus/inspect/census.hpp"
-#include "ljus/photons/photon_map.hpp"
+#include "ljus/photons/density_estimate.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "support/mean.hpp"
 #include "support/photon_samples.hpp"

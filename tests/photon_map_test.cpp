@@ -4,7 +4,7 @@
 /// Standard errors come from independent maps, one a seed. A mean is accepted within 4.5
 /// of them: each such check gives a false alarm once in 150 000 seeds.
 
-#include "ljus/photons/photon_map.hpp"
+#include "ljus/photons/density_estimate.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,40 +1,40 @@
 # k photons over the disc of the k-th: k/(k-1) too bright.
-ljus_break_it(NAME photon-map-k HEADER photons/photon_map.hpp TEST photon_map
+ljus_break_it(NAME photon-map-k HEADER photons/density_estimate.hpp TEST photon_map
     FROM "k = full ? 1 : 0"
     TO   "k = 0"
     CASES "photon_map: with the k nearest*")
 
 # (k-1)/k as well as the k-th photon left out: too dark by as much.
-ljus_break_it(NAME photon-map-twice HEADER photons/photon_map.hpp TEST photon_map
+ljus_break_it(NAME photon-map-twice HEADER photons/density_estimate.hpp TEST photon_map
     FROM "sum / (std::numbers::pi * radius2)"
     TO   "sum * (gather.nearest > 0 ? 1 - 1.0 / double(gather.nearest) : 1) / (std::numbers::pi * radius2)"
     CASES "photon_map: with the k nearest*")
 
 # The area of the cube's side instead of the disc's.
-ljus_break_it(NAME photon-map-area HEADER photons/photon_map.hpp TEST photon_map
+ljus_break_it(NAME photon-map-area HEADER photons/density_estimate.hpp TEST photon_map
     FROM "std::numbers::pi * radius2"
     TO   "4 * radius2"
     CASES "photon_map: within a fixed*")
 
 # "A missing dot product" the other way round: the flux holds the cosine already.
-ljus_break_it(NAME photon-map-cosine HEADER photons/photon_map.hpp TEST photon_map
+ljus_break_it(NAME photon-map-cosine HEADER photons/density_estimate.hpp TEST photon_map
     FROM "weight * evaluate(material, wo, wi)"
     TO   "weight * wi.z * evaluate(material, wo, wi)"
     CASES "photon_map: one by one*")
 
-ljus_break_it(NAME photon-map-direction HEADER photons/photon_map.hpp TEST photon_map
+ljus_break_it(NAME photon-map-direction HEADER photons/density_estimate.hpp TEST photon_map
     FROM "wi = to_local(surface.frame, -photon.direction);"
     TO   "wi = to_local(surface.frame, photon.direction);"
     CASES "photon_map: one by one*")
 
 # A ball without a disc: the light of another wall.
-ljus_break_it(NAME photon-map-thickness HEADER photons/photon_map.hpp TEST photon_map
+ljus_break_it(NAME photon-map-thickness HEADER photons/density_estimate.hpp TEST photon_map
     FROM "height * height > height2 ||"
     TO   ""
     CASES "photon_map: eight*")
 
 # The next wall of a corner, and the other side of a thin wall.
-ljus_break_it(NAME photon-map-turned HEADER photons/photon_map.hpp TEST photon_map
+ljus_break_it(NAME photon-map-turned HEADER photons/density_estimate.hpp TEST photon_map
     FROM "turned_away(photon.normal, surface.point.normal))
             return;"
     TO   "false)
@@ -42,20 +42,20 @@ ljus_break_it(NAME photon-map-turned HEADER photons/photon_map.hpp TEST photon_m
     CASES "photon_map: eight*")
 
 # A disc so flat that a ball of twice its radius loses the rim.
-ljus_break_it(NAME photon-map-flat HEADER photons/photon_map.hpp TEST photon_map
+ljus_break_it(NAME photon-map-flat HEADER photons/density_estimate.hpp TEST photon_map
     FROM "float thickness = 0.5f;"
     TO   "float thickness = 0.1f;"
     CASES "photon_map: on a ball as small*"
     COMPILED)
 
 # The k nearest of all kinds, of which shadow photons are then left out.
-ljus_break_it(NAME photon-map-kinds HEADER photons/photon_map.hpp TEST photon_map
+ljus_break_it(NAME photon-map-kinds HEADER photons/density_estimate.hpp TEST photon_map
     FROM "found, counts)"
     TO   "found, [](std::uint32_t) { return true; })"
     CASES "photon_map: photons of other kinds*")
 
 # 0/0 where all photons lie in one point.
-ljus_break_it(NAME photon-map-one-point HEADER photons/photon_map.hpp TEST photon_map
+ljus_break_it(NAME photon-map-one-point HEADER photons/density_estimate.hpp TEST photon_map
     FROM "if (!(radius2 > 0)) return RgbT<T>{T(0)};"
     TO   ""
     CASES "photon_map: photons that all*")

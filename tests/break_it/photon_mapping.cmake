@@ -12,7 +12,7 @@ ljus_break_it(NAME photon-mapping-flux HEADER photons/photon_path.hpp TEST photo
 
 # A cosine in the estimate, which the arriving flux holds already: photons one by one, and
 # eight at a time.
-ljus_break_it(NAME photon-mapping-cosine HEADER photons/photon_map.hpp TEST photon_mapping
+ljus_break_it(NAME photon-mapping-cosine HEADER photons/density_estimate.hpp TEST photon_mapping
     FROM "weight * evaluate(material, wo, from_light)"
     TO   "weight * std::abs(from_light.z) * evaluate(material, wo, from_light)"
     CASES "photon mapping: a matt ball embedded*")

@@ -7,7 +7,7 @@
 #include "ljus/path/direct_light.hpp"
 #include "ljus/path/path_log.hpp"
 #include "ljus/path/renderer.hpp"
-#include "ljus/photons/photon_map.hpp"
+#include "ljus/photons/density_estimate.hpp"
 #include "ljus/photons/tracing.hpp"
 #include "ljus/render/survey.hpp"
 #include "ljus/scene/index.hpp"

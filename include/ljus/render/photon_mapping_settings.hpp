@@ -3,7 +3,7 @@
 /// \file ljus/render/photon_mapping_settings.hpp
 /// \brief The settings of the report's renderer.
 
-#include "ljus/photons/photon_map.hpp"
+#include "ljus/photons/density_estimate.hpp"
 #include "ljus/photons/photon_pass.hpp"
 
 namespace ljus {
