@@ -23,6 +23,7 @@ hints() {
 run_cmake() {
     "$LJUS_CMAKE" -G "$LJUS_GENERATOR" -DCMAKE_MAKE_PROGRAM="$LJUS_MAKE_PROGRAM" \
         -DCMAKE_CXX_COMPILER="$LJUS_CXX" -DCMAKE_BUILD_TYPE=Release \
+        -DCMAKE_CXX_FLAGS_RELEASE=-O1 \
         -DCMAKE_CXX_FLAGS="$everything" "$@"
 }
 build_and_run() {
