@@ -468,10 +468,9 @@ void equal_time(const Study& study, const std::vector<Method>& all,
             const Shot shot =
                 panel(study, all[k],
                       std::min(effort_for(study.runs[k], budgets[b]), 1e6), options);
-            save_png(shot.image,
-                     options.path("side_by_side-" + study.name + "-time-" +
-                                  all[k].file +
-                                  (b == 0 ? "" : "-" + std::to_string(b)) + ".png"));
+            std::string name = "side_by_side-" + study.name + "-time-" + all[k].file;
+            if (b > 0) name.append("-").append(std::to_string(b));
+            save_png(shot.image, options.path(name + ".png"));
             const double pixels = double(options.width) * options.height;
             const double error = rel_mse(shot.image, study.truth) - study.noise;
             table.rows.push_back(

@@ -21,6 +21,7 @@
 #include "ljus/inspect/census.hpp"
 #include "ljus/io/png.hpp"
 #include "ljus/materials/lambertian.hpp"
+#include "ljus/photons/density_estimate.hpp"
 #include "ljus/photons/tracing.hpp"
 #include "ljus/scenes/report_rooms.hpp"
 

@@ -35,7 +35,7 @@ ljus_break_it(NAME photon-map-thickness HEADER photons/density_estimate.hpp TEST
 
 # The next wall of a corner, and the other side of a thin wall.
 ljus_break_it(NAME photon-map-turned HEADER photons/density_estimate.hpp TEST photon_map
-    FROM "turned_away(photon.normal, surface.point.normal))
+    FROM "detail::turned_away(photon.normal, surface.point.normal))
             return;"
     TO   "false)
             return;"
