@@ -1,4 +1,4 @@
-/// \file full_glossy_test.cpp
+/// \file compensated_glossy_test.cpp
 /// \brief Gloss that keeps its light: a furnace in which white cannot be seen.
 
 #include "ljus/materials/compensated_glossy.hpp"

@@ -358,10 +358,15 @@ TEST_CASE("general map: direct + shadow = the light that nothing hides, for each
 TEST_CASE("general map: photons lie on matt surfaces only, and each knows its light") {
     // One lamp is red and the other green, and walls keep channels apart: a photon's
     // colour says whose it is, after any number of bounces.
-    for (const Ball ball : {Ball::mirror, Ball::glass, Ball::oren_nayar}) {
+    for (const Ball ball :
+         {Ball::mirror, Ball::glass, Ball::mixture, Ball::oren_nayar}) {
         Room room;
         add_walls(room);
-        add_ball(room, ball);
+        if (ball == Ball::mixture) // a type that can be matt; this one is all clear
+            room.add(Sphere{.center{0.1f, -0.4f, -0.1f}, .radius = 0.45f},
+                     room.add(Mixture{.transparency = 1, .index = 1.5f}));
+        else
+            add_ball(room, ball);
         const auto black = room.add(Lambertian{.albedo = Rgb{0}});
         const std::array centers{Vec3{-0.3f, 0.9f, 0}, Vec3{0.5f, 0.7f, 0.4f}};
         for (const int lamp : {0, 1})

@@ -1,4 +1,4 @@
-/// \file indexed_scene_test.cpp
+/// \file index_test.cpp
 /// \brief The index of a scene gives the loop's answers, to the last bit.
 
 #include "ljus/scene/index.hpp"

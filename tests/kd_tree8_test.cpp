@@ -1,5 +1,5 @@
 // native: fused multiply-adds must not decide on a point at the border of a ball
-/// \file wide_kd_tree_test.cpp
+/// \file kd_tree8_test.cpp
 /// \brief Every search against all points in turn, and what it costs in the worst case.
 
 #include "ljus/accel/kd_tree8.hpp"

@@ -1,4 +1,4 @@
-/// \file map_file_test.cpp
+/// \file photon_map_file_test.cpp
 /// \brief A map comes back byte by byte, and nothing else comes back at all.
 
 #include "ljus/io/photon_map_file.hpp"

@@ -1,5 +1,5 @@
 // concept: oren_nayar
-/// \file rough_matt_test.cpp
+/// \file rough_diffuse_test.cpp
 /// \brief Each model against its formula in angles, and what white returns.
 
 #include "ljus/materials/rough_diffuse.hpp"

@@ -1,6 +1,6 @@
 // needs: boost
 // concept: surface_point
-/// \file surface_exact_test.cpp
+/// \file surface_point_exact_test.cpp
 /// \brief Where a ray starts that leaves a surface, with exact fractions: on its own
 /// side, never on the surface, and not through a layer of a thousandth of the object.
 

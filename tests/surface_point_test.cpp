@@ -1,4 +1,4 @@
-/// \file surface_test.cpp
+/// \file surface_point_test.cpp
 /// \brief Leaving a surface, and rays between two surfaces. The sides against exact
 /// arithmetic are in surface_exact_test.cpp.
 

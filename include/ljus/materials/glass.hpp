@@ -134,7 +134,7 @@ void check(const GlassT<T>& glass) {
 ///
 /// A pane is a *thin sheet*, as a soap film is: what goes on goes straight on, which is
 /// no scattering but visibility. So shadow rays and photons go through, tinted;
-/// sample() knows the reflection only. See \ref thin_surfaces.
+/// sample() knows the reflection only. See \ref next_vertex.
 /// \{
 
 /// A pane with air on both sides.
