@@ -162,9 +162,8 @@ struct Nanoflann {
     std::vector<float> values;
 
     explicit Nanoflann(const std::vector<Vec3>& points)
-        : cloud{points}, tree(3, cloud, {16}), values(payload(points.size())) {
-        tree.buildIndex();
-    }
+        // From version 1.4 on the constructor builds the tree.
+        : cloud{points}, tree(3, cloud, {16}), values(payload(points.size())) {}
     const auto& within(const Vec3& center, float radius) const {
         static thread_local std::vector<std::pair<std::uint32_t, float>> found;
         nanoflann::SearchParams unsorted;

@@ -16,8 +16,8 @@ namespace ljus {
 namespace detail {
 
 /// So many shapes, at most, are asked in turn; of more, a tree says which ones to ask.
-/// Measured (benchmarks/rays_room.cpp): in the report's room, cut down to its first 2,
-/// 3, 4, ... objects, the loop takes 34, 45, 53, ... ns a ray and the tree 35, 41, 45.
+/// In the report's room, cut down to its first 1, 2, 3, ... objects, the tree is no
+/// slower than the loop from the third on (benchmarks/rays_room.cpp; \ref ch_bvh).
 inline constexpr std::size_t flat_loop_limit = 2;
 
 /// Whether a tree finds the first of so many shapes on a ray, or a loop over all.
