@@ -26,8 +26,8 @@ ljus_break_it(NAME textured-product HEADER materials/textured.hpp TEST texture
 
 # The hook forgotten: every place looks like the base.
 ljus_break_it(NAME textured-hook HEADER path/vertex.hpp TEST texture
-    FROM "if constexpr (Material<std::remove_cvref_t<Here>>)"
-    TO   "if constexpr (!Material<std::remove_cvref_t<Here>>)"
+    FROM "return f(material_at(m, vertex.point.position, vertex.uv));"
+    TO   "return f(m);"
     CASES "texture: in a white furnace*")
 
 # The shape's coordinates never worked out: an image in its own first pixel's colour.

@@ -88,24 +88,25 @@ template <std::floating_point T>
     return into_gamut(film_preintegrated(c, film.index, thickness));
 }
 
-namespace detail {
-
-/// A point of a film: what the film is there.
+/// A point of a film: a material that is the film there.
 template <std::floating_point T>
 struct FilmPointT {
-    const SoapFilmT<T>& film; ///< Of which it is a point.
-    T thickness;              ///< In nm, here.
+    using Scalar = T;                           ///< The precision of its numbers.
+    static constexpr bool only_specular = true; ///< See OnlySpecular.
+    const SoapFilmT<T>& film;                   ///< Of which it is a point.
+    T thickness;                                ///< In nm, here.
 };
 
-} // namespace detail
+/// Nothing to refuse: the film was checked.
+template <std::floating_point T>
+void check(const FilmPointT<T>&) noexcept {}
 
 /// A film at a point; see material_at().
 /// \param film      The film; must outlive the result.
 /// \param position  The point.
 template <std::floating_point T>
-[[nodiscard]] detail::FilmPointT<T> at_point(const SoapFilmT<T>& film,
-                                             const Vec3T<T>& position,
-                                             const Vec2T<T>& /*uv*/) noexcept {
+[[nodiscard]] FilmPointT<T> at_point(const SoapFilmT<T>& film, const Vec3T<T>& position,
+                                     const Vec2T<T>& /*uv*/) noexcept {
     return {film, thickness_at(film, position)};
 }
 
@@ -132,7 +133,7 @@ template <std::floating_point T>
 /// \report{Figure 4}
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
-sample(const detail::FilmPointT<T>& point, const Vec3T<T>& wo, const Vec3T<T>&,
+sample(const FilmPointT<T>& point, const Vec3T<T>& wo, const Vec3T<T>&,
        Transport /*transport*/, Lobes which = Lobes::all) noexcept {
     if (!has(which, Lobes::specular) || !(wo.z > T(0) || wo.z < T(0)))
         return std::nullopt;
@@ -144,7 +145,7 @@ template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const SoapFilmT<T>& film, const Vec3T<T>& wo, const Vec3T<T>& u,
        Transport transport, Lobes which = Lobes::all) noexcept {
-    return sample(detail::FilmPointT<T>{film, film.thickness}, wo, u, transport, which);
+    return sample(FilmPointT<T>{film, film.thickness}, wo, u, transport, which);
 }
 
 /// Refuses a film that cannot be.

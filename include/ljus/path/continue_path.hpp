@@ -45,7 +45,7 @@ struct ScatteredT {
 /// (Veach's Eq. 5.19, \f$\omega_o\f$ to where the photon came from): without it, camera
 /// paths and photons do not see the same scene.
 /// \param vertex     Where.
-/// \param material   What the surface is made of.
+/// \param material   What the surface is made of there; see visit_material_at().
 /// \param u          Point of [0,1)^3.
 /// \param transport  What the path carries.
 /// \param which      The parts to sample from.
@@ -57,8 +57,7 @@ template <std::floating_point T, Material M>
 scatter(const VertexT<T>& vertex, const M& material, const Vec3T<T>& u,
         Transport transport, Lobes which = Lobes::all) noexcept {
     const Vec3T<T>& wo = vertex.wo;
-    const auto& here = material_at(material, vertex.point.position, vertex.uv);
-    const auto next = sample(here, wo, u, transport, which);
+    const auto next = sample(material, wo, u, transport, which);
     if (!next) return std::nullopt;
     detail::ScatteredT<T> scattered{*next, to_world(vertex.frame, next->wi)};
     if (!vertex.smooth) return scattered;
@@ -75,7 +74,7 @@ scatter(const VertexT<T>& vertex, const M& material, const Vec3T<T>& u,
     }
     if (!next->specular) return std::nullopt;
     const FrameT<T> flat = frame_around(geometric);
-    const auto again = sample(here, to_local(flat, back), u, transport, which);
+    const auto again = sample(material, to_local(flat, back), u, transport, which);
     if (!again || !again->specular) return std::nullopt;
     return detail::ScatteredT<T>{*again, to_world(flat, again->wi)};
 }

@@ -112,7 +112,7 @@ template <SceneLike S, std::floating_point T>
 
 /// Calls f(material) with what a surface is made of at a vertex: what visit_material()
 /// does for an object, this does for a place of it. A textured material is its base in
-/// another colour there; all others are themselves.
+/// another colour there, a soap film as thick as it is there; all others are themselves.
 /// \param scene   The scene.
 /// \param vertex  The place.
 /// \param f       Called with the material, as its own type.
@@ -120,12 +120,7 @@ template <SceneLike S, std::floating_point T>
 template <SceneLike S, std::floating_point T, typename F>
 decltype(auto) visit_material_at(const S& scene, const VertexT<T>& vertex, F&& f) {
     return scene.visit_material(vertex.object.material, [&](const auto& m) {
-        using Here = decltype(material_at(m, vertex.point.position, vertex.uv));
-        // A soap film's point is no material: scatter() asks for it.
-        if constexpr (Material<std::remove_cvref_t<Here>>)
-            return f(material_at(m, vertex.point.position, vertex.uv));
-        else
-            return f(m);
+        return f(material_at(m, vertex.point.position, vertex.uv));
     });
 }
 // [visit_material_at]
