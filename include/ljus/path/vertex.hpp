@@ -112,7 +112,7 @@ template <SceneLike S, std::floating_point T>
 
 /// Calls f(material) with what a surface is made of at a vertex: what visit_material()
 /// does for an object, this does for a place of it. A textured material is its base in
-/// another colour there, a soap film as thick as it is there; all others are themselves.
+/// another colour there, a soap film as thick as it is there; others are themselves.
 /// \param scene   The scene.
 /// \param vertex  The place.
 /// \param f       Called with the material, as its own type.
