@@ -218,7 +218,7 @@ TEST_CASE("parallel: a loop inside a loop") {
 
 TEST_CASE("parallel: a number of threads without sense is refused with its value") {
     CHECK_THROWS_WITH_AS(ljus::parallel_blocks(1, [](long long) {}, {.threads = -1}),
-                         "The number of threads is -1; it must be within [0, 1024].",
+                         "the number of threads is -1; it must be within [0, 1024].",
                          std::invalid_argument);
     CHECK_THROWS_AS(ljus::parallel_blocks(1, [](long long) {}, {.threads = 1025}),
                     std::invalid_argument);

@@ -4,12 +4,10 @@
 /// \brief Loops over blocks by several threads: the one place that knows OpenMP.
 
 #include <concepts>
-#include <cstdio>
 #include <exception>
-#include <stdexcept>
 #include <type_traits>
-#include <vector>
 
+#include "ljus/math/require.hpp"
 #include "ljus/progress.hpp"
 
 #ifdef _OPENMP
@@ -31,7 +29,7 @@ inline constexpr int max_threads_allowed = 1024;
 
 /// How a parallel loop runs.
 struct ParallelSettings {
-    int threads = 0;        ///< 1 to max_threads_allowed; 0: one a processor.
+    int threads = 0;        ///< 1 to max_threads_allowed; 0: one per processor.
     Progress progress = {}; ///< Called after a block, by one thread at a time.
 };
 
@@ -129,13 +127,9 @@ private:
 
 LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
                                  const ParallelSettings& options) {
-    if (options.threads < 0 || options.threads > max_threads_allowed) {
-        char text[80];
-        std::snprintf(text, sizeof text,
-                      "The number of threads is %d; it must be within [0, %d].",
-                      options.threads, max_threads_allowed);
-        throw std::invalid_argument(text);
-    }
+    require(options.threads >= 0 && options.threads <= max_threads_allowed,
+            "the number of threads", static_cast<long long>(options.threads),
+            "within [0, 1024]");
 
     Mutex turns;                    // what follows is changed in turn
     long long next = 0;             // the block to begin next

@@ -70,7 +70,7 @@ public:
     /// \param boxes     Any boxes, equal and flat ones too; below 2^31.
     /// \param settings  Leaves and threads; the tree is the same for any number.
     /// \throws std::invalid_argument  if a box is not finite, or there are too many.
-    /// \cost O(n log n); at most 68 bytes a box for the tree in float, and 36 more
+    /// \cost O(n log n); at most 68 bytes per box for the tree in float, and 36 more
     ///       while it is built.
     explicit BvhT(std::span<const BoxT<T>> boxes, const BvhSettings& settings = {})
         : tree_(detail::build_bvh(boxes, settings)) {}

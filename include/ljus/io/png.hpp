@@ -97,8 +97,8 @@ template <std::floating_point T>
     if (stbi_write_png_to_func(append, &file, image.width, image.height, 3,
                                screen.data(), 3 * image.width) == 0)
         throw std::runtime_error(
-            join({"PNG: no memory for an image of ", to_text(image.width * 1LL), " x ",
-                  to_text(image.height * 1LL), " pixels."}));
+            join({"PNG: no memory for an image of ", to_text(image.width), " x ",
+                  to_text(image.height), " pixels."}));
     return file;
 #elif defined(LJUS_NO_STB)
     static_assert(sizeof(T) == 0, "LJUS_NO_STB switches PNG off: save a .pfm or .hdr "

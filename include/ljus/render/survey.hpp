@@ -47,16 +47,21 @@ struct Plan {
     std::array<const PlanItem*, 7> items() const&& = delete;
 };
 
-/// A plan, one line an item: its name, on or off, and why; then one line a type.
+/// One pass of a plan: its name, on or off, and why.
+/// \param item  The pass.
+/// \return A line that ends with a line feed.
+[[nodiscard]] inline std::string to_text(const PlanItem& item) {
+    std::string name = item.pass;
+    name.resize(16, ' ');
+    return name + (item.on ? "on   " : "off  ") + item.why + "\n";
+}
+
+/// A plan: one line per pass, then one line per type of shape and of material.
 /// \param plan  The plan.
 /// \return Lines that end with a line feed.
 [[nodiscard]] inline std::string to_text(const Plan& plan) {
     std::string text;
-    for (const PlanItem* item : plan.items()) {
-        std::string name = item->pass;
-        name.resize(16, ' ');
-        text += name + (item->on ? "on   " : "off  ") + item->why + "\n";
-    }
+    for (const PlanItem* item : plan.items()) text += to_text(*item);
     for (const std::string& type : plan.types) text += type + "\n";
     return text;
 }
