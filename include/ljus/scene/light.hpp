@@ -117,12 +117,11 @@ template <std::floating_point T>
 /// What arrives at a point from one sampled point of a light, if nothing is between.
 template <std::floating_point T>
 struct LightSampleT {
-    SurfacePointT<T>
-        point{};       ///< Where the shadow ray ends; what is no object has no error.
-    Vec3T<T> wi{T(0)}; ///< Unit direction to the light.
-    RgbT<T> weight{T(0)}; ///< Radiance / pdf; of a point or spot light
-                          ///< intensity / distance^2; of a sun its irradiance.
-    T pdf = T(0);         ///< Per steradian; 0 for what no path can meet.
+    SurfacePointT<T> point{}; ///< Where the shadow ray ends; of no object, no error.
+    Vec3T<T> wi{T(0)};        ///< Unit direction to the light.
+    RgbT<T> weight{T(0)};     ///< Radiance / pdf; of a point or spot light
+                              ///< intensity / distance^2; of a sun its irradiance.
+    T pdf = T(0);             ///< Per steradian; 0 for what no path can meet.
 };
 
 /// Samples a point of a light, for a shadow ray.

@@ -29,9 +29,8 @@ namespace detail {
 // [tree node]
 template <std::floating_point T>
 struct BvhNodeT {
-    BoxT<T> box{}; ///< Around all that is below.
-    std::uint32_t first =
-        0; ///< Its first child, the other follows; or first primitive.
+    BoxT<T> box{};           ///< Around all that is below.
+    std::uint32_t first = 0; ///< Its first primitive, or child: the other follows.
     std::uint32_t count = 0; ///< How many primitives; 0 for a node with children.
 };
 // [tree node]
