@@ -2,9 +2,12 @@
 # to be sourced.
 set -euo pipefail
 : "${LJUS_ROOT:?run this check by ctest, which tells it where everything is}"
-scratch=$LJUS_SCRATCH
 include=$LJUS_ROOT/include
-mkdir -p "$scratch"
+# A folder of its own for each check that runs: CTest runs several at once, and one of them
+# runs another.
+mkdir -p "$LJUS_SCRATCH"
+scratch=$(mktemp -d "$LJUS_SCRATCH/XXXXXX")
+trap 'rm -rf "$scratch"' EXIT
 
 skip() { echo "skipped: $*"; exit 77; }
 

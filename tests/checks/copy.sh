@@ -35,6 +35,5 @@ while read -r header; do
     fi
     count=$((count + 1))
 done < <(grep -v /detail/ "$LJUS_HEADERS" | awk -v step="${1:-1}" 'NR % step == 0')
-rm -rf "$scratch/copy"
 echo "$count headers copied, each with what it names, and compiled by $compiler"
 exit $status
