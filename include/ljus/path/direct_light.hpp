@@ -54,27 +54,30 @@ namespace detail {
 /// \param scene     The scene.
 /// \param vertex    The surface.
 /// \param material  What it is made of.
-/// \param rays      Shadow rays to each light, at least 1, spread evenly over it.
-/// \param stream    Two numbers a ray.
+/// \param rays      Shadow rays to each light, at least 1: each light is cut into as many
+///                  cells.
+/// \param stream    Two numbers per light: the place in the cells, the same in all. The
+///                  rays of a pixel share out a cell as they would share out the light.
 /// \param counts    Counts the rays.
 /// \return Radiance towards wo.
 /// \report{Section 3.2.3}
-template <SceneLike S, std::floating_point T, Material M>
+template <SceneLike S, std::floating_point T, Material M, typename Stream>
 [[nodiscard]] RgbT<T> sample_all_lights(const S& scene, const VertexT<T>& vertex,
-                                        const M& material, int rays,
-                                        RandomStream& stream, Counts& counts) {
+                                        const M& material, int rays, Stream& stream,
+                                        Counts& counts) {
     const detail::Strata strata = detail::strata_for(rays);
     const auto unweighted = [](const LightSampleT<T>&, const Vec3T<T>&) {
         return T(1);
     };
-    const std::uint64_t key = mix_bits(stream.key + stream.counter);
     RgbT<T> sum{T(0)};
-    for (const LightT<T>& light : scene.lights)
-        for (int i = 0; i < rays; ++i) {
-            Vec2T<T> u = next_2d<T>(stream);
-            if (rays > 1) u = detail::stratified(strata, i, key, u);
-            sum += direct_light(scene, light, vertex, material, u, unweighted, counts);
-        }
+    for (const LightT<T>& light : scene.lights) {
+        const Vec2T<T> u = next_2d<T>(stream);
+        const std::uint64_t key = stream.key + std::uint64_t(u.x * 0x1p24f);
+        for (int i = 0; i < rays; ++i)
+            sum += direct_light(scene, light, vertex, material,
+                                rays > 1 ? detail::stratified(strata, i, key, u) : u,
+                                unweighted, counts);
+    }
     return sum / T(rays);
 }
 

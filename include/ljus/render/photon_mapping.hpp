@@ -8,8 +8,7 @@
 #include "ljus/path/path_log.hpp"
 #include "ljus/path/renderer.hpp"
 #include "ljus/photons/density_estimate.hpp"
-#include "ljus/photons/tracing.hpp"
-#include "ljus/render/survey.hpp"
+#include "ljus/render/photon_maps.hpp"
 #include "ljus/scene/index.hpp"
 
 namespace ljus {
@@ -27,64 +26,28 @@ namespace ljus {
 /// | E ... D ... D.. | indirect rays, or the general map where the first one ends  |
 /// \{
 
-/// What the first pass made. Plain data: it may be made in any other way.
-template <std::floating_point T>
-struct PhotonMapsT {
-    PhotonMapT<T> caustics; ///< L S+ D; empty if the scene has no mirror and no glass.
-    PhotonMapT<T> general; ///< L D, L ... D ... D, and shadows; empty unless asked for.
-    FluxAudit caustics_audit; ///< Where the flux of the caustics pass went.
-    FluxAudit general_audit;  ///< Where the flux of the general pass went.
-    bool complete = true;     ///< False if the progress callback stopped the pass.
-    std::string remarks{};    ///< Why a pass gave up, if one did: lines.
-};
-
-/// Runs the first pass: the maps that the plan asks for, and no others.
-/// \param scene     The scene.
-/// \param settings  Photons, seed, threads.
-/// \return The maps, the same for any number of threads.
-/// \throws std::invalid_argument  if there is no light, or a setting is out of range.
-template <SceneLike S>
-[[nodiscard]] PhotonMapsT<typename S::Scalar>
-make_photon_maps(const S& scene, const PhotonMappingSettings& settings = {}) {
-    check(settings);
-    const detail::Passes run = detail::choose_passes(needs(scene), settings);
-    PhotonPassSettings general = settings.general;
-    general.shadow_photons = run.shadow_photons;
-    PhotonMapsT<typename S::Scalar> maps;
-    const auto make = [&](MapType type, const PhotonPassSettings& pass, auto& map,
-                          auto& audit) {
-        const auto traced = trace_photons(scene, type, pass);
-        map = make_photon_map(traced.photons);
-        audit = traced.audit;
-        maps.complete = maps.complete && traced.complete;
-        if (!traced.remark.empty()) maps.remarks.append(traced.remark).append("\n");
-    };
-    if (run.caustics_map)
-        make(MapType::caustics, settings.caustics, maps.caustics, maps.caustics_audit);
-    if (run.general_map)
-        make(MapType::general, general, maps.general, maps.general_audit);
-    return maps;
-}
-
 /// A scene with its photon maps. It refers to both, which must outlive it.
-template <SceneLike S>
+/// \tparam Draws  What its numbers are drawn from: RandomStream, or StratifiedStream for
+///                rays that share out the lamps and the directions among themselves.
+template <SceneLike S, typename Draws = RandomStream>
 struct PhotonMapper {
-    using Stream = RandomStream; ///< What render() gives it to draw from.
-    detail::IndexedT<S> scene;   ///< What is rendered.
+    using Stream = Draws;      ///< What render() gives it to draw from.
+    detail::IndexedT<S> scene; ///< What is rendered.
     const PhotonMapsT<typename S::Scalar>& maps; ///< Of the first pass.
     PhotonMappingSettings settings;              ///< How.
     bool indirect_rays; ///< Whether the plan has rays between diffuse surfaces.
 };
 
 /// Makes a photon mapper.
+/// \tparam Draws    RandomStream or StratifiedStream.
 /// \param scene     Must outlive the mapper; a scene, which it indexes, or an
 ///                  IndexedScene.
 /// \param maps      Of make_photon_maps(); must outlive the mapper.
 /// \param settings  Depths, radii, who carries indirect light.
 /// \return The mapper.
 /// \throws std::invalid_argument  if a setting is out of range.
-template <SceneLike S>
-[[nodiscard]] PhotonMapper<S>
+template <typename Draws = RandomStream, SceneLike S>
+[[nodiscard]] PhotonMapper<S, Draws>
 make_photon_mapper(const S& scene, const PhotonMapsT<typename S::Scalar>& maps,
                    const PhotonMappingSettings& settings = {}) {
     check(settings);
@@ -92,15 +55,15 @@ make_photon_mapper(const S& scene, const PhotonMapsT<typename S::Scalar>& maps,
             detail::choose_passes(needs(scene), settings).indirect_rays};
 }
 /// Not of a temporary: the scene would be gone before it is rendered.
-template <SceneLike S>
-PhotonMapper<S> make_photon_mapper(const S&& scene,
-                                   const PhotonMapsT<typename S::Scalar>& maps,
-                                   const PhotonMappingSettings& = {}) = delete;
+template <typename Draws = RandomStream, SceneLike S>
+PhotonMapper<S, Draws> make_photon_mapper(const S&& scene,
+                                          const PhotonMapsT<typename S::Scalar>& maps,
+                                          const PhotonMappingSettings& = {}) = delete;
 /// Nor of temporary maps.
-template <SceneLike S>
-PhotonMapper<S> make_photon_mapper(const S& scene,
-                                   const PhotonMapsT<typename S::Scalar>&& maps,
-                                   const PhotonMappingSettings& = {}) = delete;
+template <typename Draws = RandomStream, SceneLike S>
+PhotonMapper<S, Draws> make_photon_mapper(const S& scene,
+                                          const PhotonMapsT<typename S::Scalar>&& maps,
+                                          const PhotonMappingSettings& = {}) = delete;
 
 /// The light that a diffuse surface sends back along a camera path, but for what comes
 /// by its indirect ray: shadow rays and the caustics map; or, where an indirect ray has
@@ -114,9 +77,9 @@ PhotonMapper<S> make_photon_mapper(const S& scene,
 /// \param add       Called as add(owner, letters, radiance) with each term.
 /// \report{Sections 3.2.3 and 3.2.6}
 // [light_at]
-template <SceneLike S, std::floating_point T, Material M, typename Add>
-void light_at(const PhotonMapper<S>& mapper, const VertexT<T>& vertex,
-              const M& material, bool gather, RandomStream& stream, Counts& counts,
+template <SceneLike S, std::floating_point T, Material M, typename Stream, typename Add>
+void light_at(const PhotonMapper<S, Stream>& mapper, const VertexT<T>& vertex,
+              const M& material, bool gather, Stream& stream, Counts& counts,
               Add& add) {
     const PhotonMappingSettings& settings = mapper.settings;
     const auto ask = [&](const PhotonMapT<T>& map, const DensityEstimateSettings& how,
@@ -174,9 +137,10 @@ inline constexpr int split_survival = 16;
 /// \erratum{In the report's program an indirect ray that met a lamp added it again,
 ///          though the shadow ray had counted it.}
 // [radiance]
-template <SceneLike S, std::floating_point T, typename Log = NoLog>
-[[nodiscard]] RgbT<T> radiance(const PhotonMapper<S>& mapper, const RayT<T>& ray,
-                               RandomStream& stream, Counts& counts, Log&& log = {}) {
+template <SceneLike S, typename Stream, std::floating_point T, typename Log = NoLog>
+[[nodiscard]] RgbT<T> radiance(const PhotonMapper<S, Stream>& mapper,
+                               const RayT<T>& ray, Stream& stream, Counts& counts,
+                               Log&& log = {}) {
     const PhotonMappingSettings& settings = mapper.settings;
     RgbT<T> sum{T(0)};
     std::vector<PathStateT<T>> branches; // split off; following one may add more
