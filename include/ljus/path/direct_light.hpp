@@ -54,7 +54,7 @@ namespace detail {
 /// \param scene     The scene.
 /// \param vertex    The surface.
 /// \param material  What it is made of.
-/// \param rays      Shadow rays to each light, at least 1: it is cut into as many cells.
+/// \param rays      Shadow rays to each light, at least 1: it has as many cells.
 /// \param stream    Two numbers per light: the place in the cells, the same in all. The
 ///                  rays of a pixel share out a cell as they would share out the light.
 /// \param counts    Counts the rays.

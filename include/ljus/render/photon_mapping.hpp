@@ -27,8 +27,8 @@ namespace ljus {
 /// \{
 
 /// A scene with its photon maps. It refers to both, which must outlive it.
-/// \tparam Draws  What its numbers are drawn from: RandomStream; or StratifiedStream, by
-///                which the rays of a pixel share out lamps and directions.
+/// \tparam Draws  What its numbers are drawn from: RandomStream, or StratifiedStream:
+///                the rays of a pixel share out lamps and directions.
 template <SceneLike S, typename Draws = RandomStream>
 struct PhotonMapper {
     using Stream = Draws;      ///< What render() gives it to draw from.
