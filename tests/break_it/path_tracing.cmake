@@ -46,7 +46,7 @@ ljus_break_it(NAME path-tracing-shadow-rays-alone HEADER render/path_tracing.hpp
     CASES "multiple importance: all ways*")
 
 # Squares on one side only.
-ljus_break_it(NAME path-tracing-power HEADER render/path_tracing.hpp
+ljus_break_it(NAME path-tracing-power HEADER path/direct_light.hpp
     TEST path_strategies
     FROM "(pdf > other ? T(1) : q * q) / (T(1) + q * q)"
     TO   "(pdf > other ? T(1) : q) / (T(1) + q * q)"

@@ -23,7 +23,7 @@ ljus_break_it(NAME exchange-area-far HEADER radiosity/exchange_area.hpp TEST for
     CASES "exchange_area: sizes*")
 
 # What lies below the horizon counts against what lies above.
-ljus_break_it(NAME form-factor-horizon HEADER radiosity/form_factor.hpp TEST form_factor
+ljus_break_it(NAME form-factor-horizon HEADER math/facet.hpp TEST form_factor
     FROM "const Facet seen = detail::clipped(facet, point, normal);"
     TO   "const Facet seen = facet;"
     CASES "form_factor: from a point*")

@@ -14,7 +14,7 @@ ljus_break_it(NAME tracing-stored HEADER photons/tracing.hpp TEST tracing
 
 # What the glass has focused is kept by both maps.
 ljus_break_it(NAME tracing-owner HEADER photons/photon_path.hpp TEST tracing
-    FROM "const bool owned = (kind == PhotonKind::caustic) == caustics;"
+    FROM "const bool owned = (kind == PhotonKind::caustic) == caustics && keep.has(kind);"
     TO   "const bool owned = true;"
     CASES "tracing: the kinds*")
 

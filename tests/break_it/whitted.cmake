@@ -30,6 +30,6 @@ ljus_break_it(NAME whitted-share HEADER render/whitted.hpp TEST whitted
 
 # Shadow rays see through everything.
 ljus_break_it(NAME whitted-shadow HEADER path/direct_light.hpp TEST whitted
-    FROM "if (is_black(visible)) return RgbT<T>{T(0)};"
-    TO   "if (!is_black(visible) || is_black(visible)) return std::abs(wi.z) * f * sampled->weight;"
+    FROM "if (is_black(visible)) return share;"
+    TO   "if (!is_black(visible) || is_black(visible)) return {share.sent, share.sent};"
     CASES "whitted: a mirror over*")

@@ -3,7 +3,10 @@
 /// \file ljus/geometry/solid_angle.hpp
 /// \brief Points of a shape, chosen for an observer: densities per steradian.
 
+#include <optional>
+
 #include "ljus/geometry/shape.hpp"
+#include "ljus/math/facet.hpp"
 #include "ljus/math/frame.hpp"
 
 namespace ljus {
@@ -162,6 +165,55 @@ template <Shape Lamp>
 template <std::floating_point T>
 [[nodiscard]] constexpr Vec2T<T> center_sample(const SphereT<T>&) noexcept {
     return Vec2T<T>{T(0)};
+}
+/// \}
+
+/// \name The facet of a flat shape
+/// \{
+
+/// The facet of a flat shape; it faces along the shape's normal.
+template <std::floating_point T>
+[[nodiscard]] Facet facet_of(const QuadT<T>& quad) noexcept {
+    const glm::dvec3 c(quad.corner), u(quad.edge_u), v(quad.edge_v);
+    return {{c, c + u, c + u + v, c + v}, 4};
+}
+template <std::floating_point T>
+[[nodiscard]] Facet facet_of(const TriangleT<T>& triangle) noexcept {
+    return {{glm::dvec3(triangle.v1), glm::dvec3(triangle.v2), glm::dvec3(triangle.v3)},
+            3};
+}
+/// \}
+
+/// \name How much of the hemisphere over a point a lamp fills, its cosine counted
+/// \{
+
+/// The form factor from a point to a flat lamp, in closed form.
+/// \param from        The point.
+/// \param normal      Unit, of the surface at the point.
+/// \param lamp        It counts from the side that its normal points to.
+/// \param inside_out  From the other side.
+/// \return In [0, 1]: the irradiance over pi times the lamp's radiance.
+template <typename Flat, std::floating_point T>
+[[nodiscard]] auto form_factor_from(const Vec3T<T>& from, const Vec3T<T>& normal,
+                                    const Flat& lamp, bool inside_out) noexcept
+    -> decltype(facet_of(lamp), std::optional<T>{}) {
+    const Facet facet = facet_of(lamp);
+    return static_cast<T>(form_factor_at(glm::dvec3(from), glm::dvec3(normal),
+                                         inside_out ? detail::turned(facet) : facet));
+}
+/// The same of a sphere.
+/// \return Nothing if the horizon cuts the sphere, or the point is in it.
+template <std::floating_point T>
+[[nodiscard]] std::optional<T>
+form_factor_from(const Vec3T<T>& from, const Vec3T<T>& normal, const SphereT<T>& lamp,
+                 bool inside_out) noexcept {
+    const Vec3T<T> way = lamp.center - from;
+    const T distance = glm::length(way), height = glm::dot(way, normal);
+    if (inside_out || !(distance > lamp.radius)) return std::nullopt;
+    if (height <= -lamp.radius) return T(0);
+    if (height < lamp.radius) return std::nullopt;
+    const T sine = lamp.radius / distance;
+    return sine * sine * (height / distance);
 }
 /// \}
 

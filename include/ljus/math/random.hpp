@@ -20,6 +20,8 @@ enum class Pass : std::uint32_t {
     general_photons,  ///< Photons of the general map.
     caustics_photons, ///< Photons of the caustics map.
     form_factors,     ///< Rays between the patches of radiosity.
+    irradiance,       ///< Irradiance that is precomputed at photons.
+    gathering,        ///< Final gathering for the irradiance cache.
     user = 1000       ///< The first number that is free for the reader's own passes.
 };
 

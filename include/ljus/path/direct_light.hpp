@@ -3,7 +3,6 @@
 /// \file ljus/path/direct_light.hpp
 /// \brief Light that comes straight from a light: shadow rays.
 
-#include "ljus/math/sampling_pattern.hpp"
 #include "ljus/path/counts.hpp"
 #include "ljus/path/next_vertex.hpp"
 #include "ljus/path/vertex.hpp"
@@ -13,6 +12,65 @@ namespace ljus {
 /// \defgroup direct_light Direct light
 /// \brief Section 3.2.3: a shadow ray toward each light source.
 /// \{
+
+namespace detail {
+
+/// The balance heuristic: the share of one of two strategies that could have made the
+/// same sample \cite veach1997.
+/// \param pdf    Of the strategy that did.
+/// \param other  Of the one that could have.
+/// \return In [0, 1].
+// [heuristics]
+template <std::floating_point T>
+[[nodiscard]] constexpr T balance_heuristic(T pdf, T other) noexcept {
+    // Not pdf / (pdf + other), which is NaN for two infinities.
+    return pdf > other ? T(1) / (T(1) + other / pdf)
+                       : pdf / other / (T(1) + pdf / other);
+}
+
+/// The power heuristic: the same by the squares of the densities, so that the surer of
+/// the two is believed even more \cite veach1995.
+/// \param pdf    Of the strategy that did.
+/// \param other  Of the one that could have.
+/// \return In [0, 1].
+template <std::floating_point T>
+[[nodiscard]] constexpr T power_heuristic(T pdf, T other) noexcept {
+    // Squares of quotients, for the squares of densities overflow.
+    const T q = pdf > other ? other / pdf : pdf / other;
+    return (pdf > other ? T(1) : q * q) / (T(1) + q * q);
+}
+// [heuristics]
+
+/// The light of one point of a light: as it is sent, and what of it arrives.
+template <std::floating_point T>
+struct LightShareT {
+    RgbT<T> sent{T(0)};    ///< If nothing lay between.
+    RgbT<T> arrived{T(0)}; ///< Less what the medium and all objects between take.
+};
+
+/// What direct_light() returns, and what it would return if nothing lay between.
+template <SceneLike S, std::floating_point T, Material M, typename Weigh>
+[[nodiscard]] LightShareT<T>
+light_share(const S& scene, const LightT<T>& light, const VertexT<T>& vertex,
+            const M& material, const Vec2T<T>& u, Weigh weigh, Counts& counts) {
+    const SurfacePointT<T>& point = vertex.point;
+    const auto sampled = sample_light(scene, light, point.position, u, vertex.time);
+    if (!sampled) return {};
+    const Vec3T<T> wi = to_local(vertex.frame, sampled->wi);
+    const RgbT<T> f = evaluate(material, vertex.wo, wi);
+    if (is_black(f) || !detail::agrees(vertex, wi, sampled->wi)) return {};
+
+    LightShareT<T> share;
+    share.sent = std::abs(wi.z) * weigh(*sampled, wi) * f * sampled->weight;
+    ++counts.shadow_rays;
+    const RgbT<T> visible = visibility(scene, point, sampled->point, vertex.time);
+    if (is_black(visible)) return share;
+    const T distance = glm::distance(point.position, sampled->point.position);
+    share.arrived = share.sent * transmittance(vertex.medium, distance) * visible;
+    return share;
+}
+
+} // namespace detail
 
 /// The light of one light at a surface, by one shadow ray to one point of it:
 /// \f$ f\,|\cos|\,L_e\,V / p \f$.
@@ -33,54 +91,9 @@ template <SceneLike S, std::floating_point T, Material M, typename Weigh>
 [[nodiscard]] RgbT<T> direct_light(const S& scene, const LightT<T>& light,
                                    const VertexT<T>& vertex, const M& material,
                                    const Vec2T<T>& u, Weigh weigh, Counts& counts) {
-    const SurfacePointT<T>& point = vertex.point;
-    const auto sampled = sample_light(scene, light, point.position, u, vertex.time);
-    if (!sampled) return RgbT<T>{T(0)};
-    const Vec3T<T> wi = to_local(vertex.frame, sampled->wi);
-    const RgbT<T> f = evaluate(material, vertex.wo, wi);
-    if (is_black(f) || !detail::agrees(vertex, wi, sampled->wi)) return RgbT<T>{T(0)};
-
-    ++counts.shadow_rays;
-    const RgbT<T> visible = visibility(scene, point, sampled->point, vertex.time);
-    if (is_black(visible)) return RgbT<T>{T(0)};
-    const T distance = glm::distance(point.position, sampled->point.position);
-    return std::abs(wi.z) * weigh(*sampled, wi) * f * sampled->weight *
-           transmittance(vertex.medium, distance) * visible;
+    return detail::light_share(scene, light, vertex, material, u, weigh, counts)
+        .arrived;
 }
-
-namespace detail {
-
-/// The light of all lights at a surface, by shadow rays to each.
-/// \param scene     The scene.
-/// \param vertex    The surface.
-/// \param material  What it is made of.
-/// \param rays      Shadow rays to each light, at least 1: it has as many cells.
-/// \param stream    Two numbers per light: the place in the cells, the same in all. The
-///                  rays of a pixel share out a cell as they would share out the light.
-/// \param counts    Counts the rays.
-/// \return Radiance towards wo.
-/// \report{Section 3.2.3}
-template <SceneLike S, std::floating_point T, Material M, typename Stream>
-[[nodiscard]] RgbT<T> sample_all_lights(const S& scene, const VertexT<T>& vertex,
-                                        const M& material, int rays, Stream& stream,
-                                        Counts& counts) {
-    const detail::Strata strata = detail::strata_for(rays);
-    const auto unweighted = [](const LightSampleT<T>&, const Vec3T<T>&) {
-        return T(1);
-    };
-    RgbT<T> sum{T(0)};
-    for (const LightT<T>& light : scene.lights) {
-        const Vec2T<T> u = next_2d<T>(stream);
-        const std::uint64_t key = stream.key + std::uint64_t(u.x * 0x1p24f);
-        for (int i = 0; i < rays; ++i)
-            sum += direct_light(scene, light, vertex, material,
-                                rays > 1 ? detail::stratified(strata, i, key, u) : u,
-                                unweighted, counts);
-    }
-    return sum / T(rays);
-}
-
-} // namespace detail
 
 /// \}
 

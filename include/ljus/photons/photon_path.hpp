@@ -104,14 +104,15 @@ template <std::floating_point T>
 /// \param material  What the surface is made of.
 /// \param light     The number of its light.
 /// \param map       For which map.
+/// \param keep      Which kinds are kept.
 /// \param out       Takes it.
 template <std::floating_point T, Material M>
 void store_photon(const PathStateT<T>& path, const VertexT<T>& vertex,
                   const M& material, std::uint16_t light, MapType map,
-                  std::vector<PhotonT<T>>& out) {
+                  PhotonKinds keep, std::vector<PhotonT<T>>& out) {
     const PhotonKind kind = kind_of(path);
     const bool caustics = map == MapType::caustics;
-    const bool owned = (kind == PhotonKind::caustic) == caustics;
+    const bool owned = (kind == PhotonKind::caustic) == caustics && keep.has(kind);
     if (!owned || !has(lobes(material), Lobes::non_specular)) return;
     const T landing = detail::landing_factor(vertex, path.ray.direction);
     if (!(landing > T(0))) return;
@@ -185,7 +186,8 @@ void trace_photon(const S& scene, MapType map, const EmittedPhotonT<T>& photon,
 
         const auto at_material = [&]<typename M>(const M& material) {
             if constexpr (!OnlySpecular<M>)
-                store_photon(path, *vertex, material, photon.light, map, out);
+                store_photon(path, *vertex, material, photon.light, map, pass.keep,
+                             out);
             return scatter_photon(path, *vertex, material, map, stream, audit);
         };
         if (!visit_material_at(scene, *vertex, at_material)) return;

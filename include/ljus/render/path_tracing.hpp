@@ -67,32 +67,6 @@ PathTracer<S> make_path_tracer(const S&& scene,
 
 namespace detail {
 
-/// The balance heuristic: the share of one of two strategies that could have made the
-/// same sample \cite veach1997.
-/// \param pdf    Of the strategy that did.
-/// \param other  Of the one that could have.
-/// \return In [0, 1].
-// [heuristics]
-template <std::floating_point T>
-[[nodiscard]] constexpr T balance_heuristic(T pdf, T other) noexcept {
-    // Not pdf / (pdf + other), which is NaN for two infinities.
-    return pdf > other ? T(1) / (T(1) + other / pdf)
-                       : pdf / other / (T(1) + pdf / other);
-}
-
-/// The power heuristic: the same by the squares of the densities, so that the surer of
-/// the two is believed even more \cite veach1995.
-/// \param pdf    Of the strategy that did.
-/// \param other  Of the one that could have.
-/// \return In [0, 1].
-template <std::floating_point T>
-[[nodiscard]] constexpr T power_heuristic(T pdf, T other) noexcept {
-    // Squares of quotients, for the squares of densities overflow.
-    const T q = pdf > other ? other / pdf : pdf / other;
-    return (pdf > other ? T(1) : q * q) / (T(1) + q * q);
-}
-// [heuristics]
-
 /// The weight of one of two strategies, as the settings have it.
 /// \param heuristic  balance or power.
 /// \param pdf        Of the strategy that made the sample.

@@ -3,8 +3,8 @@
 /// \file ljus/render/photon_mapping.hpp
 /// \brief The report's renderer: rays from the camera, and two photon maps.
 
+#include "ljus/path/all_lights.hpp"
 #include "ljus/path/continue_path.hpp"
-#include "ljus/path/direct_light.hpp"
 #include "ljus/path/path_log.hpp"
 #include "ljus/path/renderer.hpp"
 #include "ljus/photons/density_estimate.hpp"
@@ -35,7 +35,7 @@ struct PhotonMapper {
     detail::IndexedT<S> scene; ///< What is rendered.
     const PhotonMapsT<typename S::Scalar>& maps; ///< Of the first pass.
     PhotonMappingSettings settings;              ///< How.
-    bool indirect_rays; ///< Whether the plan has rays between diffuse surfaces.
+    Lobes bounces; ///< By which lobes a path goes on until its light is gathered.
 };
 
 /// Makes a photon mapper.
@@ -51,8 +51,12 @@ template <typename Draws = RandomStream, SceneLike S>
 make_photon_mapper(const S& scene, const PhotonMapsT<typename S::Scalar>& maps,
                    const PhotonMappingSettings& settings = {}) {
     check(settings);
+    const bool rays = detail::choose_passes(needs(scene), settings).indirect_rays;
+    const bool gloss = settings.indirect == IndirectLight::cache;
     return {detail::IndexedT<S>(scene), maps, settings,
-            detail::choose_passes(needs(scene), settings).indirect_rays};
+            rays    ? Lobes::all
+            : gloss ? Lobes::glossy | Lobes::specular
+                    : Lobes::specular};
 }
 /// Not of a temporary: the scene would be gone before it is rendered.
 template <typename Draws = RandomStream, SceneLike S>
@@ -64,6 +68,35 @@ template <typename Draws = RandomStream, SceneLike S>
 PhotonMapper<S, Draws> make_photon_mapper(const S& scene,
                                           const PhotonMapsT<typename S::Scalar>&& maps,
                                           const PhotonMappingSettings& = {}) = delete;
+
+namespace detail {
+
+/// The indirect light of a surface by the irradiance cache; where no point of the cache
+/// is near enough, by gathering here and now.
+/// \param mapper    The scene, the maps, the settings.
+/// \param vertex    The surface.
+/// \param material  What it is made of; only its diffuse part counts.
+/// \param stream    The numbers of the path.
+/// \param counts    Counts rays and queries.
+/// \return W/(m^2 sr).
+template <SceneLike S, std::floating_point T, Material M, typename Stream>
+[[nodiscard]] RgbT<T> cached_light(const PhotonMapper<S, Stream>& mapper,
+                                   const VertexT<T>& vertex, const M& material,
+                                   Stream& stream, Counts& counts) {
+    const GatherSettings& gather = mapper.settings.gather;
+    ++counts.map_queries;
+    const auto known = interpolate(mapper.maps.cache, vertex.point.position,
+                                   seen_normal(vertex), T(gather.reach));
+    const RgbT<T> irradiance =
+        known ? *known
+              : gather_irradiance(mapper.scene, mapper.maps.irradiance,
+                                  T(mapper.settings.irradiance.radius), vertex, gather,
+                                  stream, counts)
+                    .irradiance;
+    return reflected(material, vertex.wo, irradiance, Lobes::diffuse, stream);
+}
+
+} // namespace detail
 
 /// The light that a diffuse surface sends back along a camera path, but for what comes
 /// by its indirect ray: shadow rays and the caustics map; or, where an indirect ray has
@@ -88,17 +121,31 @@ void light_at(const PhotonMapper<S, Stream>& mapper, const VertexT<T>& vertex,
         return estimate_radiance(map, vertex, material, vertex.wo, how, kinds,
                                  counts.map_photons);
     };
+    if (gather && settings.indirect != IndirectLight::map) {
+        ++counts.map_queries;
+        const RgbT<T> irradiance =
+            irradiance_at(mapper.maps.irradiance, vertex.point.position,
+                          detail::seen_normal(vertex), T(settings.irradiance.radius));
+        add("irradiance points", "DL|D..DL|DS+L",
+            detail::reflected(material, vertex.wo, irradiance, Lobes::non_specular,
+                              stream));
+        return;
+    }
     if (gather)
         add("general map", "DL|D..DL",
             ask(mapper.maps.general, settings.general_estimate, light_kinds));
     else
         add("shadow ray", "DL",
-            detail::sample_all_lights(mapper.scene, vertex, material,
+            detail::sample_all_lights(mapper.scene, vertex, material, settings.direct,
                                       settings.shadow_rays, stream, counts));
     if (settings.indirect == IndirectLight::photons)
         add("general map", "D..DL",
             ask(mapper.maps.general, settings.general_estimate,
                 one_kind(PhotonKind::indirect)));
+    if (settings.indirect == IndirectLight::cache &&
+        has(lobes(material), Lobes::diffuse))
+        add("irradiance cache", "D..DL",
+            detail::cached_light(mapper, vertex, material, stream, counts));
     if (!mapper.maps.caustics.empty())
         add("caustics map", "DS+L",
             ask(mapper.maps.caustics, settings.caustics_estimate, light_kinds));
@@ -156,8 +203,7 @@ template <SceneLike S, typename Stream, std::floating_point T, typename Log = No
             if (vertex->emits() && !path.met_diffuse)
                 add("emission", "L", vertex->object.emission);
 
-            const bool gather =
-                path.met_diffuse && settings.indirect == IndirectLight::map;
+            const bool gather = path.met_diffuse && detail::gathers(settings.indirect);
             const auto at_material = [&]<typename M>(const M& material) {
                 if constexpr (!OnlySpecular<M>)
                     if (has(lobes(material), Lobes::non_specular))
@@ -171,9 +217,9 @@ template <SceneLike S, typename Stream, std::floating_point T, typename Log = No
                         return true;
                     }
                 // Go on by one branch; after gathering, by mirrors and glass only.
-                const bool by_rays = !gather && mapper.indirect_rays;
+                const Lobes which = gather ? Lobes::specular : mapper.bounces;
                 return continue_path(path, *vertex, material, Transport::radiance,
-                                     by_rays ? Lobes::all : Lobes::specular, stream);
+                                     which, stream);
             };
             if (!visit_material_at(mapper.scene, *vertex, at_material)) return;
             detail::log_vertex(log, path);

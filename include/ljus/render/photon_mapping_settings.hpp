@@ -4,6 +4,7 @@
 /// \brief The settings of the report's renderer.
 
 #include "ljus/photons/density_estimate.hpp"
+#include "ljus/photons/irradiance_points.hpp"
 #include "ljus/photons/photon_pass.hpp"
 
 namespace ljus {
@@ -17,21 +18,51 @@ enum class IndirectLight : std::uint8_t {
     map,     ///< One indirect ray, and the general map where it ends.
     photons, ///< The general map's indirect photons where the camera looks: no indirect
              ///< ray and little noise, but their light is blurred by the radius.
+    gather,  ///< One gather ray, and precomputed irradiance where it ends.
+    cache,   ///< Many gather rays at few points, interpolated between them.
     none     ///< Nowhere: direct light and caustics only.
+};
+
+namespace detail {
+
+/// Whether paths end at the first diffuse surface behind another: what they gather
+/// there stands for all further bounces.
+/// \param indirect  Who carries indirect light.
+[[nodiscard]] constexpr bool gathers(IndirectLight indirect) noexcept {
+    return indirect == IndirectLight::map || indirect == IndirectLight::gather ||
+           indirect == IndirectLight::cache;
+}
+
+} // namespace detail
+
+/// The most points that an interpolation of the irradiance cache takes.
+inline constexpr std::size_t max_cache_nearest = 64;
+
+/// How irradiance is gathered and interpolated.
+struct GatherSettings {
+    int rays = 25;           ///< Gather rays per point, at least 1.
+    int tile = 3;            ///< A point for each square of so many pixels on a side.
+    std::size_t nearest = 6; ///< Points that an interpolation takes, 2 to 64.
+    float reach = 1;         ///< How far a point counts, over the harmonic mean of the
+                             ///< distances of what it sees.
+    int max_depth = 100;     ///< Surfaces on a gather ray.
 };
 
 /// How the report's renderer works. Lengths are in scene units.
 struct PhotonMappingSettings {
-    int max_depth = 1000;     ///< Surfaces on a camera path, mirrors and glass counted.
-    int roulette_depth = 4;   ///< From this surface on, roulette may end a path.
-    int shadow_rays = 1;      ///< Shadow rays to each light, at least 1.
+    int max_depth = 1000;   ///< Surfaces on a camera path, mirrors and glass counted.
+    int roulette_depth = 4; ///< From this surface on, roulette may end a path.
+    int shadow_rays = 1;    ///< Shadow rays to each light, at least 1.
+    DirectLight direct = DirectLight::sampled; ///< How direct light is found.
     bool split_glass = false; ///< At glass before anything matt, go both ways.
     IndirectLight indirect = IndirectLight::rays; ///< Who carries indirect light.
     PhotonPassSettings caustics{}; ///< Photons aimed at mirrors and glass.
     PhotonPassSettings general{};  ///< Photons for all the rest.
     DensityEstimateSettings caustics_estimate{}; ///< How caustics are estimated.
     DensityEstimateSettings general_estimate{
-        .radius = 0.3f}; ///< How the general map is asked.
+        .radius = 0.3f};                  ///< How the general map is asked.
+    IrradiancePointSettings irradiance{}; ///< What gather rays look up.
+    GatherSettings gather{};              ///< How the irradiance cache is made.
     bool keep_general_map =
         false; ///< Make the general map, even if no ray will ask it.
 };
@@ -48,6 +79,26 @@ inline void check(const PhotonMappingSettings& settings) {
             settings.caustics.photons, "at least 0");
     require(settings.general.photons >= 0, "general.photons", settings.general.photons,
             "at least 0");
+    require(settings.irradiance.every >= 1, "irradiance.every",
+            static_cast<long long>(settings.irradiance.every), "at least 1");
+    require(settings.irradiance.nearest >= 2 &&
+                settings.irradiance.nearest <= max_nearest,
+            "irradiance.nearest", static_cast<long long>(settings.irradiance.nearest),
+            "within [2, 512] (one photon sets the radius)");
+    require_positive("irradiance.radius", settings.irradiance.radius);
+    require(settings.irradiance.shadow_rays >= 1, "irradiance.shadow_rays",
+            static_cast<long long>(settings.irradiance.shadow_rays), "at least 1");
+    require(settings.gather.rays >= 1, "gather.rays",
+            static_cast<long long>(settings.gather.rays), "at least 1");
+    require(settings.gather.tile >= 1, "gather.tile",
+            static_cast<long long>(settings.gather.tile), "at least 1");
+    require(settings.gather.nearest >= 2 &&
+                settings.gather.nearest <= max_cache_nearest,
+            "gather.nearest", static_cast<long long>(settings.gather.nearest),
+            "within [2, 64]");
+    require_positive("gather.reach", settings.gather.reach);
+    require(settings.gather.max_depth >= 2, "gather.max_depth",
+            static_cast<long long>(settings.gather.max_depth), "at least 2");
     check(settings.caustics_estimate);
     check(settings.general_estimate);
 }

@@ -4,6 +4,7 @@
 /// \brief The first pass of the report's renderer: its photon maps.
 
 #include "ljus/photons/tracing.hpp"
+#include "ljus/render/irradiance_cache.hpp"
 #include "ljus/render/survey.hpp"
 
 namespace ljus {
@@ -16,10 +17,12 @@ template <std::floating_point T>
 struct PhotonMapsT {
     PhotonMapT<T> caustics; ///< L S+ D; empty if the scene has no mirror and no glass.
     PhotonMapT<T> general; ///< L D, L ... D ... D, and shadows; empty unless asked for.
-    FluxAudit caustics_audit; ///< Where the flux of the caustics pass went.
-    FluxAudit general_audit;  ///< Where the flux of the general pass went.
-    bool complete = true;     ///< False if the progress callback stopped the pass.
-    std::string remarks{};    ///< Why a pass gave up, if one did: lines.
+    IrradiancePointsT<T> irradiance{}; ///< Looked up by gather rays, if any are sent.
+    IrradianceCacheT<T> cache{};       ///< Of add_irradiance_cache(); else empty.
+    FluxAudit caustics_audit;          ///< Where the flux of the caustics pass went.
+    FluxAudit general_audit;           ///< Where the flux of the general pass went.
+    bool complete = true;  ///< False if the progress callback stopped the pass.
+    std::string remarks{}; ///< Why a pass gave up, if one did: lines.
 };
 
 /// Runs the first pass: the maps that the plan asks for, and no others.
@@ -34,6 +37,11 @@ make_photon_maps(const S& scene, const PhotonMappingSettings& settings = {}) {
     const detail::Passes run = detail::choose_passes(needs(scene), settings);
     PhotonPassSettings general = settings.general;
     general.shadow_photons = run.shadow_photons;
+    const bool only_indirect = settings.indirect == IndirectLight::photons ||
+                               settings.indirect == IndirectLight::gather ||
+                               settings.indirect == IndirectLight::cache;
+    if (only_indirect && !settings.keep_general_map)
+        general.keep = one_kind(PhotonKind::indirect);
     PhotonMapsT<typename S::Scalar> maps;
     const auto make = [&](MapType type, const PhotonPassSettings& pass, auto& map,
                           auto& audit) {
@@ -47,7 +55,31 @@ make_photon_maps(const S& scene, const PhotonMappingSettings& settings = {}) {
         make(MapType::caustics, settings.caustics, maps.caustics, maps.caustics_audit);
     if (run.general_map)
         make(MapType::general, general, maps.general, maps.general_audit);
+    if (run.irradiance && maps.complete)
+        maps.irradiance = make_irradiance_points(
+            detail::IndexedT<S>(scene), maps.general, maps.caustics,
+            settings.irradiance, settings.general.seed, settings.general.threads);
     return maps;
+}
+
+/// Gathers indirect light for one picture, if the settings ask for an irradiance cache.
+/// Without it, the renderer gathers at every vertex, which is slow and right.
+/// \param maps      Of make_photon_maps(); gets the cache.
+/// \param scene     Of the maps.
+/// \param camera    A CameraT, or anything with a camera_ray().
+/// \param picture   Size, seed, threads.
+/// \param settings  As for the maps.
+template <SceneLike S, template <std::floating_point> typename AnyCamera>
+void add_irradiance_cache(PhotonMapsT<typename S::Scalar>& maps, const S& scene,
+                          const AnyCamera<typename S::Scalar>& camera,
+                          const RenderSettings& picture,
+                          const PhotonMappingSettings& settings) {
+    using T = typename S::Scalar;
+    check(settings);
+    if (detail::choose_passes(needs(scene), settings).cache)
+        maps.cache =
+            make_irradiance_cache(scene, maps.irradiance, T(settings.irradiance.radius),
+                                  camera, picture, settings.gather);
 }
 
 /// \}

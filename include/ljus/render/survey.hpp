@@ -31,6 +31,8 @@ struct Plan {
     PlanItem caustics_map;   ///< Photons through mirrors and glass.
     PlanItem general_map;    ///< Direct, indirect and shadow photons.
     PlanItem shadow_photons; ///< Part of the general map.
+    PlanItem irradiance;     ///< Precomputed at photons, for gather rays.
+    PlanItem cache;          ///< Irradiance gathered at few points of the picture.
     PlanItem thin_film;      ///< Paths pass through soap films.
     PlanItem tree;           ///< Over the shapes, or a loop over all of them.
     /// A line for each type of shape and of material that the scene lists, in their
@@ -39,12 +41,13 @@ struct Plan {
     std::vector<std::string> types;
 
     /// All items, in the order in which they are printed.
-    [[nodiscard]] std::array<const PlanItem*, 7> items() const& {
-        return {&shadow_rays,    &indirect_rays, &caustics_map, &general_map,
-                &shadow_photons, &thin_film,     &tree};
+    [[nodiscard]] std::array<const PlanItem*, 9> items() const& {
+        return {&shadow_rays, &indirect_rays,  &caustics_map,
+                &general_map, &shadow_photons, &irradiance,
+                &cache,       &thin_film,      &tree};
     }
     /// Not of a temporary: the items would be gone before they are read.
-    std::array<const PlanItem*, 7> items() const&& = delete;
+    std::array<const PlanItem*, 9> items() const&& = delete;
 };
 
 /// One pass of a plan: its name, on or off, and why.
@@ -102,6 +105,8 @@ struct Passes {
     bool caustics_map = false;   ///< As in Plan.
     bool general_map = false;    ///< As in Plan.
     bool shadow_photons = false; ///< As in Plan.
+    bool irradiance = false;     ///< As in Plan.
+    bool cache = false;          ///< As in Plan.
 };
 
 /// Decides which passes run; make_photon_maps() and make_photon_mapper() obey it, and
@@ -113,18 +118,24 @@ struct Passes {
 [[nodiscard]] inline Passes choose_passes(const SceneNeeds& found,
                                           const PhotonMappingSettings& settings) {
     const bool lit = found.diffuse > 0 && found.lights > 0;
-    const bool rays_asked = settings.indirect == IndirectLight::rays ||
-                            settings.indirect == IndirectLight::map;
+    const bool gather_asked = settings.indirect == IndirectLight::map ||
+                              settings.indirect == IndirectLight::gather;
+    const bool rays_asked = settings.indirect == IndirectLight::rays || gather_asked;
     const bool rays = lit && rays_asked && settings.max_depth > 1;
-    const bool map_asked = (rays && settings.indirect == IndirectLight::map) ||
-                           settings.indirect == IndirectLight::photons ||
-                           settings.keep_general_map;
+    const bool map_asked =
+        (rays && gather_asked) || settings.indirect == IndirectLight::photons ||
+        settings.indirect == IndirectLight::cache || settings.keep_general_map;
     const bool general = lit && map_asked && settings.general.photons > 0;
+    const bool cache = settings.indirect == IndirectLight::cache;
+    const bool irradiance =
+        general && (cache || settings.indirect == IndirectLight::gather);
     return {.shadow_rays = lit,
             .indirect_rays = rays,
             .caustics_map = lit && found.specular > 0 && settings.caustics.photons > 0,
             .general_map = general,
-            .shadow_photons = general && settings.general.shadow_photons};
+            .shadow_photons = general && settings.general.shadow_photons,
+            .irradiance = irradiance,
+            .cache = irradiance && cache};
 }
 // [survey]
 
@@ -171,6 +182,12 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
     plan.shadow_photons =
         item("shadow photons", run.shadow_photons,
              run.shadow_photons ? "the general map keeps them" : "no map keeps them");
+    plan.irradiance = item("irradiance", run.irradiance,
+                           run.irradiance ? "gather rays look it up where they end"
+                                          : "no gather ray asks for it");
+    plan.cache =
+        item("irradiance cache", run.cache,
+             run.cache ? "pixels interpolate what few points gather" : "not asked for");
     plan.thin_film = item("thin film", found.films,
                           found.films ? "paths pass through the listed films"
                                       : "no material is one");

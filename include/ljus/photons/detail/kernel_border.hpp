@@ -1,0 +1,107 @@
+#pragma once
+
+/// \file ljus/photons/detail/kernel_border.hpp
+/// \brief How much of a kernel's disc lies on the surface, near the surface's border.
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "ljus/path/vertex.hpp"
+
+namespace ljus::detail {
+
+/// \addtogroup irradiance_points
+/// \{
+
+/// The part of Epanechnikov's kernel on one side of a straight line: the integral of
+/// \f$ \frac{8}{3\pi}(1 - t^2)^{3/2} \f$ from -1 to s.
+/// \param s  From the middle of the disc to the line, over the radius; below 0 if the
+///           middle lies beyond the line.
+/// \return 0 up to s = -1, 1/2 at s = 0, 1 from s = 1 on.
+// [kernel_part]
+template <std::floating_point T>
+[[nodiscard]] T kernel_part(T s) noexcept {
+    if (!(s < T(1))) return T(1);
+    if (s <= T(-1)) return T(0);
+    const T root = std::sqrt(T(1) - s * s);
+    const T integral = s * root * (T(5) - T(2) * s * s) + T(3) * std::asin(s);
+    return T(0.5) + integral / (T(3) * std::numbers::pi_v<T>);
+}
+// [kernel_part]
+
+/// The corners of a flat shape with straight edges, in order.
+template <std::floating_point T>
+[[nodiscard]] std::array<Vec3T<T>, 4> corners_of(const QuadT<T>& quad) noexcept {
+    return {quad.corner, quad.corner + quad.edge_u,
+            quad.corner + quad.edge_u + quad.edge_v, quad.corner + quad.edge_v};
+}
+/// Of a triangle.
+template <std::floating_point T>
+[[nodiscard]] std::array<Vec3T<T>, 3>
+corners_of(const TriangleT<T>& triangle) noexcept {
+    return {triangle.v1, triangle.v2, triangle.v3};
+}
+
+/// Whether a surface goes on at a place near one of its points: a short ray straight
+/// down on it meets a surface of the same normal.
+/// \param scene   The scene.
+/// \param place   Where.
+/// \param normal  Of the surface, on the side that is asked about.
+/// \param height  Where the ray starts, and as far below it ends.
+template <SceneLike S, std::floating_point T>
+[[nodiscard]] bool goes_on(const S& scene, const Vec3T<T>& place,
+                           const Vec3T<T>& normal, T height) {
+    const RayT<T> ray{.origin = place + height * normal,
+                      .direction = -normal,
+                      .t_max = T(2) * height};
+    const auto hit = closest_hit(scene, ray);
+    if (!hit) return false;
+    const Vec3T<T> there = vertex_at(scene, ray, *hit).point.normal;
+    return std::abs(glm::dot(there, normal)) > T(0.99);
+}
+
+/// The part of a kernel's disc that lies on the surface of its middle. Each straight
+/// edge of the shape cuts off a part of the disc, unless another surface goes on there,
+/// as at the diagonal of a wall of two triangles. Where two edges meet, their parts are
+/// multiplied, which is exact for a kernel that is a product and close for this one.
+/// \param scene   The scene.
+/// \param vertex  The middle.
+/// \param normal  Unit, on the side that is asked about.
+/// \param radius  Of the disc.
+/// \return In (0, 1]; 1 for shapes without straight edges.
+// [part_on_surface]
+template <SceneLike S, std::floating_point T>
+[[nodiscard]] T part_on_surface(const S& scene, const VertexT<T>& vertex,
+                                const Vec3T<T>& normal, T radius) {
+    const Vec3T<T>& x = vertex.point.position;
+    const auto part = [&](const auto& corners) {
+        Vec3T<T> middle{T(0)};
+        for (const Vec3T<T>& corner : corners) middle += corner / T(corners.size());
+        T product = T(1);
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const Vec3T<T>& a = corners[i];
+            const Vec3T<T> along =
+                glm::normalize(corners[(i + 1) % corners.size()] - a);
+            Vec3T<T> inward = glm::cross(normal, along);
+            if (glm::dot(middle - a, inward) < T(0)) inward = -inward;
+            const T distance = glm::dot(x - a, inward);
+            if (!(distance < radius)) continue;
+            const Vec3T<T> beyond = x - (distance + T(0.02) * radius) * inward;
+            if (!goes_on(scene, beyond, normal, T(0.01) * radius))
+                product *= kernel_part(distance / radius);
+        }
+        return product;
+    };
+    return scene.visit_shape(vertex.id, [&](const auto& shape) {
+        if constexpr (requires { corners_of(shape); })
+            return part(corners_of(shape));
+        else
+            return T(1);
+    });
+}
+// [part_on_surface]
+
+/// \}
+
+} // namespace ljus::detail

@@ -1,0 +1,184 @@
+#pragma once
+
+/// \file ljus/photons/irradiance_points.hpp
+/// \brief Irradiance, worked out once at some of the photons, for rays to look up.
+
+#include <array>
+#include <numbers>
+
+#include "ljus/materials/lambertian.hpp"
+#include "ljus/parallel.hpp"
+#include "ljus/path/all_lights.hpp"
+#include "ljus/photons/density_estimate.hpp"
+#include "ljus/photons/detail/kernel_border.hpp"
+#include "ljus/scene/index.hpp"
+
+namespace ljus {
+
+/// \defgroup irradiance_points Precomputed irradiance
+/// \brief Christensen's shortcut for final gathering \cite christensen1999: a gather
+/// ray looks up one number in place of a density estimate. Chapter:
+/// \ref ch_final_gathering.
+/// \{
+
+/// How irradiance is precomputed.
+struct IrradiancePointSettings {
+    int every = 16;           ///< At one of so many photons, at least 1.
+    std::size_t nearest = 64; ///< Photons of an estimate, 2 to 512.
+    float radius = 0.3f;      ///< Within which they lie, at most; in scene units.
+    int shadow_rays = 4;      ///< To each light, for the direct part; at least 1.
+    bool edges = true;        ///< Divide by the part of the disc that is on the shape.
+};
+
+/// A point of a surface where the irradiance is known.
+template <std::floating_point T>
+struct IrradianceAtT {
+    RgbT<T> irradiance{T(0)};          ///< Of all light, direct light too; W/m^2.
+    Vec3T<T> normal{T(0), T(0), T(1)}; ///< Unit, on the lit side.
+};
+
+/// Points where the irradiance is known, ordered for searching.
+template <std::floating_point T>
+struct IrradiancePointsT {
+    KdTree8T<T> tree;                      ///< Where they are.
+    std::vector<IrradianceAtT<T>> records; ///< What is known, in the tree's order.
+
+    /// Whether there are none.
+    [[nodiscard]] bool empty() const noexcept { return records.empty(); }
+};
+using IrradiancePoints = IrradiancePointsT<float>; ///< IrradiancePointsT in float.
+
+namespace detail {
+
+/// The irradiance on one side of a surface that the nearest photons make, by
+/// Epanechnikov's kernel.
+/// \param scene     The scene.
+/// \param map       The photons.
+/// \param vertex    Where.
+/// \param normal    Unit, on the side that is asked about.
+/// \param settings  How many photons, how far, and whether edges are made up for.
+/// \param kinds     Which kinds count.
+/// \return W/m^2.
+template <SceneLike S, std::floating_point T>
+[[nodiscard]] RgbT<T>
+estimate_irradiance(const S& scene, const PhotonMapT<T>& map, const VertexT<T>& vertex,
+                    const Vec3T<T>& normal, const IrradiancePointSettings& settings,
+                    PhotonKinds kinds) {
+    std::array<Neighbor, max_nearest> room;
+    const std::span<Neighbor> found(room.data(), settings.nearest);
+    // By the shape's own normal, as photons have it; the side is told by where they go.
+    const std::size_t count =
+        nearest_photons(map, vertex.point, T(settings.radius), kinds, found);
+    const bool full = count == settings.nearest;
+    const double radius2 =
+        full ? found[0].distance2 : double(settings.radius) * double(settings.radius);
+    if (!(radius2 > 0)) return RgbT<T>{T(0)};
+    RgbT<double> sum{0};
+    for (std::size_t k = full ? 1 : 0; k < count; ++k) {
+        const PhotonRecordT<T> photon = map.records[found[k].index];
+        if (!(glm::dot(photon.direction, normal) < T(0))) continue;
+        const double weight =
+            kernel_weight(Kernel::epanechnikov, found[k].distance2 / radius2);
+        sum += weight * RgbT<double>(photon.flux);
+    }
+    const T part = settings.edges
+                       ? part_on_surface(scene, vertex, normal, T(std::sqrt(radius2)))
+                       : T(1);
+    return RgbT<T>(sum / (std::numbers::pi * radius2)) / part;
+}
+
+} // namespace detail
+
+/// Works out the irradiance at every so many photons of a map.
+///
+/// Direct light comes by shadow rays, which know where its shadows end; caustics and
+/// indirect light are estimated from the maps.
+/// \param scene     The scene.
+/// \param general   The general map: where the points are, and its indirect photons.
+/// \param caustics  The caustics map; may be empty.
+/// \param settings  How.
+/// \param seed      Of the shadow rays.
+/// \param threads   As in ParallelSettings.
+/// \return The points, the same for any number of threads.
+/// \cost About 10 microseconds per point.
+template <SceneLike S, std::floating_point T>
+[[nodiscard]] IrradiancePointsT<T> make_irradiance_points(
+    const S& scene, const PhotonMapT<T>& general, const PhotonMapT<T>& caustics,
+    const IrradiancePointSettings& settings, std::uint64_t seed, int threads = 0) {
+    const auto every = static_cast<std::size_t>(settings.every);
+    const std::size_t count = (general.records.size() + every - 1) / every;
+    std::vector<Vec3T<T>> positions(count);
+    std::vector<IrradianceAtT<T>> records(count);
+    const auto at_point = [&](std::size_t i) {
+        const std::size_t photon = i * every;
+        const detail::PhotonRecordT<T> record = general.records[photon];
+        positions[i] = general.tree.point(photon);
+        Vec3T<T> normal = glm::normalize(Vec3T<T>(record.normal));
+        if (photon_side(record.direction, normal) < 0) normal = -normal;
+        records[i].normal = normal;
+        // What stands there is asked of the scene: a photon does not remember.
+        const T height = T(1e-3f * settings.radius);
+        const RayT<T> down{.origin = positions[i] + height * normal,
+                           .direction = -normal,
+                           .t_max = T(2) * height};
+        const auto hit = closest_hit(scene, down);
+        if (!hit) return;
+        const VertexT<T> vertex = vertex_at(scene, down, *hit);
+        const Vec3T<T> side =
+            vertex.wo.z < T(0) ? -vertex.point.normal : vertex.point.normal;
+        auto stream = random_stream(seed, Pass::irradiance, 0, i);
+        Counts counts;
+        const LambertianT<T> white{.albedo = RgbT<T>{T(1)}};
+        RgbT<T> sum =
+            std::numbers::pi_v<T> *
+            detail::sample_all_lights(scene, vertex, white, DirectLight::analytic,
+                                      settings.shadow_rays, stream, counts);
+        sum += detail::estimate_irradiance(scene, general, vertex, side, settings,
+                                           one_kind(PhotonKind::indirect));
+        if (!caustics.empty())
+            sum += detail::estimate_irradiance(scene, caustics, vertex, side, settings,
+                                               one_kind(PhotonKind::caustic));
+        records[i].irradiance = sum;
+    };
+    constexpr long long block = 64;
+    const auto body = [&](long long b) {
+        const auto range = detail::block_range(b, block, static_cast<long long>(count));
+        for (long long i = range.first; i < range.last; ++i)
+            at_point(static_cast<std::size_t>(i));
+    };
+    (void)parallel_blocks(detail::block_count(static_cast<long long>(count), block),
+                          body, {.threads = threads});
+
+    IrradiancePointsT<T> points;
+    points.tree = KdTree8T<T>(positions, threads);
+    points.records.reserve(count);
+    for (const std::uint32_t i : points.tree.point_ids())
+        points.records.push_back(records[i]);
+    return points;
+}
+
+/// The irradiance at the nearest point with a like normal.
+/// \param points    The points.
+/// \param position  Where it is asked for.
+/// \param normal    Unit, on the side that is asked about.
+/// \param radius    How far a point may be, in scene units.
+/// \return W/m^2; 0 if there is none: where no photon came, it is dark.
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> irradiance_at(const IrradiancePointsT<T>& points,
+                                    const Vec3T<T>& position, const Vec3T<T>& normal,
+                                    T radius) {
+    const auto like = [&](std::uint32_t i) {
+        return glm::dot(points.records[i].normal, normal) > T(0.9);
+    };
+    const auto nearest = points.tree.nearest(position, radius);
+    if (!nearest) return RgbT<T>{T(0)};
+    if (like(nearest->index)) return points.records[nearest->index].irradiance;
+    std::array<Neighbor, 1> found;
+    if (points.tree.template nearest<1>(position, radius, found, like) == 0)
+        return RgbT<T>{T(0)};
+    return points.records[found[0].index].irradiance;
+}
+
+/// \}
+
+} // namespace ljus
