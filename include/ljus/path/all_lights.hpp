@@ -58,8 +58,8 @@ template <SceneLike S, std::floating_point T>
 /// \f[ \varrho\,L_e\,F \cdot \frac{\sum_i f_i V_i}{\sum_i f_i} \f]
 ///
 /// with \f$f_i\f$ the light of the i-th sample. Where all of the lamp is seen, or
-/// nothing of it, there is no noise. In a penumbra a quotient of two random sums is biased, by
-/// the order of the variance of \f$f\f$ over the number of rays.
+/// nothing of it, there is no noise. In a penumbra a quotient of two random sums is
+/// biased, by the order of the variance of \f$f\f$ over the number of rays.
 /// \param scene     The scene.
 /// \param light     One of its lights.
 /// \param form      form_factor_of() it.

@@ -58,12 +58,14 @@ namespace detail {
 /// \param normal    Unit, on the side that is asked about.
 /// \param settings  How many photons, how far, and whether edges are made up for.
 /// \param kinds     Which kinds count.
+/// \param here      The photon that the point was chosen for. It does not count: that it
+///                  lies there says nothing of how dense photons are.
 /// \return W/m^2.
 template <SceneLike S, std::floating_point T>
 [[nodiscard]] RgbT<T>
 estimate_irradiance(const S& scene, const PhotonMapT<T>& map, const VertexT<T>& vertex,
                     const Vec3T<T>& normal, const IrradiancePointSettings& settings,
-                    PhotonKinds kinds) {
+                    PhotonKinds kinds, std::size_t here = std::size_t(-1)) {
     std::array<Neighbor, max_nearest> room;
     const std::span<Neighbor> found(room.data(), settings.nearest);
     // By the shape's own normal, as photons have it; the side is told by where they go.
@@ -76,7 +78,8 @@ estimate_irradiance(const S& scene, const PhotonMapT<T>& map, const VertexT<T>& 
     RgbT<double> sum{0};
     for (std::size_t k = full ? 1 : 0; k < count; ++k) {
         const PhotonRecordT<T> photon = map.records[found[k].index];
-        if (!(glm::dot(photon.direction, normal) < T(0))) continue;
+        if (!(glm::dot(photon.direction, normal) < T(0)) || found[k].index == here)
+            continue;
         const double weight =
             kernel_weight(Kernel::epanechnikov, found[k].distance2 / radius2);
         sum += weight * RgbT<double>(photon.flux);
@@ -134,7 +137,7 @@ template <SceneLike S, std::floating_point T>
             detail::sample_all_lights(scene, vertex, white, DirectLight::analytic,
                                       settings.shadow_rays, stream, counts);
         sum += detail::estimate_irradiance(scene, general, vertex, side, settings,
-                                           one_kind(PhotonKind::indirect));
+                                           one_kind(PhotonKind::indirect), photon);
         if (!caustics.empty())
             sum += detail::estimate_irradiance(scene, caustics, vertex, side, settings,
                                                one_kind(PhotonKind::caustic));
