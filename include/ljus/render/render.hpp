@@ -103,7 +103,6 @@ struct RowRange {
 ///         counted.
 /// \throws std::invalid_argument  if the size or the number of rays is below 1, or the
 ///         rows are none of the picture's.
-// [render_rows]
 template <typename R, template <std::floating_point> typename AnyCamera,
           std::floating_point T>
 requires Renderer<R, T>
@@ -122,6 +121,7 @@ requires Renderer<R, T>
     const int tiles = (picture.width + 15) / 16;
     std::vector<Counts> counts(static_cast<std::size_t>(tiles) *
                                static_cast<std::size_t>(result.image.height));
+    // [strip]
     const auto strip = [&](long long number) {
         const int row = static_cast<int>(number / tiles);
         const int first = static_cast<int>(number % tiles) * 16;
@@ -140,13 +140,13 @@ requires Renderer<R, T>
         }
         counts[static_cast<std::size_t>(number)] = cost;
     };
+    // [strip]
     result.complete =
         parallel_blocks(static_cast<long long>(counts.size()), strip,
                         {.threads = picture.threads, .progress = picture.progress});
     for (const Counts& cost : counts) result.counts += cost;
     return result;
 }
-// [render_rows]
 
 /// Renders a picture by several threads, in strips of 16 pixels.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
