@@ -53,13 +53,12 @@ template <typename S>
     case Ending::depth:
         return path.depth < paths.depth;
     case Ending::threshold:
-        return ljus::detail::max_component(path.throughput) / path.eta_scale >=
-               paths.threshold;
+        return ljus::max_component(path.throughput) / path.eta_scale >= paths.threshold;
     case Ending::roulette:
         break;
     }
-    return path.depth < paths.depth ||
-           survives(path.throughput, path.eta_scale, next_1d(stream), paths.threshold);
+    return path.depth < paths.depth || ljus::survives(path.throughput, path.eta_scale,
+                                                      next_1d(stream), paths.threshold);
 }
 // [goes on]
 
