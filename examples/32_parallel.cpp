@@ -343,19 +343,19 @@ void draw_schedules(const Image& costs, const examples::Options& options) {
                               .high{6.9, 3.6},
                               .scale = 100};
     const auto draw = [&](const Schedule& schedule, double top, const char* title) {
-        draw_label(drawing, {3, top + 0.22}, title);
+        draw_label(drawing, {3.1, top + 0.22}, title);
         for (std::size_t i = 0; i < jobs.size(); ++i) {
             const double y = top - 0.3 * (schedule.thread[i] + 1);
-            const double a = 4.5 * schedule.begin[i] / unit;
-            const double b = a + 4.5 * jobs[i] / unit;
+            const double a = 6.2 * schedule.begin[i] / unit;
+            const double b = a + 6.2 * jobs[i] / unit;
             const char* color = names[static_cast<std::size_t>(schedule.thread[i])];
             draw_area(drawing, {{a, y}, {b, y}, {b, y + 0.26}, {a, y + 0.26}}, color);
             draw_line(drawing, {{a, y}, {b, y}, {b, y + 0.26}, {a, y + 0.26}, {a, y}},
                       {.color = color, .width = 1});
         }
         draw_line(drawing,
-                  {{4.5 * schedule.end / unit, top + 0.05},
-                   {4.5 * schedule.end / unit, top - 1.3}},
+                  {{6.2 * schedule.end / unit, top + 0.05},
+                   {6.2 * schedule.end / unit, top - 1.3}},
                   {.dashed = true});
     };
     draw(static_schedule(jobs, threads), 3.1, "an equal number of rows each");
@@ -374,13 +374,12 @@ void schedules(const Image& costs, const examples::Options& options) {
     draw_schedules(costs, options);
 
     examples::Plot plot{.name = "parallel-schedule",
-                        .columns = {"threads", "the threads there are",
-                                    "strips of 16 pixels, dynamic", "rows, dynamic",
-                                    "rows, static", "column by column, static"},
-                        .y_label = "speed-up",
+                        .columns = {"threads", "strips of 16 pixels: dynamic",
+                                    "rows: dynamic", "rows: static",
+                                    "column by column: static"},
+                        .y_label = "speed-up over the number of threads",
                         .log_x = true,
-                        .log_y = true,
-                        .more = "set format xy '%g'\n"};
+                        .more = "set format x '%g'\nset yrange [0.6:1.02]\n"};
     examples::Table table{.name = "parallel-schedule-table",
                           .columns = {"threads", "strips, dynamic", "rows, dynamic",
                                       "rows, static", "column by column"}};
@@ -390,8 +389,8 @@ void schedules(const Image& costs, const examples::Options& options) {
                                all / dynamic_schedule(rows, threads).end,
                                all / static_schedule(rows, threads).end,
                                all / column_by_column(costs, threads)};
-        plot.rows.push_back(
-            {double(threads), double(threads), speed[0], speed[1], speed[2], speed[3]});
+        plot.rows.push_back({double(threads)});
+        for (const double s : speed) plot.rows.back().push_back(s / threads);
         std::vector<std::string> row{std::to_string(threads)};
         for (const double s : speed) row.push_back(text(s, "%.2f"));
         table.rows.push_back(row);

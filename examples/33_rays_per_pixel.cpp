@@ -93,7 +93,7 @@ void one_pixel(const Room3& room, const examples::Options& options) {
     constexpr int bins = 60;
     examples::Plot plot{
         .name = "rays_per_pixel-spread",
-        .columns = {"mean of n rays, over the true one", "n = 4", "16", "64", "256"},
+        .columns = {"mean of n rays over the true one", "n = 4", "16", "64", "256"},
         .y_label = "how often",
         .rows = std::vector<examples::Row>(bins)};
     examples::Table table{
@@ -362,8 +362,8 @@ int main(int argc, char** argv) {
             };
         };
         const std::vector<Method> methods{
-            {"photons, depth 4", by_photons(true), true},
-            {"photons, roulette", by_photons(false), true},
+            {"photons to depth 4", by_photons(true), true},
+            {"photons with roulette", by_photons(false), true},
             {"path tracing", [&](int n, std::uint64_t seed, std::uint64_t) {
                  return render(tracer, room.camera, picture(n, seed)).image;
              }}};

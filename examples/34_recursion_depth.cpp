@@ -141,9 +141,9 @@ void table_4(const Room4& room, const examples::Oracle& oracle,
 /// What is lost in a room whose answer is known, by each way to end a path.
 void furnace(const examples::Options& options) {
     examples::Plot plot{.name = "recursion_depth-furnace",
-                        .columns = {"depth", "albedo 0.5, as foretold", "measured",
-                                    "albedo 0.75, as foretold", "measured ",
-                                    "albedo 0.9, as foretold", "measured  "},
+                        .columns = {"depth", "albedo 0.5 as foretold", "measured",
+                                    "albedo 0.75 as foretold", "measured ",
+                                    "albedo 0.9 as foretold", "measured  "},
                         .y_label = "light that is lost, of all",
                         .log_y = true,
                         .more = "set yrange [1e-4:1]\n"};
@@ -351,7 +351,7 @@ void adaptive(const std::string& name, const Renderer& renderer, const Camera& c
          [](int) { return AdaptiveSettings{.first = 8, .more = 8, .block = 4}; }},
         {"squares of 8",
          [](int) { return AdaptiveSettings{.first = 8, .more = 8, .block = 8}; }},
-        {"squares of 4, two stages", [](int) {
+        {"squares of 4 in two stages", [](int) {
              return AdaptiveSettings{
                  .first = 8, .more = 8, .block = 4, .two_stage = true};
          }}};
@@ -454,8 +454,8 @@ void adaptive(const std::string& name, const Renderer& renderer, const Camera& c
 void spot(const examples::Options& options) {
     examples::Plot plot{.name = "recursion_depth-spot",
                         .columns = {"chance of a ray to find the spot",
-                                    "2 rays, 8 more", "8 rays, 8 more",
-                                    "32 rays, 32 more"},
+                                    "2 rays then 8 more", "8 rays then 8 more",
+                                    "32 rays then 32 more"},
                         .y_label = "light that is found, of all",
                         .log_x = true};
     for (int i = 0; i <= 40; ++i) {
