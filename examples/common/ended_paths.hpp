@@ -76,7 +76,7 @@ ljus::Rgb radiance(const EndedPaths<S>& paths, const ljus::Ray& ray,
         if (!vertex) break;
         if (vertex->emits()) sum += ljus::detail::emitted(paths.tracer, path, *vertex);
         const auto at_material = [&](const auto& material) {
-            if (has(ljus::lobes(material), ljus::Lobes::non_specular) &&
+            if (has(lobes(material), ljus::Lobes::non_specular) &&
                 !scene.lights.empty())
                 sum += ljus::detail::sample_one_light(paths.tracer, path, *vertex,
                                                       material, stream, counts);

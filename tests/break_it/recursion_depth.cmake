@@ -47,3 +47,21 @@ ljus_break_it(NAME adaptive-disagreement HEADER render/detail/adaptive_blocks.hp
     FROM "> rule.disagreement;"
     TO   ">= 0;"
     CASES "adaptive: pixels whose first rays*")
+
+# Roulette without the division: the report's program lost light like this.
+ljus_break_it(NAME depth-roulette HEADER path/path_state.hpp TEST recursion_depth
+    FROM "throughput /= probability;"
+    TO   ""
+    CASES "recursion_depth: roulette loses*")
+
+# One surface fewer than was asked for.
+ljus_break_it(NAME depth-limit HEADER render/path_tracing.hpp TEST recursion_depth
+    FROM "if (path.depth > settings.max_depth) break;"
+    TO   "if (path.depth >= settings.max_depth) break;"
+    CASES "recursion_depth: a limit*")
+
+# One surface more on a path of the photon mapper.
+ljus_break_it(NAME depth-photons HEADER render/photon_mapping.hpp TEST recursion_depth
+    FROM "while (path.depth < settings.max_depth) {"
+    TO   "while (path.depth <= settings.max_depth) {"
+    CASES "recursion_depth: the depth of*")
