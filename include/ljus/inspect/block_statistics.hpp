@@ -31,7 +31,6 @@ struct BlockStatistics {
 /// \return Means and standard errors, in units of radiance.
 /// \throws std::invalid_argument  for fewer than 2 runs, or as require_same_size() and
 ///         block_means().
-// [block_statistics]
 template <std::floating_point T>
 [[nodiscard]] BlockStatistics block_statistics(const std::vector<ImageT<T>>& runs,
                                                int size = 10) {
@@ -48,6 +47,7 @@ template <std::floating_point T>
     const int width = blocks.front().width, height = blocks.front().height;
     BlockStatistics result{make_image<double>(width, height),
                            make_image<double>(width, height), runs.size()};
+    // [standard error]
     for (std::size_t i = 0; i < result.mean.pixels.size(); ++i) {
         RgbT<double>& mean = result.mean.pixels[i];
         for (const auto& block : blocks) mean += block.pixels[i] / count;
@@ -58,9 +58,9 @@ template <std::floating_point T>
         }
         result.standard_error.pixels[i] = glm::sqrt(squares / (count - 1.0) / count);
     }
+    // [standard error]
     return result;
 }
-// [block_statistics]
 
 /// \}
 
