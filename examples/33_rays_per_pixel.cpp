@@ -228,6 +228,19 @@ std::string slope_text(const std::vector<double>& x, const std::vector<double>& 
                             : text(law.slope, "%.2f") + " ± " + text(band, "%.2f");
 }
 
+/// The error that a method has after some seconds, by straight lines between rungs; NaN
+/// before the first one.
+double error_at(const std::vector<double>& seconds, const std::vector<double>& errors,
+                double when) {
+    for (std::size_t i = 1; i < seconds.size(); ++i)
+        if (seconds[i - 1] <= when && when <= seconds[i]) {
+            const double t =
+                std::log(when / seconds[i - 1]) / std::log(seconds[i] / seconds[i - 1]);
+            return errors[i - 1] * std::pow(errors[i] / errors[i - 1], t);
+        }
+    return nothing;
+}
+
 /// The plots and tables of errors.
 void show(const std::vector<Method>& methods,
           const std::vector<std::vector<Rung>>& runs,
@@ -244,8 +257,7 @@ void show(const std::vector<Method>& methods,
     examples::Table split{.name = "rays_per_pixel-split",
                           .columns = {"rays", "", "bias²", "noise", "of which rays",
                                       "blocks: bias²", "noise", "trimmed", "FLIP"}};
-    examples::Table half{.name = "rays_per_pixel-half",
-                         .columns = {"rays", "half of them"}};
+    examples::Table half{.name = "rays_per_pixel-half", .columns = {"rays"}};
     for (std::size_t m = 0; m < methods.size(); ++m) {
         std::vector<double> rays, seconds, noise, errors;
         for (const Rung& rung : runs[m]) {
@@ -272,16 +284,18 @@ void show(const std::vector<Method>& methods,
              methods[m].has_map ? text(last.pixels.variance - last.rays_alone, "%.2g")
                                 : "none",
              text(last.blocks.bias_squared, "%.2g")});
-        // How much worse half of the time is, by straight lines between the rungs.
         half.columns.push_back(methods[m].name);
-        for (std::size_t i = 1; i < errors.size(); ++i) {
-            const double t = std::log(2.0) / std::log(seconds[i] / seconds[i - 1]);
-            const double worse = std::pow(errors[i - 1] / errors[i], t);
-            if (half.rows.size() < i)
-                half.rows.push_back({text(rays[i]), text(rays[i] / 2)});
-            half.rows[i - 1].push_back(text(worse, "%.2f") + " times");
+        half.rows.resize(errors.size());
+        for (std::size_t i = 0; i < errors.size(); ++i) {
+            const double before = error_at(seconds, errors, seconds[i] / 2);
+            half.rows[i].resize(methods.size() + 1);
+            half.rows[i][0] = text(rays[i]);
+            half.rows[i][m + 1] = std::isnan(before)
+                                      ? "no picture yet"
+                                      : text(before / errors[i], "%.2f") + " times";
         }
     }
+    half.rows.erase(half.rows.begin());
     save_plot(options.path(""), plot);
     save_table(options.path(""), slopes);
     save_table(options.path(""), split);
@@ -340,11 +354,11 @@ int main(int argc, char** argv) {
         one_pixel(room, options);
         // Errors may stop before the pictures do: several seeds of 1000 rays take long.
         std::vector<int> rays, shown;
-        for (const ReportRow& row : report_rows) {
-            if (row.rays <= sizes.most) rays.push_back(row.rays);
+        for (const int n : {1, 3, 10, 30, 100, 300, 1000})
+            if (n <= sizes.most) rays.push_back(n);
+        for (const ReportRow& row : report_rows)
             if (row.rays <= sizes.most || !line.given("--most"))
                 shown.push_back(row.rays);
-        }
         const Shots shots = figure_12(room, shown, options);
 
         const auto oracle =
@@ -395,15 +409,17 @@ int main(int argc, char** argv) {
                                   text(shots.seconds[i], "%.3g")});
             auto& row = table.rows.back();
             row.resize(table.columns.size());
-            if (i >= rays.size()) continue;
+            const auto at = std::find(rays.begin(), rays.end(), shown[i]);
+            if (at == rays.end()) continue;
+            const auto rung_number = static_cast<std::size_t>(at - rays.begin());
             for (const std::size_t m : {0u, 1u}) {
-                const Rung& rung = runs[m][i];
+                const Rung& rung = runs[m][rung_number];
                 row[4 + m] = text(rung.error(), "%.2g");
                 row[6 + m] =
                     text(std::max(rung.blocks.bias_squared + rung.blocks.variance, 0.0),
                          "%.2g");
             }
-            row[8] = text(runs[1][i].flip, "%.3f");
+            row[8] = text(runs[1][rung_number].flip, "%.3f");
         }
         save_table(options.path(""), table);
         examples::Table truth{
