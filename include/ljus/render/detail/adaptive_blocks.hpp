@@ -101,7 +101,6 @@ adaptive_blocks(const RenderSettings& picture, int size) {
 /// \param width    Of the picture.
 /// \param epsilon  What counts as dark.
 /// \return The variance of a ray over mean^2 + epsilon; mean over channels and pixels.
-// [variance]
 [[nodiscard]] inline double relative_variance(const AdaptiveBlock& block,
                                               const std::vector<PixelSums>& sums,
                                               int width, double epsilon) {
@@ -117,14 +116,12 @@ adaptive_blocks(const RenderSettings& picture, int size) {
     const RgbT<double> relative = variance / (mean * mean + epsilon);
     return std::fmax((relative.x + relative.y + relative.z) / 3, 0.0); // not NaN
 }
-// [variance]
 
 /// How many batches each block gets in the next round.
 /// \param blocks  Their `wanted` is set.
 /// \param rule    The rule.
 /// \param limit   Rays a pixel in the mean, at most, that count.
 /// \return Whether any gets one.
-// [plan]
 inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSettings& rule,
                        double limit) {
     std::vector<RayShare> parts;
@@ -164,7 +161,6 @@ inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSetting
     }
     return any;
 }
-// [plan]
 
 } // namespace detail
 

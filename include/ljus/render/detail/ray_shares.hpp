@@ -30,7 +30,6 @@ struct RayShare {
 /// \param target  The mean of variance / rays that is wanted; 0: as small as can be.
 /// \param limit   Rays a pixel in the mean, at most.
 /// \return Rays a pixel for each part, not below those that it has.
-// [shares]
 [[nodiscard]] inline std::vector<double> ray_shares(const std::vector<RayShare>& parts,
                                                     double target, double limit) {
     std::vector<double> wanted(parts.size());
@@ -45,6 +44,7 @@ struct RayShare {
             error += part.pixels * part.variance / part.rays;
             rays += part.pixels * part.rays;
         }
+        // [scale]
         // n = scale * sqrt(v): what the target asks for, if the limit allows it.
         const double spare = std::fmax(limit * pixels - rays, 0.0);
         const double allowed = target * pixels - error;
@@ -58,9 +58,9 @@ struct RayShare {
             wanted[i] = parts[i].rays;
             settled[i] = again = true;
         }
+        // [scale]
     }
     return wanted;
 }
-// [shares]
 
 } // namespace ljus::detail
