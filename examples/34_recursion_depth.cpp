@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -32,7 +31,6 @@ namespace {
 
 using examples::Ending;
 using examples::text;
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 /// What the user may set besides the common options.
 struct Sizes {

@@ -12,9 +12,9 @@ namespace ljus {
 /// \brief Discussion: "priority-driven ray tracing"; section 4.3: how many rays?
 /// Chapter: \ref ch_recursion_depth.
 ///
-/// Every pixel gets a few rays, which tell how much rays differ there; the rest go where
-/// they take away most of the error. RenderSettings::samples is the number of rays a
-/// pixel in the mean, at most.
+/// Every pixel gets a few rays, which tell how much rays differ there; the others go
+/// where they take away most of the error. RenderSettings::samples is the number of rays
+/// a pixel in the mean, at most.
 ///
 ///     // 2 rays; where they disagree by more than 0.2 of what they see, 8 more
 ///     render_adaptive(mapper, camera, {.samples = 10},
@@ -38,8 +38,8 @@ struct AdaptiveT {
 ///
 /// *Trap*: which pixels get more depends on what their rays have found, and the same
 /// rays are then averaged. A pixel whose first rays have all missed a bright spot is
-/// believed to be dark, and stays so: the mean of the picture is too dark. Larger blocks
-/// and more first rays make that small; `two_stage` makes it 0.
+/// believed to be dark, and stays so: the picture's mean is too dark. Larger blocks and
+/// more first rays make that small; `two_stage` makes it 0.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    A CameraT, or anything with a camera_ray().
 /// \param picture   Size, seed, threads; `samples` is the limit for the mean.
