@@ -13,8 +13,8 @@ namespace ljus {
 /// Chapter: \ref ch_recursion_depth.
 ///
 /// Every pixel gets a few rays, which tell how much rays differ there; the others go
-/// where they take away most of the error. RenderSettings::samples is the number of rays
-/// a pixel in the mean, at most.
+/// where they take away most of the error. RenderSettings::samples is the number of
+/// rays a pixel in the mean, at most.
 ///
 ///     // 2 rays; where they disagree by more than 0.2 of what they see, 8 more
 ///     render_adaptive(mapper, camera, {.samples = 10},
