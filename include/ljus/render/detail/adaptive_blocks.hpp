@@ -15,7 +15,7 @@ namespace ljus {
 /// \addtogroup adaptive
 /// \{
 
-/// Which pixels get how many rays.
+/// Which pixels get how many rays. Why `two_stage`: \cite kirk1991.
 struct AdaptiveSettings {
     int first = 16;     ///< Rays in every pixel, at least 2.
     int more = 16;      ///< Rays in a batch, at least 1.

@@ -24,7 +24,7 @@ struct RayShare {
 ///
 /// With n rays a pixel in each part, sum w v / n shall be least for a given sum w n.
 /// Lagrange: v / n^2 is the same everywhere, so that n is in proportion to the root of
-/// the variance (Neyman's allocation). A part that has more rays already keeps them,
+/// the variance \cite neyman1934. A part that has more rays already keeps them,
 /// and the rest is shared out among the others.
 /// \param parts   All parts.
 /// \param target  The mean of variance / rays that is wanted; 0: as small as can be.
