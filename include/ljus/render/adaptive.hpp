@@ -138,6 +138,9 @@ requires Renderer<R, T>
         if (rule.two_stage) break;
     }
     // [rounds]
+    if (result.complete) // it may have stopped long before
+        (void)picture.progress(static_cast<long long>(allowed),
+                               static_cast<long long>(allowed));
     result.estimate = estimate();
     result.reached = result.estimate <= rule.target * (1 + 1e-6); // but for rounding
     for (const auto& block : blocks)

@@ -43,8 +43,8 @@ inline void check(const AdaptiveSettings& rule, int samples) {
                              : "at least 2");
     };
     whole("first", rule.first, 2);
-    whole("more", rule.more, 1);
-    whole("batches", rule.batches, 0);
+    whole("more", rule.more, rule.two_stage ? 2 : 1);
+    whole("batches", rule.batches, rule.two_stage ? 1 : 0);
     whole("block", rule.block, 1);
     require(rule.target >= 0, "target", rule.target, "at least 0");
     require(rule.disagreement >= 0, "disagreement", rule.disagreement, "at least 0");
@@ -140,6 +140,7 @@ inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSetting
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         return parts[a].variance / parts[a].rays > parts[b].variance / parts[b].rays;
     });
+    const int begun = rule.two_stage ? 1 : 0; // the batch that each has
     bool any = false;
     for (const std::size_t i : order) {
         double batches = 0;
@@ -152,11 +153,11 @@ inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSetting
             batches = std::ceil(lacking / rule.more - 1e-6);
         }
         const double cost = rule.more * parts[i].pixels;
-        batches = std::min({batches, double(rule.batches - blocks[i].batches),
+        batches = std::min({batches, double(rule.batches - blocks[i].batches - begun),
                             std::floor(spare / cost * (1 + 1e-9))});
         blocks[i].wanted = static_cast<int>(std::max(batches, 0.0));
         spare -= cost * blocks[i].wanted;
-        if (rule.two_stage) ++blocks[i].wanted;
+        blocks[i].wanted += begun;
         any = any || blocks[i].wanted > 0;
     }
     return any;
