@@ -72,19 +72,21 @@ requires Renderer<R, T>
                 detail::mix_bits(picture.seed + detail::mix_bits(std::uint64_t(batch)));
         const Pattern pattern = make_pattern(picture.sampling, part.samples);
         for (int y = block.y; y < block.bottom; ++y)
-            for (int x = block.x; x < block.right; ++x)
+            for (int x = block.x; x < block.right; ++x) {
+                const auto place = detail::pixel_index(result.image, x, y);
+                detail::PixelSums found = sums[place]; // a copy: see false sharing
                 for (int i = 0; i < part.samples; ++i) {
                     const RgbT<double> sample(detail::sample_pixel(
                         renderer, camera, part, pattern, x, y, i, cost));
-                    detail::PixelSums& found =
-                        sums[detail::pixel_index(result.image, x, y)];
-                    if (is_finite(sample)) {
-                        found.sum += sample;
-                        found.squares += sample * sample;
-                    } else {
+                    if (!is_finite(sample)) {
                         ++cost.rejected;
+                        continue;
                     }
+                    found.sum += sample;
+                    found.squares += sample * sample;
                 }
+                sums[place] = found;
+            }
         block.rays += part.samples;
     };
     double traced = 0; // rays, of all that are allowed
@@ -101,7 +103,9 @@ requires Renderer<R, T>
             parallel_blocks(static_cast<long long>(blocks.size()),
                             [&](long long i) {
                                 const auto k = static_cast<std::size_t>(i);
-                                body(blocks[k], counts[k]);
+                                Counts cost;
+                                body(blocks[k], cost);
+                                counts[k] = cost;
                                 blocks[k].variance = detail::relative_variance(
                                     blocks[k], sums, picture.width, rule.epsilon);
                             },
