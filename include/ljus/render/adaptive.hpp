@@ -74,7 +74,7 @@ requires Renderer<R, T>
         for (int y = block.y; y < block.bottom; ++y)
             for (int x = block.x; x < block.right; ++x) {
                 const auto place = detail::pixel_index(result.image, x, y);
-                detail::PixelSums found = sums[place]; // a copy: see false sharing
+                detail::PixelSums found = sums[place]; // threads share no cache line
                 for (int i = 0; i < part.samples; ++i) {
                     const RgbT<double> sample(detail::sample_pixel(
                         renderer, camera, part, pattern, x, y, i, cost));
