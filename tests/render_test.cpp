@@ -184,3 +184,35 @@ TEST_CASE("render: one pixel's ray is the same alone as in the picture") {
         CHECK_FALSE(log.lines.empty());
     }
 }
+
+TEST_CASE("render: rows that are rendered apart are the whole, byte by byte") {
+    const Room room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    const auto tracer = make_path_tracer(room);
+    const RenderSettings picture{
+        .width = 21, .height = 13, .samples = 3, .seed = 4, .threads = 2};
+    const auto whole = render(tracer, Camera{}, picture);
+    for (const int parts : {1, 2, 3, 13}) {
+        Counts counts;
+        for (int i = 0; i < parts; ++i) {
+            const RowRange rows{13 * i / parts, 13 * (i + 1) / parts};
+            const auto part = render_rows(tracer, Camera{}, picture, rows);
+            REQUIRE(part.image.width == 21);
+            REQUIRE(part.image.height == rows.last - rows.first);
+            for (int y = rows.first; y < rows.last; ++y)
+                for (int x = 0; x < 21; ++x)
+                    CHECK(pixel(part.image, x, y - rows.first) ==
+                          pixel(whole.image, x, y));
+            counts += part.counts;
+        }
+        CHECK(counts.rays() == whole.counts.rays());
+    }
+    CHECK_THROWS_WITH_AS(
+        (void)render_rows(tracer, Camera{}, picture, {5, 5}),
+        "the first row is 5; it must be at least 0 and below the last.",
+        std::invalid_argument);
+    CHECK_THROWS_AS((void)render_rows(tracer, Camera{}, picture, {-1, 5}),
+                    std::invalid_argument);
+    CHECK_THROWS_WITH_AS((void)render_rows(tracer, Camera{}, picture, {5, 14}),
+                         "the last row is 14; it must be at most the picture's height.",
+                         std::invalid_argument);
+}

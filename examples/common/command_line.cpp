@@ -178,6 +178,13 @@ void CommandLine::add(const std::string& name, std::string& value,
     if (!words.empty()) option->check(CLI::IsMember(words).description(""));
 }
 
+void CommandLine::add(const std::string& name, std::vector<std::string>& values,
+                      const std::string& help) {
+    parser_->app.add_option(name, values, help)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->option_text("FILE...");
+}
+
 void CommandLine::add(const std::string& name, bool& value, const std::string& help) {
     parser_->app.add_flag(name, value, help);
 }
@@ -194,8 +201,14 @@ void CommandLine::file_types(const std::vector<std::string>& types) {
         ->option_text("PATH");
 }
 
+void CommandLine::without(const std::vector<std::string>& names) {
+    for (const std::string& name : names)
+        parser_->app.remove_option(parser_->app.get_option(name));
+}
+
 bool CommandLine::given(const std::string& name) const {
-    return parser_->app.count(name) > 0;
+    const CLI::Option* const option = parser_->app.get_option_no_throw(name);
+    return option != nullptr && option->count() > 0;
 }
 
 Options CommandLine::parse(const Presets& presets) {

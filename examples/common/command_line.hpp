@@ -93,6 +93,9 @@ public:
     /// A word out of a list; any text if the list is empty.
     void add(const std::string& name, std::string& value, const std::string& help,
              const std::vector<std::string>& words = {});
+    /// One or more words: all that follow up to the next option.
+    void add(const std::string& name, std::vector<std::string>& values,
+             const std::string& help);
     /// A switch: false unless it is given.
     void add(const std::string& name, bool& value, const std::string& help);
 
@@ -106,6 +109,10 @@ public:
     /// made or tried by parse(): see require_writable().
     /// \param types  As ".png".
     void file_types(const std::vector<std::string>& types);
+
+    /// Takes options away that mean nothing to this program.
+    /// \param names  Of those that all programs share, as "--seed".
+    void without(const std::vector<std::string>& names);
 
     /// Whether an option was given by name, and does not come from a quality or
     /// default.

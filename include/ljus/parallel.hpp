@@ -157,6 +157,7 @@ LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
         stop = stop || stopped;
     };
     const auto work = [&] {
+        // [next block]
         for (;;) {
             long long block = 0;
             {
@@ -171,6 +172,7 @@ LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
                     ++done;
                 }
                 report();
+                // [next block]
             } catch (...) {
                 const LockGuard turn(turns);
                 stop = true;

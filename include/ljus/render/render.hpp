@@ -85,7 +85,70 @@ template <typename R, template <std::floating_point> typename AnyCamera,
 
 } // namespace detail
 
-/// Renders a picture, row by row, by several threads.
+/// Some rows of a picture, counted from the top: first <= y < last.
+struct RowRange {
+    int first = 0; ///< The first one.
+    int last = 0;  ///< One past the last one.
+};
+
+/// Renders some rows of a picture, by several threads: one machine's part of it.
+///
+/// A ray's numbers depend on its pixel's place in the whole picture alone, so that rows
+/// rendered apart and put below each other are the picture of render(), byte by byte.
+/// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
+/// \param camera    A CameraT, or anything with a camera_ray().
+/// \param picture   Size of the whole, rays, seed, threads.
+/// \param rows      At least one of its rows.
+/// \return A picture of those rows alone. A sample that is not finite is left out and
+///         counted.
+/// \throws std::invalid_argument  if the size or the number of rays is below 1, or the
+///         rows are none of the picture's.
+template <typename R, template <std::floating_point> typename AnyCamera,
+          std::floating_point T>
+requires Renderer<R, T>
+[[nodiscard]] RenderedT<T> render_rows(const R& renderer, const AnyCamera<T>& camera,
+                                       const RenderSettings& picture,
+                                       const RowRange& rows) {
+    require(picture.samples >= 1, "samples", static_cast<long long>(picture.samples),
+            "at least 1");
+    detail::require_image_size(picture.width, picture.height);
+    require(rows.first >= 0 && rows.first < rows.last, "the first row",
+            static_cast<long long>(rows.first), "at least 0 and below the last");
+    require(rows.last <= picture.height, "the last row",
+            static_cast<long long>(rows.last), "at most the picture's height");
+    RenderedT<T> result{.image = make_image<T>(picture.width, rows.last - rows.first)};
+    const Pattern pattern = make_pattern(picture.sampling, picture.samples);
+    const int tiles = (picture.width + 15) / 16;
+    std::vector<Counts> counts(static_cast<std::size_t>(tiles) *
+                               static_cast<std::size_t>(result.image.height));
+    // [strip]
+    const auto strip = [&](long long number) {
+        const int row = static_cast<int>(number / tiles);
+        const int first = static_cast<int>(number % tiles) * 16;
+        Counts cost; // of its own: two threads do not share a cache line
+        for (int x = first; x < std::min(first + 16, picture.width); ++x) {
+            RgbT<double> sum{0}; // a float would lose the last of 100 000 samples
+            for (int i = 0; i < picture.samples; ++i) {
+                const RgbT<T> sample = detail::sample_pixel(
+                    renderer, camera, picture, pattern, x, rows.first + row, i, cost);
+                if (is_finite(sample))
+                    sum += RgbT<double>(sample);
+                else
+                    ++cost.rejected;
+            }
+            pixel(result.image, x, row) = RgbT<T>(sum / double(picture.samples));
+        }
+        counts[static_cast<std::size_t>(number)] = cost;
+    };
+    // [strip]
+    result.complete =
+        parallel_blocks(static_cast<long long>(counts.size()), strip,
+                        {.threads = picture.threads, .progress = picture.progress});
+    for (const Counts& cost : counts) result.counts += cost;
+    return result;
+}
+
+/// Renders a picture by several threads, in strips of 16 pixels.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    A CameraT, or anything with a camera_ray().
 /// \param picture   Size, rays, seed, threads.
@@ -97,36 +160,8 @@ template <typename R, template <std::floating_point> typename AnyCamera,
 requires Renderer<R, T>
 [[nodiscard]] RenderedT<T> render(const R& renderer, const AnyCamera<T>& camera,
                                   const RenderSettings& picture) {
-    require(picture.samples >= 1, "samples", static_cast<long long>(picture.samples),
-            "at least 1");
-    RenderedT<T> result{.image = make_image<T>(picture.width, picture.height)};
-    const Pattern pattern = make_pattern(picture.sampling, picture.samples);
-    const int tiles = (picture.width + 15) / 16;
-    std::vector<Counts> counts(static_cast<std::size_t>(tiles) *
-                               static_cast<std::size_t>(picture.height));
-    const auto strip = [&](long long number) {
-        const int y = static_cast<int>(number / tiles);
-        const int first = static_cast<int>(number % tiles) * 16;
-        Counts cost; // of its own: two threads do not share a cache line
-        for (int x = first; x < std::min(first + 16, picture.width); ++x) {
-            RgbT<double> sum{0}; // a float would lose the last of 100 000 samples
-            for (int i = 0; i < picture.samples; ++i) {
-                const RgbT<T> sample = detail::sample_pixel(renderer, camera, picture,
-                                                            pattern, x, y, i, cost);
-                if (is_finite(sample))
-                    sum += RgbT<double>(sample);
-                else
-                    ++cost.rejected;
-            }
-            pixel(result.image, x, y) = RgbT<T>(sum / double(picture.samples));
-        }
-        counts[static_cast<std::size_t>(number)] = cost;
-    };
-    result.complete =
-        parallel_blocks(static_cast<long long>(counts.size()), strip,
-                        {.threads = picture.threads, .progress = picture.progress});
-    for (const Counts& cost : counts) result.counts += cost;
-    return result;
+    detail::require_image_size(picture.width, picture.height);
+    return render_rows(renderer, camera, picture, {0, picture.height});
 }
 
 /// \}

@@ -1,0 +1,318 @@
+// concept: recursion_depth
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "ljus/inspect/metrics.hpp"
+#include "ljus/render/adaptive.hpp"
+#include "ljus/render/path_tracing.hpp"
+#include "support/rooms.hpp"
+
+using namespace ljus;
+
+namespace {
+
+/// A renderer whose rays have a known mean and variance in each half of the picture.
+struct Halves {
+    using Stream = RandomStream;
+    float left = 0.1f;  ///< Standard deviation of a ray in the left half.
+    float right = 0.4f; ///< The same in the right one.
+    float mean = 1;     ///< Of all.
+};
+
+/// Uniform noise of the standard deviation that the direction's side has.
+template <typename Log>
+Rgb radiance(const Halves& halves, const Ray& ray, RandomStream& stream, Counts&,
+             Log&&) {
+    const float noise = std::sqrt(3.0f) * (2 * next_1d(stream) - 1);
+    const float sigma = ray.direction.x < 0 ? halves.left : halves.right;
+    return Rgb{halves.mean + sigma * noise};
+}
+
+/// A renderer that sees a bright spot with a small chance, and nothing else.
+struct Spot {
+    using Stream = RandomStream;
+    float chance = 0.1f; ///< Of a ray.
+};
+template <typename Log>
+Rgb radiance(const Spot& spot, const Ray&, RandomStream& stream, Counts&, Log&&) {
+    return Rgb{next_1d(stream) < spot.chance ? 1.0f : 0.0f};
+}
+
+/// NaN for one ray in four.
+struct Broken {
+    using Stream = RandomStream;
+};
+template <typename Log>
+Rgb radiance(const Broken&, const Ray&, RandomStream& stream, Counts&, Log&&) {
+    return Rgb{next_1d(stream) < 0.25f ? std::numeric_limits<float>::quiet_NaN() : 1};
+}
+
+bool same_bytes(const Image& a, const Image& b) {
+    return a.width == b.width && a.height == b.height &&
+           std::memcmp(a.pixels.data(), b.pixels.data(),
+                       a.pixels.size() * sizeof(Rgb)) == 0;
+}
+
+double mean_of(const Image& image) {
+    double sum = 0;
+    for (const Rgb& c : image.pixels) sum += double(c.x);
+    return sum / double(image.pixels.size());
+}
+
+RenderSettings square(int size, int samples, std::uint64_t seed = 1) {
+    return {.width = size, .height = size, .samples = samples, .seed = seed};
+}
+
+} // namespace
+
+TEST_CASE("adaptive: rays are shared out by the root of the variance") {
+    // Two parts, variances 1 and 16, sizes 3 and 1: n = scale (1, 4). The mean error is
+    // (3 / n1 + 16 / n2) / 4 = (3 + 4) / (4 scale): 0.01 for scale 175.
+    using Parts = std::vector<detail::RayShare>;
+    const Parts parts{{3, 1, 1}, {1, 16, 1}};
+    const auto shares = detail::ray_shares(parts, 0.01, 1e9);
+    CHECK(shares[0] == doctest::Approx(175));
+    CHECK(shares[1] == doctest::Approx(700));
+    // With a limit of 70 rays in the mean: scale = 4 * 70 / 7.
+    const auto limited = detail::ray_shares(parts, 0, 70);
+    CHECK(limited[0] == doctest::Approx(40));
+    CHECK(limited[1] == doctest::Approx(160));
+    CHECK(detail::ray_shares(parts, 0.01, 70) == limited);
+    // No other division of the same rays is better.
+    const auto error = [](double a, double b) { return (3 / a + 16 / b) / 4; };
+    for (const double shift : {-9.0, -1.0, 1.0, 9.0})
+        CHECK(error(40 + shift, 160 - 3 * shift) > error(40, 160));
+    // A part that has more than its share keeps it, and the other pays for less: the
+    // target is still met, (3 / 1000 + 16 / n) / 4 = 0.01.
+    const auto rest = detail::ray_shares(Parts{{3, 1, 1000}, {1, 16, 1}}, 0.01, 1e9);
+    CHECK(rest[0] == 1000);
+    CHECK(rest[1] == doctest::Approx(16 / (0.04 - 0.003)));
+    // Nothing to gain, and nothing at all.
+    CHECK(detail::ray_shares(Parts{{1, 0, 7}}, 0.01, 100) == std::vector<double>{7});
+    CHECK(detail::ray_shares({}, 0.01, 100).empty());
+}
+
+TEST_CASE("adaptive: with nothing more to give it is render(), byte by byte") {
+    const ljus_test::Room room =
+        ljus_test::make_room<float>(ljus_test::Ball::glass, ljus_test::Lamp::quad, 1);
+    const auto tracer = make_path_tracer(room);
+    const Camera camera;
+    for (const Sampling sampling : {Sampling::random, Sampling::multi_jittered}) {
+        RenderSettings picture = square(13, 6, 5);
+        picture.sampling = sampling;
+        const Image plain = render(tracer, camera, picture).image;
+        for (const int block : {1, 4, 100}) {
+            const auto seen = render_adaptive(
+                tracer, camera, picture, {.first = 6, .batches = 0, .block = block});
+            CHECK(same_bytes(seen.image, plain));
+            CHECK(seen.counts.camera_rays == 13 * 13 * 6);
+            CHECK(mean_of(seen.rays) == 6);
+        }
+    }
+}
+
+TEST_CASE("adaptive: the same bytes for any number of threads") {
+    const ljus_test::Room room =
+        ljus_test::make_room<float>(ljus_test::Ball::glass, ljus_test::Lamp::quad, 1);
+    const auto tracer = make_path_tracer(room);
+    for (const bool two_stage : {false, true}) {
+        const AdaptiveSettings rule{
+            .first = 4, .more = 4, .block = 3, .target = 0.05, .two_stage = two_stage};
+        RenderSettings picture = square(20, 40);
+        picture.threads = 1;
+        const auto one = render_adaptive(tracer, Camera{}, picture, rule);
+        CHECK(one.counts.camera_rays > 20 * 20 * 4);
+        for (const int threads : {2, 3, 8}) {
+            picture.threads = threads;
+            const auto many = render_adaptive(tracer, Camera{}, picture, rule);
+            CHECK(same_bytes(one.image, many.image));
+            CHECK(same_bytes(one.rays, many.rays));
+            CHECK(one.estimate == many.estimate);
+            CHECK(std::memcmp(&one.counts, &many.counts, sizeof(Counts)) == 0);
+        }
+    }
+}
+
+TEST_CASE("adaptive: it stops at the target, and the error is what it says") {
+    // The truth is 1 everywhere, variances 0.01 and 0.16 of 1.01: relMSE 0.0004 takes
+    // scale (1, 4) = roots/target: (0.1 + 0.4) / 2 / 0.000404, 62 and 248 rays.
+    // With blocks of 64 pixels and 16 rays a variance is known within 3 %, the picture's
+    // error over 4096 pixels and three equal channels within sqrt(2 / 4096) = 2.2 %: 12 %
+    // are more than 5 standard errors, and the first seed that fails is news.
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        const auto seen = render_adaptive(Halves{}, Camera{}, square(64, 1000, seed),
+                                          {.block = 8, .target = 0.0004});
+        CHECK(seen.reached);
+        CHECK(seen.estimate <= 0.0004);
+        CHECK(seen.estimate > 0.00034); // whole batches of 16 are more than needed
+        const double error = rel_mse(seen.image, make_image(64, 64, Rgb{1}));
+        CHECK(error == doctest::Approx(seen.estimate).epsilon(0.12));
+        const double left = double(pixel(seen.rays, 5, 20).x);
+        const double right = double(pixel(seen.rays, 60, 20).x);
+        CHECK(left == doctest::Approx(62).epsilon(0.35)); // whole batches
+        CHECK(right == doctest::Approx(248).epsilon(0.15));
+        // Fewer than equal numbers would take: 0.085 / 1.01 / 0.0004 = 210.
+        CHECK(mean_of(seen.rays) < 180);
+    }
+}
+
+TEST_CASE("adaptive: the limit for the mean is kept, and used") {
+    for (const int samples : {16, 17, 31, 32, 50, 100}) {
+        const auto seen =
+            render_adaptive(Halves{}, Camera{}, square(32, samples), {.block = 8});
+        CHECK(mean_of(seen.rays) <= samples);
+        CHECK(mean_of(seen.rays) > samples - 16);
+        CHECK_FALSE(seen.reached);
+        CHECK(seen.counts.camera_rays ==
+              std::uint64_t(std::lround(mean_of(seen.rays) * 1024)));
+    }
+    // Neither is that of batches exceeded.
+    const auto seen = render_adaptive(Halves{}, Camera{}, square(32, 1000),
+                                      {.batches = 2, .target = 1e-9});
+    for (const Rgb& rays : seen.rays.pixels) CHECK(rays.x <= 48);
+    const auto twice =
+        render_adaptive(Halves{}, Camera{}, square(32, 1000),
+                        {.batches = 2, .target = 1e-9, .two_stage = true});
+    for (const Rgb& rays : twice.rays.pixels) CHECK(rays.x <= 48);
+}
+
+TEST_CASE("adaptive: pixels whose first rays disagree get more, and no others") {
+    // Left no noise, right plenty.
+    const auto seen =
+        render_adaptive(Halves{.left = 0}, Camera{}, square(32, 10),
+                        {.first = 2, .more = 8, .batches = 1, .disagreement = 0.05});
+    int more = 0;
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 32; ++x) {
+            const float rays = pixel(seen.rays, x, y).x;
+            CHECK((rays == 2 || rays == 10));
+            if (x < 16) CHECK(rays == 2);
+            more += rays == 10;
+        }
+    // Two rays disagree by less than 0.05 if their difference, over 2, is below 0.05:
+    // uniform within 0.693 each, so that d = |a - b| is below 0.1 with chance
+    // 1 - (1 - 0.1 / 1.386)^2 = 0.139, of 512 pixels 71; the mean in the denominator
+    // changes that by a little. 5 standard errors are 39.
+    CHECK(more > 512 - 71 - 39);
+    CHECK(more < 512 - 71 + 39);
+}
+
+TEST_CASE("adaptive: choosing by the rays that are averaged is biased, as foretold") {
+    // A spot that a ray sees with chance p. The first two agree on 0 or 1, or disagree
+    // and get 8 more: the mean is p^2 + 2 p (1 - p) (1 + 8 p) / 10, and not p. Its
+    // standard error over 128 x 128 pixels is below 0.3 / 128: 5 of them are allowed.
+    const double p = 0.1;
+    const RenderSettings picture = square(128, 10);
+    const double biased = mean_of(
+        render_adaptive(Spot{}, Camera{}, picture,
+                        {.first = 2, .more = 8, .batches = 1, .disagreement = 0.01})
+            .image);
+    const double foretold = p * p + 2 * p * (1 - p) * (1 + 8 * p) / 10;
+    CHECK(biased == doctest::Approx(foretold).epsilon(0.012 / foretold));
+    CHECK(foretold < 0.5 * p); // more than half of the light is lost
+    // Judged in large blocks, which see it all: hardly any bias.
+    const double in_blocks = mean_of(
+        render_adaptive(
+            Spot{}, Camera{}, picture,
+            {.first = 2, .more = 8, .batches = 1, .block = 32, .disagreement = 0.01})
+            .image);
+    CHECK(in_blocks == doctest::Approx(p).epsilon(0.012 / p));
+}
+
+TEST_CASE("adaptive: in two stages there is no bias") {
+    // The same spot, judged pixel by pixel: n depends on the first rays alone, which are
+    // forgotten. The mean over 16 seeds has a standard error of at most
+    // 0.3 / sqrt(2 * 16 * 64^2) = 0.0008; 5 of them are allowed.
+    double mean = 0, few = 0;
+    for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+        const auto seen = render_adaptive(Spot{}, Camera{}, square(64, 12, seed),
+                                          {.first = 4, .more = 2, .two_stage = true});
+        mean += mean_of(seen.image) / 16;
+        CHECK(mean_of(seen.rays) <= 12);
+        for (const Rgb& rays : seen.rays.pixels) few += rays.x < 6;
+    }
+    CHECK(mean == doctest::Approx(0.1).epsilon(0.04));
+    CHECK(few == 0); // a batch of two at least, and the four
+    // The target, by one division of the rays: 0.01 / n and 0.16 / n.
+    const auto seen =
+        render_adaptive(Halves{}, Camera{}, square(64, 1000),
+                        {.block = 8, .target = 0.0004, .two_stage = true});
+    const double error = rel_mse(seen.image, make_image(64, 64, Rgb{1}));
+    CHECK(error == doctest::Approx(0.0004).epsilon(0.15));
+    CHECK(double(pixel(seen.rays, 60, 20).x) ==
+          doctest::Approx(248 + 16).epsilon(0.15));
+}
+
+TEST_CASE("adaptive: black, not a number, one pixel, narrow pictures") {
+    const auto black =
+        render_adaptive(Halves{0, 0, 0}, Camera{}, square(9, 100), {.target = 0.01});
+    CHECK(black.estimate == 0);
+    CHECK(black.reached);
+    CHECK(mean_of(black.rays) == 16);
+    const auto broken =
+        render_adaptive(Broken{}, Camera{}, square(20, 64), {.target = 1e-6});
+    CHECK(broken.counts.rejected > 20 * 20 * 10);
+    for (const Rgb& c : broken.image.pixels) CHECK(is_finite(c));
+    for (const int width : {1, 7})
+        for (const int block : {1, 3, 1000}) {
+            const auto seen = render_adaptive(
+                Halves{}, Camera{}, {.width = width, .height = 1, .samples = 64},
+                {.block = block, .target = 0.001});
+            CHECK(seen.image.width == width);
+            for (const Rgb& c : seen.image.pixels) CHECK(is_finite(c));
+        }
+}
+
+TEST_CASE("adaptive: progress goes up to the end, and stops it") {
+    long long last = -1, total = 0;
+    int falls = 0;
+    auto watch = [&](long long done, long long all) {
+        falls += done < last;
+        last = done;
+        total = all;
+        return true;
+    };
+    RenderSettings picture = square(24, 64);
+    picture.progress = watch;
+    CHECK(render_adaptive(Halves{}, Camera{}, picture, {.target = 0.001}).complete);
+    CHECK(falls == 0);
+    CHECK(last == total);
+    CHECK(total == 24 * 24 * 64);
+    auto stop = [&](long long done, long long) { return done < 24 * 24 * 8; };
+    picture.progress = stop;
+    picture.threads = 1;
+    const auto stopped = render_adaptive(Halves{}, Camera{}, picture, {});
+    CHECK_FALSE(stopped.complete);
+    for (const Rgb& c : stopped.image.pixels) CHECK(is_finite(c));
+}
+
+TEST_CASE("adaptive: a rule without sense is refused with its value") {
+    const auto refused = [](const AdaptiveSettings& rule, int samples,
+                            const char* sentence) {
+        CHECK_THROWS_WITH_AS(
+            (void)render_adaptive(Halves{}, Camera{}, square(4, samples), rule),
+            sentence, std::invalid_argument);
+    };
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    refused({.first = 1}, 64, "first is 1; it must be at least 2.");
+    refused({.more = 0}, 64, "more is 0; it must be at least 1.");
+    refused({.batches = -1}, 64, "batches is -1; it must be at least 0.");
+    refused({.block = 0}, 64, "block is 0; it must be at least 1.");
+    refused({.target = -0.1}, 64, "target is -0.1; it must be at least 0.");
+    refused({.target = nan}, 64, "target is NaN; it must be at least 0.");
+    refused({.disagreement = -1}, 64, "disagreement is -1; it must be at least 0.");
+    refused({.epsilon = 0}, 64, "epsilon is 0; it must be finite and above 0.");
+    refused({.disagreement = 0.1, .two_stage = true}, 64,
+            "disagreement is 0.1; it must be 0 with two_stage.");
+    refused({.more = 1, .two_stage = true}, 64, "more is 1; it must be at least 2.");
+    refused({.batches = 0, .two_stage = true}, 64,
+            "batches is 0; it must be at least 1.");
+    refused({}, 15, "samples is 15; it must be at least as many as first rays.");
+    refused({.two_stage = true}, 31,
+            "samples is 31; it must be at least first + more.");
+}

@@ -1,0 +1,48 @@
+# Rows of a machine's part that are traced as if they were the first ones: each strip
+# shows the top of the picture.
+ljus_break_it(NAME parallel-rows HEADER render/render.hpp TEST render
+    FROM "x, rows.first + row, i, cost"
+    TO   "x, row, i, cost"
+    CASES "render: rows that are*")
+
+# Blocks in turns: two threads are given the same one where one had it.
+ljus_break_it(NAME parallel-next HEADER parallel.hpp TEST parallel
+    FROM "block = next++;"
+    TO   "block = next++ / 2 * 2;"
+    CASES "parallel: every block*")
+
+# The last block with as many things as all others.
+ljus_break_it(NAME parallel-last HEADER parallel.hpp TEST parallel
+    FROM "total - first < size ? total : first + size"
+    TO   "first + size"
+    CASES "parallel: blocks cover*")
+
+# Things that fill no whole block are forgotten.
+ljus_break_it(NAME parallel-rest HEADER parallel.hpp TEST parallel
+    FROM "(total % size != 0 ? 1 : 0)"
+    TO   "0"
+    CASES "parallel: blocks cover*")
+
+# Which exception comes out is decided by chance.
+ljus_break_it(NAME parallel-first-exception HEADER parallel.hpp TEST parallel
+    FROM "if (block < failed_block) {"
+    TO   "if (block != failed_block) {"
+    CASES "parallel: of all exceptions*")
+
+# A failure that nobody hears of.
+ljus_break_it(NAME parallel-silent HEADER parallel.hpp TEST parallel
+    FROM "if (failure) std::rethrow_exception(failure);"
+    TO   ""
+    CASES "parallel: of all exceptions*")
+
+# One thread, whatever was asked for: the picture is the same.
+ljus_break_it(NAME parallel-alone HEADER parallel.hpp TEST parallel
+    FROM "if (threads > 1) {"
+    TO   "if (threads > 1000000) {"
+    CASES "parallel: more than one thread*")
+
+# A loop that was stopped says that it is done.
+ljus_break_it(NAME parallel-done HEADER parallel.hpp TEST parallel
+    FROM "return done >= count;"
+    TO   "return done >= 0;"
+    CASES "parallel: false from progress*")

@@ -1,0 +1,67 @@
+# Rays by the variance and not by its root.
+ljus_break_it(NAME adaptive-root HEADER render/detail/ray_shares.hpp TEST adaptive
+    FROM "wanted[i] = scale * std::sqrt(parts[i].variance);"
+    TO   "wanted[i] = scale * parts[i].variance;"
+    CASES "adaptive: rays are shared*")
+
+# Parts that have enough already count as if they had an error still.
+ljus_break_it(NAME adaptive-settled HEADER render/detail/ray_shares.hpp TEST adaptive
+    FROM "error += part.pixels * part.variance / part.rays;"
+    TO   "error += 0;"
+    CASES "adaptive: rays are shared*")
+
+# The error of one ray in place of that of their mean.
+ljus_break_it(NAME adaptive-mean HEADER render/adaptive.hpp TEST adaptive
+    FROM "error += block.pixels() * block.variance / std::max(block.rays, 1);"
+    TO   "error += block.pixels() * block.variance;"
+    CASES "adaptive: it stops at the target*")
+
+# Absolute in place of relative: dark pixels do not count.
+ljus_break_it(NAME adaptive-relative HEADER render/detail/adaptive_blocks.hpp
+    TEST adaptive
+    FROM "variance / (mean * mean + epsilon)"
+    TO   "variance / epsilon"
+    CASES "adaptive: it stops at the target*")
+
+# The same rays again in each batch: nothing is learned from them.
+ljus_break_it(NAME adaptive-seed HEADER render/adaptive.hpp TEST adaptive
+    FROM "if (batch > 0)"
+    TO   "if (batch < 0)"
+    CASES "adaptive: it stops at the target*")
+
+# The first rays decide, and are counted as well.
+ljus_break_it(NAME adaptive-forgotten HEADER render/adaptive.hpp TEST adaptive
+    FROM "sums.assign(sums.size(), {});"
+    TO   ""
+    CASES "adaptive: in two stages*")
+
+# The limit for the mean is not kept.
+ljus_break_it(NAME adaptive-limit HEADER render/detail/adaptive_blocks.hpp TEST adaptive
+    FROM "spare -= cost * blocks[i].wanted;"
+    TO   ""
+    CASES "adaptive: the limit for the mean*")
+
+# All get more as soon as one pixel does.
+ljus_break_it(NAME adaptive-disagreement HEADER render/detail/adaptive_blocks.hpp
+    TEST adaptive
+    FROM "> rule.disagreement;"
+    TO   ">= 0;"
+    CASES "adaptive: pixels whose first rays*")
+
+# Roulette without the division: the report's program lost light like this.
+ljus_break_it(NAME depth-roulette HEADER path/path_state.hpp TEST recursion_depth
+    FROM "throughput /= probability;"
+    TO   ""
+    CASES "recursion_depth: roulette loses*")
+
+# One surface fewer than was asked for.
+ljus_break_it(NAME depth-limit HEADER render/path_tracing.hpp TEST recursion_depth
+    FROM "if (path.depth > settings.max_depth) break;"
+    TO   "if (path.depth >= settings.max_depth) break;"
+    CASES "recursion_depth: a limit*")
+
+# One surface more on a path of the photon mapper.
+ljus_break_it(NAME depth-photons HEADER render/photon_mapping.hpp TEST recursion_depth
+    FROM "while (path.depth < settings.max_depth) {"
+    TO   "while (path.depth <= settings.max_depth) {"
+    CASES "recursion_depth: the depth of*")

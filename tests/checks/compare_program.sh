@@ -1,0 +1,99 @@
+#!/usr/bin/env bash
+# The program examples/compare.cpp: what it says of pictures whose errors are known, what
+# it writes, and that a wrong use ends with one sentence and exit code 2.
+# Usage: compare_program.sh PROGRAM SCRATCH
+set -euo pipefail
+compare=$1
+scratch=$2
+rm -rf "$scratch"
+mkdir -p "$scratch"
+cd "$scratch"
+wrong=0
+wrong() { echo "WRONG: $*"; wrong=1; }
+
+# grey NAME WIDTH HEIGHT BITS: a PFM file of one grey, whose float has these bits, in hex
+# and from the lowest byte.
+grey() {
+    local i=0
+    { printf 'Pf\n%d %d\n-1.0\n' "$2" "$3"
+      while [ $i -lt $(($2 * $3)) ]; do printf "$4"; i=$((i + 1)); done } >"$1"
+}
+half='\x00\x00\x00\x3f' # 0.5
+one='\x00\x00\x80\x3f'
+grey one.pfm 30 20 "$one"
+grey half.pfm 30 20 "$half"
+grey small.pfm 20 20 "$one"
+grey nan.pfm 30 20 '\x00\x00\xc0\x7f'
+
+# refused SENTENCE ARGUMENTS...: exit code 2, and one line on stderr that has SENTENCE.
+refused() {
+    local sentence=$1 code=0
+    shift
+    "$compare" "$@" >out.txt 2>err.txt </dev/null || code=$?
+    [ $code -eq 2 ] || wrong "ljus-compare $*: exit code $code, not 2"
+    [ "$(wc -l <err.txt)" -eq 1 ] || wrong "ljus-compare $*: not one line: $(cat err.txt)"
+    grep -qF -- "$sentence" err.txt || wrong "ljus-compare $*: no '$sentence' in: $(cat err.txt)"
+}
+# says SENTENCE: the last output has it.
+says() { grep -qF -- "$1" out.txt || wrong "no '$1' in: $(cat out.txt)"; }
+
+# Equal pictures, and one half as bright as the other: (1/2)^2 / 1.01.
+"$compare" one.pfm one.pfm >out.txt
+says 'difference +0.00 %'
+says 'relMSE           0 '
+"$compare" half.pfm one.pfm >out.txt
+says 'difference -50.00 %'
+says 'RMSE             0.5'
+says 'relMSE           0.24752 '
+says 'trimmed          0.24752 '
+says 'block error      0.24752 '
+"$compare" half.pfm one.pfm --epsilon 0 --json >out.txt
+says '"epsilon": 0.01,' # (0.1 times a mean of 1)^2
+says '"per_cent": -50,'
+says '"rmse": 0.5,'
+[ "$(wc -l <out.txt)" -eq 1 ] || wrong "--json is not one line"
+"$compare" half.pfm one.pfm --quiet >out.txt
+[ ! -s out.txt ] || wrong "--quiet is not quiet: $(cat out.txt)"
+grey black.pfm 30 20 '\x00\x00\x00\x00'
+"$compare" one.pfm black.pfm >out.txt
+says 'difference unknown: it is black'
+
+# Blocks: 0.5 and 1 have the mean 0.75 with a standard error of 0.25.
+"$compare" half.pfm one.pfm --pieces one.pfm --blocks blocks.csv >out.txt
+says '2 runs, 3 x 2 blocks of three channels: standard error 0.25;'
+says 'where noise alone makes 3.7;' # of 18: Student's tails beyond 3 hold a fifth
+[ "$(wc -l <blocks.csv)" -eq 19 ] || wrong "not 18 blocks: $(cat blocks.csv)"
+grep -q '^2,1,b,0.75,0.25,1,-1$' blocks.csv || wrong "the last block: $(tail -1 blocks.csv)"
+
+# Maps, also of equal pictures; the colours' range can be set.
+for map in flip relative difference; do
+    "$compare" half.pfm one.pfm --map $map --out new/$map.png --quiet
+    "$compare" one.pfm one.pfm --map $map --out new/$map-0.png --quiet
+    "$compare" half.pfm one.pfm --map $map --range 3 --out new/$map-3.png --quiet
+    cmp -s new/$map.png new/$map-0.png && wrong "--map $map does not see the difference"
+done
+cmp -s new/relative.png new/relative-3.png && wrong "--range changes nothing"
+cmp -s new/relative.png new/difference.png && wrong "a darker picture has no sign"
+"$compare" new/flip.png new/flip.png >out.txt # PNG files are read
+says 'difference +0.00 %'
+
+refused "REFERENCE is required" one.pfm
+refused "cannot read 'none.pfm'" none.pfm one.pfm
+refused "'small.pfm' has 20 x 20 pixels and 'one.pfm' 30 x 20: they must be alike" \
+    small.pfm one.pfm
+refused "'small.pfm' has 20 x 20 pixels and 'half.pfm' 30 x 20: they must be alike" \
+    half.pfm one.pfm --pieces one.pfm small.pfm
+refused "the pixel in column 0, row 0 of 'nan.pfm' is not finite" nan.pfm one.pfm
+refused "the pixel in column 0, row 0 of 'nan.pfm' is not finite" one.pfm nan.pfm
+refused "--blocks needs --pieces" half.pfm one.pfm --blocks b.csv
+refused "--map" half.pfm one.pfm --map heat
+refused "--epsilon" half.pfm one.pfm --epsilon -1
+refused "--seed" half.pfm one.pfm --seed 3
+refused "cannot write" half.pfm one.pfm --map flip --out /proc/none/a.png
+head -c 100 one.pfm >short.pfm
+refused "short.pfm" short.pfm one.pfm
+printf 'no picture' >text.png
+refused "text.png is no picture that can be read" text.png one.pfm
+
+[ $wrong -eq 0 ] && echo "ljus-compare does what it says"
+exit $wrong

@@ -1,0 +1,78 @@
+#!/usr/bin/env bash
+# The program examples/32_many_machines.cpp: 1 to 4 ranks make the bytes of one process,
+# and a rank that dies leaves no picture. Exit code 77 where mpirun cannot start a rank.
+# Usage: many_machines.sh MPIRUN PROGRAM SCRATCH [RENDER SCENE.json]
+set -euo pipefail
+mpirun=$1
+program=$2
+scratch=$3
+render=${4:-}
+scene=${5:-}
+rm -rf "$scratch"
+mkdir -p "$scratch"
+cd "$scratch"
+wrong=0
+wrong() { echo "WRONG: $*"; wrong=1; }
+
+# All ranks on this machine, whoever asks, and more of them than it has processors.
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl_base_warn_component_unused=0
+export OMPI_MCA_btl=self,vader,tcp OMPI_MCA_btl_vader_single_copy_mechanism=none
+ranks() { local n=$1; shift; timeout 120 "$mpirun" -n "$n" "$@"; }
+ranks 1 true >out.txt 2>&1 || { echo "mpirun does not start: $(head -3 out.txt)"; exit 77; }
+
+few=(--width 40 --height 30 --rays 2 --caustic-photons 5000 --threads 1)
+"$program" "${few[@]}" --quiet --out alone.pfm # without mpirun: one rank
+for n in 1 2 3 4; do
+    ranks $n "$program" "${few[@]}" --out ranks$n.pfm >out.txt || wrong "$n ranks: exit code $?"
+    cmp alone.pfm ranks$n.pfm || wrong "$n ranks made another picture"
+    grep -q "^$n ranks:" out.txt || wrong "no line of $n ranks: $(cat out.txt)"
+done
+# More ranks than rows, and two threads each.
+ranks 3 "$program" --width 9 --height 2 --rays 1 --caustic-photons 2 --threads 2 --quiet \
+    --out few.pfm || wrong "more ranks than rows"
+"$program" --width 9 --height 2 --rays 1 --caustic-photons 2 --quiet --out few1.pfm
+cmp few.pfm few1.pfm || wrong "more ranks than rows make another picture"
+"$program" "${few[@]}" --seed 2 --quiet --out seed.pfm
+! cmp -s alone.pfm seed.pfm || wrong "--seed changes nothing"
+
+# The program that knows nothing of ranks makes the same picture of a scene file.
+if [ -n "$render" ]; then
+    "$render" "$scene" "${few[@]}" --quiet --out render.pfm
+    ranks 3 "$program" --scene "$scene" "${few[@]}" --quiet --out ranks.pfm
+    cmp render.pfm ranks.pfm || wrong "3 ranks make another picture than render"
+fi
+
+# A wrong use: one sentence a rank, no picture, no rank that waits for ever.
+code=0
+ranks 2 "$program" --scene none.json --out never.pfm >out.txt 2>err.txt || code=$?
+[ $code -ne 0 ] && [ $code -ne 124 ] || wrong "a missing scene: exit code $code"
+grep -q "cannot read 'none.json'" err.txt || wrong "no sentence: $(cat err.txt)"
+
+# A rank that is killed ends the others, and leaves no picture and no half of one.
+timeout 120 "$mpirun" -n 3 "$program" --width 200 --height 200 --rays 100000 --threads 1 \
+    --out never.pfm >out.txt 2>err.txt &
+job=$!
+victim=
+for _ in 1 2 3 4 5 6 7 8 9 10; do
+    sleep 0.5
+    child=$(pgrep -P "$job" -f mpirun || true)
+    victim=$(pgrep -P "${child:-$job}" -f -- '--out never.pfm' | tail -1 || true)
+    [ -z "$victim" ] || break
+done
+sleep 1
+if [ -n "$victim" ]; then
+    kill -9 "$victim"
+    code=0
+    wait $job || code=$?
+    [ $code -ne 0 ] && [ $code -ne 124 ] || wrong "a killed rank: exit code $code"
+    grep -q 'signal 9' err.txt out.txt || wrong "mpirun does not say who died: $(cat err.txt)"
+else
+    wrong "no rank to kill was found"
+    kill "$job" || true
+fi
+[ ! -e never.pfm ] || wrong "there is a picture"
+leftover=$(find . -name '*.part*' -o -name '.ljus*')
+[ -z "$leftover" ] || wrong "left behind: $leftover"
+[ $wrong -eq 0 ] && echo "many machines make the picture of one"
+exit $wrong
