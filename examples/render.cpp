@@ -3,6 +3,7 @@
 ///
 ///     render scene.json --out picture.png
 ///     render scene.json --out picture.pfm --renderer path --rays 1000
+///     render scene.json --preset fast          settings that go together
 ///     render scene.json --plan                 what would run, and why
 ///     render scene.json --explain 120,80       why a pixel has its colour
 ///     render scene.json --photons shadow       the photons of a kind, as dots
@@ -23,6 +24,8 @@
 #include "ljus/io/load_json.hpp"
 #include "ljus/io/pfm.hpp"
 #include "ljus/io/png.hpp"
+#include "ljus/math/stratified_stream.hpp"
+#include "ljus/render/adaptive.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #ifdef LJUS_HAS_TINYOBJLOADER
 #include "ljus/io/load_obj.hpp"
@@ -52,7 +55,10 @@ struct Request {
     std::string scene;
     std::string renderer = "photon";
     std::string indirect = "rays";
-    std::string kernel = "epanechnikov";
+    std::string direct = "sampled";
+    std::string preset;
+    std::string caustic_kernel = "epanechnikov";
+    std::string general_kernel = "epanechnikov";
     std::string sampling = "multi-jittered";
     std::string precision = "float";
     std::string pixel;
@@ -60,11 +66,20 @@ struct Request {
     int depth = 1000;
     int roulette = 4;
     int shadow_rays = 1;
-    int nearest = 0;
+    int caustic_nearest = 0;
+    int general_nearest = 0;
+    int irradiance_every = 16;
+    int irradiance_nearest = 64;
+    int gather_rays = 25;
+    int gather_tile = 3;
+    int gather_nearest = 6;
+    int more_rays = 0;
     long long caustic_photons = 100'000;
     long long general_photons = 100'000;
     double radius = 0.1;
     double general_radius = 0.3;
+    double gather_reach = 1;
+    double disagreement = 0.22;
     double exposure = 0.0;
     bool split_glass = false;
     bool plan = false;
@@ -73,7 +88,10 @@ struct Request {
 // The names of what is chosen by a word, in the order of its enum.
 const std::vector<std::string> kernels{"box", "cone", "gaussian", "epanechnikov",
                                        "biweight"};
-const std::vector<std::string> indirect_lights{"rays", "map", "photons", "none"};
+const std::vector<std::string> indirect_lights{"rays",   "map",   "photons",
+                                               "gather", "cache", "none"};
+const std::vector<std::string> direct_lights{"sampled", "analytic", "mis"};
+const std::vector<std::string> presets{"draft", "fast", "exact"};
 const std::vector<std::string> patterns{"random", "jittered", "multi-jittered",
                                         "sobol"};
 
@@ -85,28 +103,62 @@ Enum chosen(const std::vector<std::string>& words, const std::string& word) {
     return static_cast<Enum>(i);
 }
 
+/// The settings of a request: those of its preset, and what was given by name.
 PhotonMappingSettings settings_of(const Request& request,
-                                  const examples::Options& options) {
+                                  const examples::CommandLine& line,
+                                  const examples::Options& options,
+                                  const RenderSettings& picture) {
     PhotonMappingSettings settings;
-    settings.max_depth = request.depth;
-    settings.roulette_depth = request.roulette;
-    settings.shadow_rays = request.shadow_rays;
-    settings.split_glass = request.split_glass;
-    settings.indirect = chosen<IndirectLight>(indirect_lights, request.indirect);
-    settings.caustics.photons = request.caustic_photons;
-    settings.general.photons = request.general_photons;
+    if (!request.preset.empty())
+        settings = preset_settings(chosen<Preset>(presets, request.preset),
+                                   picture.width, picture.height);
+    const auto set = [&](const char* option, auto& setting, const auto& value) {
+        if (request.preset.empty() || line.given(option))
+            setting = static_cast<std::remove_cvref_t<decltype(setting)>>(value);
+    };
+    set("--depth", settings.max_depth, request.depth);
+    set("--roulette", settings.roulette_depth, request.roulette);
+    set("--shadow-rays", settings.shadow_rays, request.shadow_rays);
+    set("--direct", settings.direct,
+        chosen<DirectLight>(direct_lights, request.direct));
+    set("--split-glass", settings.split_glass, request.split_glass);
+    set("--indirect", settings.indirect,
+        chosen<IndirectLight>(indirect_lights, request.indirect));
+    set("--caustic-photons", settings.caustics.photons, request.caustic_photons);
+    set("--general-photons", settings.general.photons, request.general_photons);
+    set("--radius", settings.caustics_estimate.radius, request.radius);
+    set("--general-radius", settings.general_estimate.radius, request.general_radius);
+    set("--caustic-nearest", settings.caustics_estimate.nearest,
+        request.caustic_nearest);
+    set("--general-nearest", settings.general_estimate.nearest,
+        request.general_nearest);
+    set("--caustic-kernel", settings.caustics_estimate.kernel,
+        chosen<Kernel>(kernels, request.caustic_kernel));
+    set("--general-kernel", settings.general_estimate.kernel,
+        chosen<Kernel>(kernels, request.general_kernel));
+    set("--irradiance-every", settings.irradiance.every, request.irradiance_every);
+    set("--irradiance-nearest", settings.irradiance.nearest,
+        request.irradiance_nearest);
+    set("--gather-rays", settings.gather.rays, request.gather_rays);
+    set("--gather-tile", settings.gather.tile, request.gather_tile);
+    set("--gather-nearest", settings.gather.nearest, request.gather_nearest);
+    set("--gather-reach", settings.gather.reach, request.gather_reach);
     for (PhotonPassSettings* pass : {&settings.caustics, &settings.general}) {
         pass->seed = options.seed;
         pass->threads = options.threads;
     }
-    settings.caustics_estimate.radius = static_cast<float>(request.radius);
-    settings.general_estimate.radius = static_cast<float>(request.general_radius);
-    for (DensityEstimateSettings* gather :
-         {&settings.caustics_estimate, &settings.general_estimate}) {
-        gather->nearest = static_cast<std::size_t>(request.nearest);
-        gather->kernel = chosen<Kernel>(kernels, request.kernel);
-    }
     return settings;
+}
+
+/// Rays in a pixel of a preset, before those where they disagree.
+void set_samples(Request& request, const examples::CommandLine& line,
+                 RenderSettings& picture) {
+    if (request.preset.empty()) return;
+    const bool fast = request.preset == "fast";
+    if (!line.given("--rays"))
+        picture.samples = fast ? 2 : request.preset == "draft" ? 1 : 64;
+    if (!line.given("--more-rays") && fast && picture.samples > 1)
+        request.more_rays = 8;
 }
 
 /// The numbers of "120,80".
@@ -162,55 +214,137 @@ RenderedT<T> run(const Renderer& renderer, const CameraT<T>& camera,
     const examples::StopWatch watch;
     examples::ProgressBar bar("render", quiet);
     picture.progress = bar;
-    auto rendered = render(stoppable, camera, picture);
+    RenderedT<T> rendered;
+    if (request.more_rays > 0) {
+        picture.samples += request.more_rays; // at most
+        auto adaptive = render_adaptive(stoppable, camera, picture,
+                                        {.first = picture.samples - request.more_rays,
+                                         .more = request.more_rays,
+                                         .batches = 1,
+                                         .disagreement = request.disagreement});
+        rendered = {std::move(adaptive.image), adaptive.counts, adaptive.complete};
+    } else {
+        rendered = render(stoppable, camera, picture);
+    }
     examples::stop_if_asked();
     if (!quiet) print(rendered.counts, watch.seconds());
     return rendered;
 }
 
-/// One pass of photons, with the time that it takes.
+/// What a map keeps, for the terminal.
 template <std::floating_point T>
-PhotonMapsT<T> photon_pass(const LoadedSceneT<T>& loaded,
-                           PhotonMappingSettings settings, bool caustics, bool quiet) {
-    (caustics ? settings.general : settings.caustics).photons = 0;
-    const Plan plan = survey(loaded.scene, settings);
-    if (!(caustics ? plan.caustics_map.on : plan.general_map.on)) return {};
-    const examples::StopWatch watch;
-    examples::ProgressBar bar(caustics ? "caustics photons" : "general photons", quiet);
-    (caustics ? settings.caustics : settings.general).progress = bar;
-    auto maps = make_photon_maps(loaded.scene, settings);
-    examples::stop_if_asked();
-    if (!maps.remarks.empty())
-        std::fprintf(stderr, "%s: %s", caustics ? "caustics map" : "general map",
-                     maps.remarks.c_str());
-    if (quiet) return maps;
-    std::printf("  %-16s %8.2f s  %lld photons emitted; kept:",
-                caustics ? "caustics map" : "general map", watch.seconds(),
-                (caustics ? settings.caustics : settings.general).photons);
-    const PhotonCensus kept = census(caustics ? maps.caustics : maps.general);
+void print_map(const char* name, const PhotonMapT<T>& map, long long emitted) {
+    std::printf("  %-16s %10s  %lld photons emitted; kept:", name, "", emitted);
+    const PhotonCensus kept = census(map);
     for (const PhotonKind kind : {PhotonKind::direct, PhotonKind::caustic,
                                   PhotonKind::indirect, PhotonKind::shadow})
         if (kept[kind].photons > 0)
             std::printf(" %" PRIu64 " %s", kept[kind].photons, name_of(kind));
     std::printf("\n");
+}
+
+/// All that is made before the picture: photon maps, and what is gathered from them.
+template <std::floating_point T>
+PhotonMapsT<T> first_passes(const LoadedSceneT<T>& loaded, RenderSettings picture,
+                            PhotonMappingSettings settings, bool quiet) {
+    const Plan plan = survey(loaded.scene, settings);
+    const examples::StopWatch watch;
+    examples::ProgressBar caustics("caustics photons", quiet);
+    examples::ProgressBar general("general photons", quiet);
+    settings.caustics.progress = caustics;
+    settings.general.progress = general;
+    auto maps = make_photon_maps(loaded.scene, settings);
+    examples::stop_if_asked();
+    if (!maps.remarks.empty()) std::fputs(maps.remarks.c_str(), stderr);
+    if (!quiet && (plan.caustics_map.on || plan.general_map.on)) {
+        std::printf("  %-16s %8.2f s\n", "photons", watch.seconds());
+        if (plan.caustics_map.on)
+            print_map("caustics map", maps.caustics, settings.caustics.photons);
+        if (plan.general_map.on)
+            print_map("general map", maps.general, settings.general.photons);
+    }
+    if (!plan.cache.on) return maps;
+
+    const examples::StopWatch cache_watch;
+    examples::ProgressBar gathering("irradiance cache", quiet);
+    picture.progress = gathering;
+    add_irradiance_cache(maps, loaded.scene, loaded.camera, picture, settings);
+    examples::stop_if_asked();
+    if (!quiet)
+        std::printf("  %-16s %8.2f s  %zu points, %" PRIu64 " gather rays\n",
+                    "irradiance cache", cache_watch.seconds(),
+                    maps.cache.records.size(), maps.cache.counts.bounce_rays);
     return maps;
 }
 
 template <std::floating_point T>
 RenderedT<T> render_scene(const LoadedSceneT<T>& loaded, const RenderSettings& picture,
-                          const Request& request, const examples::Options& options) {
+                          const Request& request, PhotonMappingSettings& settings,
+                          bool quiet) {
     if (request.renderer == "path") {
         const auto tracer =
             make_path_tracer(loaded.scene, {.max_depth = request.depth,
                                             .roulette_depth = request.roulette});
-        return run(tracer, loaded.camera, picture, request, options.quiet);
+        return run(tracer, loaded.camera, picture, request, quiet);
     }
-    const PhotonMappingSettings settings = settings_of(request, options);
-    auto maps = photon_pass(loaded, settings, true, options.quiet);
-    auto general = photon_pass(loaded, settings, false, options.quiet);
-    maps.general = std::move(general.general);
-    const auto mapper = make_photon_mapper(loaded.scene, maps, settings);
-    return run(mapper, loaded.camera, picture, request, options.quiet);
+    const auto maps = first_passes(loaded, picture, settings, quiet);
+    const auto mapper =
+        make_photon_mapper<StratifiedStream>(loaded.scene, maps, settings);
+    settings = mapper.settings; // with the radii that were chosen
+    if (!quiet && !maps.caustics.empty())
+        std::printf("  %-16s %10s  radius %.3g\n", "caustics", "",
+                    double(settings.caustics_estimate.radius));
+    return run(mapper, loaded.camera, picture, request, quiet);
+}
+
+/// All settings of a picture, and what it cost, for the file beside it.
+template <std::floating_point T>
+std::string to_json(const Request& request, const RenderSettings& picture,
+                    const PhotonMappingSettings& settings, const RenderedT<T>& rendered,
+                    double seconds) {
+    const auto pass = [](const PhotonPassSettings& of,
+                         const DensityEstimateSettings& how) {
+        return nlohmann::ordered_json{
+            {"photons", of.photons},
+            {"radius", how.radius},
+            {"nearest", how.nearest},
+            {"kernel", kernels[static_cast<std::size_t>(how.kernel)]}};
+    };
+    nlohmann::ordered_json json{
+        {"scene", std::filesystem::path(request.scene).filename().string()},
+        {"renderer", request.renderer},
+        {"precision", request.precision},
+        {"width", picture.width},
+        {"height", picture.height},
+        {"rays", picture.samples},
+        {"sampling", request.sampling},
+        {"seed", picture.seed},
+        {"depth", settings.max_depth},
+        {"roulette", settings.roulette_depth}};
+    if (!request.preset.empty()) json["preset"] = request.preset;
+    if (request.renderer == "photon") {
+        json["more_rays"] = request.more_rays;
+        json["disagreement"] = request.disagreement;
+        json["direct"] = direct_lights[static_cast<std::size_t>(settings.direct)];
+        json["shadow_rays"] = settings.shadow_rays;
+        json["split_glass"] = settings.split_glass;
+        json["indirect"] = indirect_lights[static_cast<std::size_t>(settings.indirect)];
+        json["caustics"] = pass(settings.caustics, settings.caustics_estimate);
+        json["general"] = pass(settings.general, settings.general_estimate);
+        json["irradiance"] = {{"every", settings.irradiance.every},
+                              {"nearest", settings.irradiance.nearest}};
+        json["gather"] = {{"rays", settings.gather.rays},
+                          {"tile", settings.gather.tile},
+                          {"nearest", settings.gather.nearest},
+                          {"reach", settings.gather.reach}};
+    }
+    json["cost"] = {{"seconds", seconds},
+                    {"camera_rays", rendered.counts.camera_rays},
+                    {"bounce_rays", rendered.counts.bounce_rays},
+                    {"shadow_rays", rendered.counts.shadow_rays},
+                    {"map_queries", rendered.counts.map_queries},
+                    {"rejected", rendered.counts.rejected}};
+    return json.dump(2) + "\n";
 }
 
 constexpr PhotonKind kinds[] = {PhotonKind::direct, PhotonKind::indirect,
@@ -219,11 +353,11 @@ constexpr PhotonKind kinds[] = {PhotonKind::direct, PhotonKind::indirect,
 /// A drawing of the scene, and on it the photons of one kind, or of all.
 template <std::floating_point T>
 ImageT<T> draw_photons(const LoadedSceneT<T>& loaded, const RenderSettings& picture,
-                       const Request& request, const examples::Options& options) {
+                       const Request& request, const PhotonMappingSettings& settings,
+                       const examples::Options& options) {
     const auto scene = index_scene(loaded.scene);
     ImageT<T> image =
         scene_drawing(scene, loaded.camera, picture.width, picture.height);
-    const PhotonMappingSettings settings = settings_of(request, options);
     for (const MapType law : {MapType::general, MapType::caustics}) {
         const bool caustics = law == MapType::caustics;
         if (request.photons != "all" && (request.photons == "caustic") != caustics)
@@ -269,7 +403,7 @@ void save(const ImageT<T>& image, const std::string& path, double exposure) {
 
 /// Does what the user asked for, in one precision.
 template <std::floating_point T>
-void run_request(const examples::CommandLine& line, const Request& request,
+void run_request(const examples::CommandLine& line, Request request,
                  const examples::Options& options) {
 #ifdef LJUS_HAS_TINYOBJLOADER
     std::string troubles;
@@ -278,7 +412,7 @@ void run_request(const examples::CommandLine& line, const Request& request,
 #else
     const auto loaded = load_json<T>(request.scene);
 #endif
-    const RenderSettings picture{
+    RenderSettings picture{
         .width = line.given("--width") ? options.width : loaded.width,
         .height = line.given("--height") ? options.height : loaded.height,
         .samples = options.samples,
@@ -286,6 +420,8 @@ void run_request(const examples::CommandLine& line, const Request& request,
         .threads = options.threads,
         .sampling = chosen<Sampling>(patterns, request.sampling)};
     detail::require_image_size(picture.width, picture.height);
+    set_samples(request, line, picture);
+    PhotonMappingSettings settings = settings_of(request, line, options, picture);
     const std::string stem = std::filesystem::path(request.scene).stem().string();
     const std::string path =
         options.path(options.file.empty() ? stem + ".png" : options.file);
@@ -304,22 +440,24 @@ void run_request(const examples::CommandLine& line, const Request& request,
                                                  : "photon mapping");
     if (request.plan) {
         if (request.renderer == "photon")
-            std::fputs(
-                to_text(survey(loaded.scene, settings_of(request, options))).c_str(),
-                stdout);
+            std::fputs(to_text(survey(loaded.scene, settings)).c_str(), stdout);
         return;
     }
 
     if (!request.photons.empty()) {
-        save(draw_photons(loaded, picture, request, options), path, request.exposure);
+        save(draw_photons(loaded, picture, request, settings, options), path,
+             request.exposure);
         if (!options.quiet) std::printf("  %s\n", path.c_str());
         return;
     }
     const examples::StopWatch watch;
-    const RenderedT<T> rendered = render_scene(loaded, picture, request, options);
+    const RenderedT<T> rendered =
+        render_scene(loaded, picture, request, settings, options.quiet);
     if (rendered.image.pixels.empty()) return;
     const double seconds = watch.seconds();
     save(rendered.image, path, request.exposure);
+    const std::string json = to_json(request, picture, settings, rendered, seconds);
+    save_file(path + ".json", Bytes(json.begin(), json.end()));
     if (options.quiet) return;
     std::printf("  %-16s %8.2f s\n", "all passes", seconds);
     std::printf("  %s\n", path.c_str());
@@ -339,17 +477,47 @@ void body(examples::CommandLine& line) {
     line.add("--caustic-photons", request.caustic_photons, "Aimed at mirrors and glass",
              0, 1'000'000'000);
     line.add("--general-photons", request.general_photons,
-             "For --indirect map and photons", 0, 1'000'000'000);
-    line.add("--radius", request.radius, "Of a caustics estimate, scene units", 1e-6,
-             1e6);
+             "For --indirect map, photons, gather, cache", 0, 1'000'000'000);
+    line.add("--preset", request.preset,
+             "All settings at once; those given by name come before it", presets);
+    line.add("--direct", request.direct,
+             "sampled by shadow rays, analytic where lamps have a closed form, or mis",
+             direct_lights);
+    line.add("--radius", request.radius,
+             "Of a caustics estimate, scene units; 0: from the photons", 0, 1e6);
     line.add("--general-radius", request.general_radius,
-             "Of a general estimate, scene units", 1e-6, 1e6);
-    line.add("--nearest", request.nearest, "Photons of an estimate, 0: all in radius",
-             0, static_cast<int>(max_nearest));
-    line.add("--kernel", request.kernel, "Weight of a photon by its distance", kernels);
+             "Of a general estimate, scene units; 0: from the photons", 0, 1e6);
+    line.add("--caustic-nearest", request.caustic_nearest,
+             "Photons of a caustics estimate, 0: all in radius", 0,
+             static_cast<int>(max_nearest));
+    line.add("--general-nearest", request.general_nearest,
+             "Photons of a general estimate, 0: all in radius", 0,
+             static_cast<int>(max_nearest));
+    line.add("--caustic-kernel", request.caustic_kernel,
+             "Weight of a caustic photon by its distance", kernels);
+    line.add("--general-kernel", request.general_kernel,
+             "Weight of a general photon by its distance", kernels);
     line.add("--indirect", request.indirect,
-             "rays, map at their ends, photons where the camera looks, or none",
+             "rays, map at their ends, photons where the camera looks, gather or cache "
+             "with precomputed irradiance, or none",
              indirect_lights);
+    line.add("--irradiance-every", request.irradiance_every,
+             "Irradiance is precomputed at one of so many photons", 1, 1'000'000);
+    line.add("--irradiance-nearest", request.irradiance_nearest,
+             "Photons of such an estimate", 2, static_cast<int>(max_nearest));
+    line.add("--gather-rays", request.gather_rays, "Per point of the cache", 1,
+             1'000'000);
+    line.add("--gather-tile", request.gather_tile,
+             "Pixels on a side that share a point of the cache", 1, 1000);
+    line.add("--gather-nearest", request.gather_nearest,
+             "Points of the cache that a pixel takes", 2,
+             static_cast<int>(max_cache_nearest));
+    line.add("--gather-reach", request.gather_reach,
+             "Of such a point, over the mean distance of what it sees", 1e-3, 1e3);
+    line.add("--more-rays", request.more_rays, "In pixels whose first rays disagree", 0,
+             1'000'000);
+    line.add("--disagreement", request.disagreement,
+             "Relative standard error from which on they do", 1e-6, 1e6);
     line.add("--split-glass", request.split_glass, "At glass, go both ways (photon)");
     line.add("--sampling", request.sampling, "Where in a pixel its rays go", patterns);
     line.add("--precision", request.precision, "Of scene, photons and light",

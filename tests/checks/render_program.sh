@@ -33,9 +33,9 @@ done
 "$render" "$scene" "${few[@]}" --renderer path --quiet --out new >out.txt
 [ -s new/balls.png ] || wrong "no new/balls.png"
 [ ! -s out.txt ] || wrong "--quiet is not quiet: $(cat out.txt)"
-for indirect in rays map photons none; do
+for indirect in rays map photons gather cache none; do
     "$render" "$scene" "${few[@]}" --indirect $indirect --general-photons 500 \
-        --kernel cone --nearest 20 --depth 3 --roulette 2 --quiet --out $indirect.pfm
+        --caustic-kernel cone --general-nearest 20 --depth 3 --roulette 2 --quiet --out $indirect.pfm
 done
 cmp -s rays.pfm none.pfm && wrong "--indirect none changes nothing"
 cmp -s map.pfm photons.pfm && wrong "--indirect photons changes nothing"
@@ -94,7 +94,7 @@ refused "--explain is 1,2,3; it must be X,Y" "$scene" "${few[@]}" --explain 1,2,
 refused "--rays" "$scene" --rays 0
 refused "--width" "$scene" --width -5
 refused "--radius" "$scene" --radius nan
-refused "--kernel" "$scene" --kernel hat
+refused "--caustic-kernel" "$scene" --caustic-kernel hat
 refused "--precision" "$scene" --precision half
 refused "--nope" "$scene" --nope
 refused "cannot write" "$scene" --out /proc/none/a.png

@@ -25,9 +25,10 @@ namespace ljus {
 struct IrradiancePointSettings {
     int every = 16;           ///< At one of so many photons, at least 1.
     std::size_t nearest = 64; ///< Photons of an estimate, 2 to 512.
-    float radius = 0.3f;      ///< Within which they lie, at most; in scene units.
-    int shadow_rays = 4;      ///< To each light, for the direct part; at least 1.
-    bool edges = true;        ///< Divide by the part of the disc that is on the shape.
+    float radius = 0; ///< Within which they lie, at most, in scene units; 0: four times
+                      ///< as far as they lie typically.
+    int shadow_rays = 4; ///< To each light, for the direct part; at least 1.
+    bool edges = true;   ///< Divide by the part of the disc that is on the shape.
 };
 
 /// A point of a surface where the irradiance is known.
@@ -42,6 +43,7 @@ template <std::floating_point T>
 struct IrradiancePointsT {
     KdTree8T<T> tree;                      ///< Where they are.
     std::vector<IrradianceAtT<T>> records; ///< What is known, in the tree's order.
+    T radius = T(0); ///< A point says nothing of what is farther from it.
 
     /// Whether there are none.
     [[nodiscard]] bool empty() const noexcept { return records.empty(); }
@@ -56,21 +58,21 @@ namespace detail {
 /// \param map       The photons.
 /// \param vertex    Where.
 /// \param normal    Unit, on the side that is asked about.
-/// \param settings  How many photons, how far, and whether edges are made up for.
+/// \param settings  How many photons, and whether edges are made up for.
+/// \param radius    Within which they lie, at most; in scene units.
 /// \param kinds     Which kinds count.
-/// \param here      The photon that the point was chosen for. It does not count: that it
-///                  lies there says nothing of how dense photons are.
+/// \param here      The photon that the point was chosen for. It does not count: that
+///                  it lies there says nothing of how dense photons are.
 /// \return W/m^2.
 template <SceneLike S, std::floating_point T>
 [[nodiscard]] RgbT<T>
 estimate_irradiance(const S& scene, const PhotonMapT<T>& map, const VertexT<T>& vertex,
                     const Vec3T<T>& normal, const IrradiancePointSettings& settings,
-                    PhotonKinds kinds, std::size_t here = std::size_t(-1)) {
+                    T radius, PhotonKinds kinds, std::size_t here = std::size_t(-1)) {
     std::array<Neighbor, max_nearest> room;
     const std::span<Neighbor> found(room.data(), settings.nearest);
     // By the shape's own normal, as photons have it; the side is told by where they go.
-    const std::size_t count =
-        nearest_photons(map, vertex.point, T(settings.radius), kinds, found);
+    const std::size_t count = nearest_photons(map, vertex.point, radius, kinds, found);
     const bool full = count == settings.nearest;
     const double radius2 =
         full ? found[0].distance2 : double(settings.radius) * double(settings.radius);
@@ -110,6 +112,9 @@ template <SceneLike S, std::floating_point T>
     const IrradiancePointSettings& settings, std::uint64_t seed, int threads = 0) {
     const auto every = static_cast<std::size_t>(settings.every);
     const std::size_t count = (general.records.size() + every - 1) / every;
+    const T radius = settings.radius > 0
+                         ? T(settings.radius)
+                         : 4 * typical_radius(general, settings.nearest);
     std::vector<Vec3T<T>> positions(count);
     std::vector<IrradianceAtT<T>> records(count);
     const auto at_point = [&](std::size_t i) {
@@ -120,7 +125,7 @@ template <SceneLike S, std::floating_point T>
         if (photon_side(record.direction, normal) < 0) normal = -normal;
         records[i].normal = normal;
         // What stands there is asked of the scene: a photon does not remember.
-        const T height = T(1e-3f * settings.radius);
+        const T height = T(1e-3) * radius;
         const RayT<T> down{.origin = positions[i] + height * normal,
                            .direction = -normal,
                            .t_max = T(2) * height};
@@ -136,11 +141,12 @@ template <SceneLike S, std::floating_point T>
             std::numbers::pi_v<T> *
             detail::sample_all_lights(scene, vertex, white, DirectLight::analytic,
                                       settings.shadow_rays, stream, counts);
-        sum += detail::estimate_irradiance(scene, general, vertex, side, settings,
-                                           one_kind(PhotonKind::indirect), photon);
+        sum +=
+            detail::estimate_irradiance(scene, general, vertex, side, settings, radius,
+                                        one_kind(PhotonKind::indirect), photon);
         if (!caustics.empty())
             sum += detail::estimate_irradiance(scene, caustics, vertex, side, settings,
-                                               one_kind(PhotonKind::caustic));
+                                               radius, one_kind(PhotonKind::caustic));
         records[i].irradiance = sum;
     };
     constexpr long long block = 64;
@@ -153,6 +159,7 @@ template <SceneLike S, std::floating_point T>
                           body, {.threads = threads});
 
     IrradiancePointsT<T> points;
+    points.radius = radius;
     points.tree = KdTree8T<T>(positions, threads);
     points.records.reserve(count);
     for (const std::uint32_t i : points.tree.point_ids())
@@ -164,20 +171,18 @@ template <SceneLike S, std::floating_point T>
 /// \param points    The points.
 /// \param position  Where it is asked for.
 /// \param normal    Unit, on the side that is asked about.
-/// \param radius    How far a point may be, in scene units.
 /// \return W/m^2; 0 if there is none: where no photon came, it is dark.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> irradiance_at(const IrradiancePointsT<T>& points,
-                                    const Vec3T<T>& position, const Vec3T<T>& normal,
-                                    T radius) {
+                                    const Vec3T<T>& position, const Vec3T<T>& normal) {
     const auto like = [&](std::uint32_t i) {
         return glm::dot(points.records[i].normal, normal) > T(0.9);
     };
-    const auto nearest = points.tree.nearest(position, radius);
+    const auto nearest = points.tree.nearest(position, points.radius);
     if (!nearest) return RgbT<T>{T(0)};
     if (like(nearest->index)) return points.records[nearest->index].irradiance;
     std::array<Neighbor, 1> found;
-    if (points.tree.template nearest<1>(position, radius, found, like) == 0)
+    if (points.tree.template nearest<1>(position, points.radius, found, like) == 0)
         return RgbT<T>{T(0)};
     return points.records[found[0].index].irradiance;
 }

@@ -3,6 +3,9 @@
 /// \file ljus/photons/photon_map.hpp
 /// \brief Photons in a k-d tree.
 
+#include <array>
+#include <cmath>
+
 #include "ljus/accel/kd_tree8.hpp"
 #include "ljus/photons/detail/photon_records.hpp"
 
@@ -53,6 +56,29 @@ template <std::floating_point T>
     map.tree = KdTree8T<T>(detail::checked_positions(photons), threads);
     map.records = detail::PhotonRecordsT<T>(photons, map.tree.point_ids());
     return map;
+}
+
+/// The radius of a disc that holds so many photons: the geometric mean over the photons
+/// of a map, which lies between the focus of a caustic and the faint light around it.
+/// \param map    The photons.
+/// \param count  How many, at least 1; at most 511.
+/// \return In scene units; 1 if the photons do not tell, because there are none, or all
+///         lie in one point.
+/// \cost At most 255 searches.
+template <std::floating_point T>
+[[nodiscard]] T typical_radius(const PhotonMapT<T>& map, std::size_t count) {
+    std::array<Neighbor, 512> room;
+    const std::span<Neighbor> found(room.data(), count + 1); // and the photon itself
+    const std::size_t step = map.records.size() / 255 + 1;
+    double logarithms = 0, photons = 0;
+    for (std::size_t i = 0; i < map.records.size(); i += step) {
+        const std::size_t near = map.tree.template nearest<512>(
+            map.tree.point(i), std::numeric_limits<T>::infinity(), found);
+        if (near < 2 || !(found[0].distance2 > 0)) continue;
+        logarithms += std::log(found[0].distance2) / 2;
+        ++photons;
+    }
+    return photons > 0 ? static_cast<T>(std::exp(logarithms / photons)) : T(1);
 }
 
 /// \}

@@ -64,7 +64,6 @@ struct GatherRayT {
 /// map have counted that light.
 /// \param scene      The scene.
 /// \param points     Where the irradiance is known.
-/// \param radius     How far such a point may be, in scene units.
 /// \param path       The ray, as it leaves a diffuse surface.
 /// \param max_depth  Surfaces on a path, at most.
 /// \param stream     The numbers of the ray.
@@ -73,8 +72,8 @@ struct GatherRayT {
 // [gather_ray]
 template <SceneLike S, std::floating_point T, typename Stream>
 [[nodiscard]] GatherRayT<T>
-gather_ray(const S& scene, const IrradiancePointsT<T>& points, T radius,
-           PathStateT<T> path, int max_depth, Stream& stream, Counts& counts) {
+gather_ray(const S& scene, const IrradiancePointsT<T>& points, PathStateT<T> path,
+           int max_depth, Stream& stream, Counts& counts) {
     GatherRayT<T> found;
     for (bool first = true; path.depth < max_depth; first = false) {
         ++counts.bounce_rays;
@@ -85,9 +84,8 @@ gather_ray(const S& scene, const IrradiancePointsT<T>& points, T radius,
             const Lobes parts = lobes(material);
             if (has(parts, Lobes::non_specular)) {
                 ++counts.map_queries;
-                const RgbT<T> irradiance =
-                    irradiance_at(points, vertex->point.position,
-                                  detail::seen_normal(*vertex), radius);
+                const RgbT<T> irradiance = irradiance_at(points, vertex->point.position,
+                                                         detail::seen_normal(*vertex));
                 found.radiance += path.throughput *
                                   detail::reflected(material, vertex->wo, irradiance,
                                                     Lobes::non_specular, stream);
@@ -115,7 +113,6 @@ struct GatheredT {
 /// Gathers the indirect irradiance at a vertex, by rays spread evenly over the cosine.
 /// \param scene     The scene.
 /// \param points    What the rays look up.
-/// \param radius    How far such a point may be, in scene units.
 /// \param vertex    Where; the side is that of `wo`.
 /// \param settings  How many rays.
 /// \param stream    The numbers of this vertex.
@@ -124,7 +121,7 @@ struct GatheredT {
 // [gather_irradiance]
 template <SceneLike S, std::floating_point T, typename Stream>
 [[nodiscard]] GatheredT<T>
-gather_irradiance(const S& scene, const IrradiancePointsT<T>& points, T radius,
+gather_irradiance(const S& scene, const IrradiancePointsT<T>& points,
                   const VertexT<T>& vertex, const GatherSettings& settings,
                   Stream& stream, Counts& counts) {
     GatheredT<T> gathered{.normal = detail::seen_normal(vertex)};
@@ -143,8 +140,8 @@ gather_irradiance(const S& scene, const IrradiancePointsT<T>& points, T radius,
                                  .depth = 1,
                                  .branch = std::uint64_t(i + 1) << 20};
         auto numbers = stream; // next_vertex() moves them to the ray's own place
-        const auto found = gather_ray(scene, points, radius, path, settings.max_depth,
-                                      numbers, counts);
+        const auto found =
+            gather_ray(scene, points, path, settings.max_depth, numbers, counts);
         gathered.irradiance += found.radiance;
         inverse += T(1) / found.distance;
     }

@@ -110,7 +110,6 @@ void measure_spacing(IrradianceCacheT<T>& cache, const GatherSettings& settings,
 /// Gathers irradiance for a picture: behind one place of each tile of pixels.
 /// \param scene     The scene.
 /// \param points    What gather rays look up.
-/// \param radius    How far such a point may be, in scene units.
 /// \param camera    A CameraT, or anything with a camera_ray().
 /// \param picture   Size, seed, threads, progress.
 /// \param settings  How.
@@ -120,7 +119,7 @@ void measure_spacing(IrradianceCacheT<T>& cache, const GatherSettings& settings,
 template <SceneLike S, std::floating_point T,
           template <std::floating_point> typename AnyCamera>
 [[nodiscard]] IrradianceCacheT<T>
-make_irradiance_cache(const S& scene, const IrradiancePointsT<T>& points, T radius,
+make_irradiance_cache(const S& scene, const IrradiancePointsT<T>& points,
                       const AnyCamera<T>& camera, const RenderSettings& picture,
                       const GatherSettings& settings) {
     const detail::IndexedT<S> indexed(scene);
@@ -136,7 +135,7 @@ make_irradiance_cache(const S& scene, const IrradiancePointsT<T>& points, T radi
                 T(tile) * (Vec2T<T>{T(x), T(y)} + next_2d<T>(stream));
             const RayT<T> ray =
                 camera_ray(camera, place, picture.width, picture.height, stream);
-            detail::gather_along(indexed, points, radius, ray, settings, stream,
+            detail::gather_along(indexed, points, ray, settings, stream,
                                  rows[static_cast<std::size_t>(y)]);
         }
     };

@@ -51,9 +51,14 @@ template <typename Draws = RandomStream, SceneLike S>
 make_photon_mapper(const S& scene, const PhotonMapsT<typename S::Scalar>& maps,
                    const PhotonMappingSettings& settings = {}) {
     check(settings);
+    PhotonMappingSettings resolved = settings;
+    if (settings.caustics_estimate.radius == 0)
+        resolved.caustics_estimate.radius = float(typical_radius(maps.caustics, 32));
+    if (settings.general_estimate.radius == 0)
+        resolved.general_estimate.radius = float(typical_radius(maps.general, 64));
     const bool rays = detail::choose_passes(needs(scene), settings).indirect_rays;
     const bool gloss = settings.indirect == IndirectLight::cache;
-    return {detail::IndexedT<S>(scene), maps, settings,
+    return {detail::IndexedT<S>(scene), maps, resolved,
             rays    ? Lobes::all
             : gloss ? Lobes::glossy | Lobes::specular
                     : Lobes::specular};
@@ -89,8 +94,7 @@ template <SceneLike S, std::floating_point T, Material M, typename Stream>
                                    seen_normal(vertex), T(gather.reach));
     const RgbT<T> irradiance =
         known ? *known
-              : gather_irradiance(mapper.scene, mapper.maps.irradiance,
-                                  T(mapper.settings.irradiance.radius), vertex, gather,
+              : gather_irradiance(mapper.scene, mapper.maps.irradiance, vertex, gather,
                                   stream, counts)
                     .irradiance;
     return reflected(material, vertex.wo, irradiance, Lobes::diffuse, stream);
@@ -123,9 +127,8 @@ void light_at(const PhotonMapper<S, Stream>& mapper, const VertexT<T>& vertex,
     };
     if (gather && settings.indirect != IndirectLight::map) {
         ++counts.map_queries;
-        const RgbT<T> irradiance =
-            irradiance_at(mapper.maps.irradiance, vertex.point.position,
-                          detail::seen_normal(vertex), T(settings.irradiance.radius));
+        const RgbT<T> irradiance = irradiance_at(
+            mapper.maps.irradiance, vertex.point.position, detail::seen_normal(vertex));
         add("irradiance points", "DL|D..DL|DS+L",
             detail::reflected(material, vertex.wo, irradiance, Lobes::non_specular,
                               stream));

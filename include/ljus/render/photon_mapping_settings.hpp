@@ -3,6 +3,8 @@
 /// \file ljus/render/photon_mapping_settings.hpp
 /// \brief The settings of the report's renderer.
 
+#include <algorithm>
+
 #include "ljus/photons/density_estimate.hpp"
 #include "ljus/photons/irradiance_points.hpp"
 #include "ljus/photons/photon_pass.hpp"
@@ -58,9 +60,10 @@ struct PhotonMappingSettings {
     IndirectLight indirect = IndirectLight::rays; ///< Who carries indirect light.
     PhotonPassSettings caustics{}; ///< Photons aimed at mirrors and glass.
     PhotonPassSettings general{};  ///< Photons for all the rest.
-    DensityEstimateSettings caustics_estimate{}; ///< How caustics are estimated.
-    DensityEstimateSettings general_estimate{
-        .radius = 0.3f};                  ///< How the general map is asked.
+    /// How caustics are estimated; radius 0: one that holds 32 photons typically.
+    DensityEstimateSettings caustics_estimate{};
+    /// How the general map is asked; radius 0: one that holds 64 photons typically.
+    DensityEstimateSettings general_estimate{.radius = 0.3f};
     IrradiancePointSettings irradiance{}; ///< What gather rays look up.
     GatherSettings gather{};              ///< How the irradiance cache is made.
     bool keep_general_map =
@@ -85,7 +88,10 @@ inline void check(const PhotonMappingSettings& settings) {
                 settings.irradiance.nearest <= max_nearest,
             "irradiance.nearest", static_cast<long long>(settings.irradiance.nearest),
             "within [2, 512] (one photon sets the radius)");
-    require_positive("irradiance.radius", settings.irradiance.radius);
+    require(settings.irradiance.radius >= 0 &&
+                std::isfinite(settings.irradiance.radius),
+            "irradiance.radius", double(settings.irradiance.radius),
+            "at least 0 (0: chosen from the photons)");
     require(settings.irradiance.shadow_rays >= 1, "irradiance.shadow_rays",
             static_cast<long long>(settings.irradiance.shadow_rays), "at least 1");
     require(settings.gather.rays >= 1, "gather.rays",
@@ -99,8 +105,46 @@ inline void check(const PhotonMappingSettings& settings) {
     require_positive("gather.reach", settings.gather.reach);
     require(settings.gather.max_depth >= 2, "gather.max_depth",
             static_cast<long long>(settings.gather.max_depth), "at least 2");
-    check(settings.caustics_estimate);
-    check(settings.general_estimate);
+    for (DensityEstimateSettings gather :
+         {settings.caustics_estimate, settings.general_estimate}) {
+        if (gather.radius == 0) gather.radius = 1; // will be chosen from the photons
+        check(gather);
+    }
+}
+
+/// Settings that go together.
+enum class Preset : std::uint8_t {
+    draft, ///< A first look: blotches, in a fraction of a second.
+    fast,  ///< The least time for a picture without visible errors; some bias.
+    exact  ///< Indirect rays on and on; what bias is left is that of the caustics map.
+};
+
+/// The settings of a preset. Radii are chosen from the photons, and their number from
+/// the size of the picture: small pixels show smaller errors.
+/// \param preset  Which one.
+/// \param width   Of the picture, in pixels.
+/// \param height  Of the picture, in pixels.
+/// \return All settings; seeds and threads are the caller's.
+[[nodiscard]] inline PhotonMappingSettings preset_settings(Preset preset, int width,
+                                                           int height) {
+    const long long pixels = static_cast<long long>(width) * height;
+    PhotonMappingSettings settings{.split_glass = true};
+    settings.general.shadow_photons = false;
+    settings.caustics_estimate.radius = settings.general_estimate.radius = 0;
+    if (preset == Preset::exact) {
+        settings.direct = DirectLight::mis;
+        settings.caustics.photons = 2'000'000;
+        return settings;
+    }
+    const bool draft = preset == Preset::draft;
+    settings.direct = DirectLight::analytic;
+    settings.shadow_rays = draft ? 2 : 4;
+    settings.indirect = IndirectLight::cache;
+    settings.general.photons =
+        std::clamp(draft ? pixels / 4 : pixels, 10'000LL, 1'000'000LL);
+    settings.caustics.photons = settings.general.photons / 2;
+    if (draft) settings.gather = {.rays = 16, .tile = 5};
+    return settings;
 }
 
 /// \}

@@ -74,12 +74,10 @@ void add_irradiance_cache(PhotonMapsT<typename S::Scalar>& maps, const S& scene,
                           const AnyCamera<typename S::Scalar>& camera,
                           const RenderSettings& picture,
                           const PhotonMappingSettings& settings) {
-    using T = typename S::Scalar;
     check(settings);
     if (detail::choose_passes(needs(scene), settings).cache)
-        maps.cache =
-            make_irradiance_cache(scene, maps.irradiance, T(settings.irradiance.radius),
-                                  camera, picture, settings.gather);
+        maps.cache = make_irradiance_cache(scene, maps.irradiance, camera, picture,
+                                           settings.gather);
 }
 
 /// \}

@@ -24,13 +24,12 @@ struct GatheredRowT {
 /// at glass.
 /// \param scene     The scene.
 /// \param points    What gather rays look up.
-/// \param radius    How far such a point may be, in scene units.
 /// \param ray       A primary ray.
 /// \param settings  How.
 /// \param stream    Its numbers.
 /// \param row       Takes what is gathered.
 template <SceneLike S, std::floating_point T>
-void gather_along(const S& scene, const IrradiancePointsT<T>& points, T radius,
+void gather_along(const S& scene, const IrradiancePointsT<T>& points,
                   const RayT<T>& ray, const GatherSettings& settings,
                   RandomStream& stream, GatheredRowT<T>& row) {
     constexpr std::size_t most = 8; // ways through glass, as many as are rendered
@@ -46,7 +45,7 @@ void gather_along(const S& scene, const IrradiancePointsT<T>& points, T radius,
                 if (has(parts, Lobes::diffuse)) {
                     row.positions.push_back(vertex->point.position);
                     row.records.push_back(gather_irradiance(
-                        scene, points, radius, *vertex, settings, stream, row.counts));
+                        scene, points, *vertex, settings, stream, row.counts));
                 }
                 if (ways.size() < most)
                     if (const auto other = split_path(path, *vertex, material)) {
