@@ -1,0 +1,48 @@
+# All points count alike: steps where one comes in.
+ljus_break_it(NAME irradiance-cache-weight HEADER render/irradiance_cache.hpp
+    TEST irradiance_cache
+    FROM "sum += (T(1) - share) * record.irradiance;
+        weights += T(1) - share;"
+    TO   "sum += record.irradiance;
+        weights += T(1);"
+    CASES "irradiance cache: the mean*")
+
+# A point in a corner counts as far as one in the open.
+ljus_break_it(NAME irradiance-cache-reach HEADER render/irradiance_cache.hpp
+    TEST irradiance_cache
+    FROM "!(T(distance2) < limit * limit) ||"
+    TO   "!(limit == limit) ||"
+    CASES "irradiance cache: the mean*")
+
+# The light of a wall on the floor beside it.
+ljus_break_it(NAME irradiance-cache-normal HEADER render/irradiance_cache.hpp
+    TEST irradiance_cache
+    FROM "return glm::dot(a, b) > T(0.95);"
+    TO   "return glm::dot(a, b) > T(-2);"
+    CASES "irradiance cache: the mean*")
+
+# Gather rays that always leave on the side of the normal.
+ljus_break_it(NAME irradiance-cache-side HEADER render/final_gathering.hpp
+    TEST irradiance_cache
+    FROM "Vec3T<T>{up.x, up.y, side * up.z}"
+    TO   "Vec3T<T>{up.x, up.y, up.z}"
+    CASES "irradiance cache: surfaces seen*")
+
+# Photons compared by the side that is seen, not by the normal that they keep.
+ljus_break_it(NAME irradiance-cache-turned HEADER photons/irradiance_points.hpp
+    TEST irradiance_cache
+    FROM "nearest_photons(map, vertex.point, radius, kinds, found)"
+    TO   "nearest_photons(map, SurfacePointT<T>{vertex.point.position, vertex.point.error, normal}, radius, kinds, found)"
+    CASES "irradiance cache: surfaces seen*")
+
+# The weight of the visible share forgotten: lamps shine through walls.
+ljus_break_it(NAME all-lights-share HEADER path/all_lights.hpp TEST all_lights
+    FROM "all[c] * arrived[c] / sent[c]"
+    TO   "all[c]"
+    CASES "all lights: in a penumbra*")
+
+# A lamp that a ray meets counts wholly, though a shadow ray has been there.
+ljus_break_it(NAME all-lights-weight HEADER path/all_lights.hpp TEST all_lights
+    FROM "balance_heuristic(next->sample.pdf, T(rays) * pdf) * path.throughput"
+    TO   "path.throughput"
+    CASES "all lights: multiple importance*")
