@@ -12,7 +12,7 @@ cd "$scratch"
 wrong=0
 wrong() { echo "WRONG: $*"; wrong=1; }
 
-few=(--width 32 --height 32 --passes 40 --every 0 --quiet)
+few=(--width 32 --height 32 --passes 150 --every 0 --quiet)
 begin=$(date +%s%N)
 "$program" "${few[@]}" --threads 1 --picture whole.pfm
 alone=$((($(date +%s%N) - begin) / 1000000))
@@ -29,7 +29,7 @@ for ((i = 0; i < kills; ++i)); do
     [ ! -e a.check ] || resume=(--resume)
     "$program" "${few[@]}" --picture a.pfm --checkpoint a.check ${resume[@]+"${resume[@]}"} &
     pid=$!
-    sleep "$(awk -v r=$RANDOM -v t=$alone 'BEGIN { print 0.01 + r / 32768 * t / 3000 }')"
+    sleep "$(awk -v r=$RANDOM -v t=$alone 'BEGIN { print 0.01 + r / 32768 * t / 15000 }')"
     if kill -KILL $pid 2>kill.txt; then done=$((done + 1)); fi
     code=0
     wait $pid 2>wait.txt || code=$?

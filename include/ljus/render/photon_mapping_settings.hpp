@@ -29,6 +29,8 @@ struct PhotonMappingSettings {
     IndirectLight indirect = IndirectLight::rays; ///< Who carries indirect light.
     PhotonPassSettings caustics{}; ///< Photons aimed at mirrors and glass.
     PhotonPassSettings general{};  ///< Photons for all the rest.
+    CausticBudget caustic_budget =
+        CausticBudget::as_seen; ///< How mirrors and glass share caustics.photons.
     DensityEstimateSettings caustics_estimate{}; ///< How caustics are estimated.
     DensityEstimateSettings general_estimate{
         .radius = 0.3f}; ///< How the general map is asked.
