@@ -154,13 +154,12 @@ Known known_room(const std::string& name, float albedo, const Grid& grid, float 
                  const Sizes& sizes, const examples::Options& options) {
     Known known{.name = name, .room = two_balls(albedo), .rest = direct_light(grid)};
     const long long many = options.pick(20, 100, 400) * sizes.photons;
-    const auto general =
-        make_photon_map(trace_photons(known.room.scene, MapType::general,
-                                      {.photons = std::min(many, 2000000LL),
-                                       .seed = 91,
-                                       .shadow_photons = false,
-                                       .threads = options.threads})
-                            .photons);
+    const auto general = trace_photons(known.room.scene, MapType::general,
+                                       {.photons = std::min(many, 2000000LL),
+                                        .seed = 91,
+                                        .shadow_photons = false,
+                                        .threads = options.threads})
+                             .photons;
     known.rest = known.rest + floor_light(make_photon_map(general), grid, 0.2f,
                                           one_kind(PhotonKind::indirect));
     known.truth =
@@ -358,11 +357,11 @@ void four_balls(const examples::Options& options, const Sizes& sizes) {
     const PhotonPassSettings pass{
         .photons = sizes.photons, .seed = options.seed, .threads = options.threads};
     const auto general =
-        make_photon_map(trace_photons(room.scene, MapType::general,
-                                      {.photons = options.pick(50000, 400000, 1000000),
-                                       .shadow_photons = false,
-                                       .threads = options.threads})
-                            .photons);
+        trace_photons(room.scene, MapType::general,
+                      {.photons = options.pick(50000LL, 400000LL, 1000000LL),
+                       .shadow_photons = false,
+                       .threads = options.threads})
+            .photons;
     const auto pilots = pilot_caustics(room.scene, pass, radius, general, 0.5f);
     // How often each is aimed at as lights see it.
     const auto targets = specular_objects(room.scene);

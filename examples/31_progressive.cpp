@@ -372,6 +372,8 @@ PhotonMappingSettings pass_settings(const examples::Options& options) {
 /// A picture alone, as a program makes it: it shows itself while it runs, and can be
 /// stopped, killed and resumed.
 void one_picture(const examples::Options& options, const Sizes& sizes) {
+    for (const std::string& file : {sizes.picture, sizes.checkpoint, sizes.preview})
+        if (!file.empty()) examples::require_writable(file);
     const auto room = cornell_box();
     const RenderSettings picture{.width = options.width,
                                  .height = options.height,

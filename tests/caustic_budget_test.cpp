@@ -298,12 +298,11 @@ TEST_CASE("caustic_budget: an index near 1 asks for photons in the dark only") {
     std::vector<double> bright;
     for (const float albedo : {0.0f, 0.5f, 0.8f}) {
         const Room room = two_balls(1.05f, 1.5f, albedo);
-        const auto map =
-            make_photon_map(trace_photons(room, MapType::general,
-                                          {.photons = 20000, .shadow_photons = false})
-                                .photons);
+        const auto light = trace_photons(room, MapType::general,
+                                         {.photons = 20000, .shadow_photons = false})
+                               .photons;
         bright.push_back(share(CausticBudget::brightness,
-                               pilot_caustics(room, pass, 0.04f, map, 0.3f)));
+                               pilot_caustics(room, pass, 0.04f, light, 0.3f)));
     }
     CAPTURE(bright[0]);
     CAPTURE(bright[1]);

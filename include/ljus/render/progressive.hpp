@@ -47,11 +47,11 @@ template <typename RenderPass>
 // [plain]
 
 /// All that is left of the passes so far: as large after a million as after one. Plain
-/// data; the first three may be set before the first pass.
+/// data; alpha and the side of blocks may be set before the first pass.
 struct ProgressiveState {
     double alpha = 2.0 / 3; ///< In (0, 1]; see progressive_mean().
-    double shrink = 1;      ///< \f$ r_i^2 / r_1^2 \f$ of the next pass.
     int block_side = 8;     ///< Pixels; neighbours share photons, and err together.
+    double shrink = 1;      ///< \f$ r_i^2 / r_1^2 \f$ of the next pass.
     long long passes = 0;   ///< In the sums.
     std::uint64_t first_pass = 0;   ///< A hash of the first one's picture.
     ImageT<double> sum{};           ///< Of the passes, W/(m^2 sr).
@@ -170,7 +170,8 @@ void require_first_pass(const ProgressiveState& state, RenderPass&& pass) {
 ///
 /// With IndirectLight::rays there is no general map: only caustics converge, and only
 /// they have to. With k nearest photons the k-th sets the radius until the shrinking
-/// one is smaller, and until then no bias goes away.
+/// one is smaller, and until then no bias goes away. A budget by pilot would send one
+/// with each pass: give settings.caustics.shares instead, see \ref budget.
 /// \tparam Draws    RandomStream, or StratifiedStream for several rays a pixel.
 /// \param scene     The scene, or an IndexedScene, which saves indexing it each time.
 /// \param camera    A CameraT, or anything with a camera_ray().
