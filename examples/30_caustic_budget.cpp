@@ -134,9 +134,10 @@ PhotonMap caustics_of(const Stage& stage, long long photons, std::uint64_t seed,
                                .photons);
 }
 
-/// Errors of a way to share out: bias and variance, absolute and relative to all light.
+/// Errors of a way to share out: bias and variance, absolute, relative to all light and
+/// relative to the mean light of the caustic on that half of the floor.
 struct Errors {
-    BiasVariance absolute, relative;
+    BiasVariance absolute, relative, own;
     double flip = 0;
 };
 
@@ -153,7 +154,7 @@ struct Known {
 Known known_room(const std::string& name, float albedo, const Grid& grid, float radius,
                  const Sizes& sizes, const examples::Options& options) {
     Known known{.name = name, .room = two_balls(albedo), .rest = direct_light(grid)};
-    const long long many = options.pick(20, 100, 400) * sizes.photons;
+    const long long many = options.pick(50, 300, 1000) * sizes.photons;
     const auto general = trace_photons(known.room.scene, MapType::general,
                                        {.photons = std::min(many, 2000000LL),
                                         .seed = 91,
@@ -164,7 +165,7 @@ Known known_room(const std::string& name, float albedo, const Grid& grid, float 
                                           one_kind(PhotonKind::indirect));
     known.truth =
         known.rest + floor_light(caustics_of(known.room.scene, many, 92, {}, options),
-                                 grid, 0.3f * radius, all_kinds);
+                                 grid, 0.5f * radius, all_kinds);
     double mean = 0;
     for (const Rgb& c : known.truth.pixels)
         mean += double(c.x) / double(known.truth.pixels.size());
@@ -199,6 +200,18 @@ Errors errors_of(const Known& known, const std::vector<double>& shares,
         examples::stop_if_asked();
     }
     errors.absolute = bias_variance(runs, known.truth);
+    const auto by_own = [&](Image image) {
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x) {
+                const CausticPilot& ball = known.pilots[2 * x < image.width ? 0 : 1];
+                pixel(image, x, y) *=
+                    float(ball.area / ball.flux * pi / double(floor_albedo));
+            }
+        return image;
+    };
+    std::vector<Image> owns;
+    for (const Image& run : runs) owns.push_back(by_own(run));
+    errors.own = bias_variance(owns, by_own(known.truth));
     for (Image& run : runs) run = scaled(run, known.gain);
     errors.relative =
         examples::relative_split(runs, block_means(scaled(known.truth, known.gain), 1));
@@ -211,7 +224,8 @@ void two_rooms(const std::vector<Known>& rooms, const Grid& grid, float radius,
     examples::Table table{.name = "budget-two-balls",
                           .columns = {"room", "budget", "photons of index 1.05",
                                       "of index 1.5", "squared bias", "variance",
-                                      "relative: squared bias", "variance", "FLIP"}};
+                                      "variance of own light", "variance of all light",
+                                      "squared bias of it", "FLIP"}};
     for (const Known& known : rooms)
         for (std::size_t b = 0; b < budgets.size(); ++b) {
             const auto shares = caustic_shares(budgets[b], known.pilots);
@@ -222,8 +236,9 @@ void two_rooms(const std::vector<Known>& rooms, const Grid& grid, float radius,
                                   examples::text(100 - 100 * left, "%.0f %%"),
                                   examples::text(found.absolute.bias_squared, "%.3g"),
                                   examples::text(found.absolute.variance, "%.3g"),
-                                  examples::text(found.relative.bias_squared, "%.3g"),
+                                  examples::text(found.own.variance, "%.3g"),
                                   examples::text(found.relative.variance, "%.3g"),
+                                  examples::text(found.relative.bias_squared, "%.3g"),
                                   examples::text(found.flip, "%.4f")});
             if (!options.quiet) {
                 for (const auto& cell : table.rows.back())
@@ -249,47 +264,41 @@ void two_rooms(const std::vector<Known>& rooms, const Grid& grid, float radius,
     save_table(options.out, found);
 }
 
-/// Variance against the share of the light glass, beside the law.
+/// Variance in the dark against the share of the light glass, beside the law.
 void by_share(const std::vector<Known>& rooms, const Grid& grid, float radius,
               const Sizes& sizes, const examples::Options& options) {
     examples::Plot plot{.name = "budget-shares",
-                        .columns = {"share of the ball of index 1.05", "absolute",
-                                    "its law", "relative in the dark", "its law",
-                                    "relative in the lit room", "its law"},
+                        .columns = {"share of the ball of index 1.05", "in watts",
+                                    "its law", "of own light", "its law of own",
+                                    "of all light", "its law of all"},
                         .y_label = "variance over that of one half each",
-                        .more = "set yrange [0.5:3]\n"};
+                        .more = "set yrange [0:3]\n"};
     const auto law = [](double a, double b, double share) {
         return (a * a / share + b * b / (1 - share)) / (2 * a * a + 2 * b * b);
     };
     const auto variances = [&](double share) {
-        std::array<double, 3> found{};
-        for (std::size_t r = 0; r < 2; ++r) {
-            const auto errors =
-                errors_of(rooms[r], {share, 1 - share}, grid, radius, sizes, options);
-            if (r == 0) found[0] = errors.absolute.variance;
-            found[1 + r] = errors.relative.variance;
-        }
-        return found;
+        const auto errors =
+            errors_of(rooms[0], {share, 1 - share}, grid, radius, sizes, options);
+        return std::array{errors.absolute.variance, errors.own.variance,
+                          errors.relative.variance};
     };
     const auto half = variances(0.5);
-    for (const double share : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}) {
+    const CausticPilot &l = rooms[0].pilots[0], &r = rooms[0].pilots[1];
+    for (const double share : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95}) {
         const auto found = variances(share);
-        const auto& dark = rooms[0].pilots;
-        const auto& lit = rooms[1].pilots;
-        plot.rows.push_back(
-            {share, found[0] / half[0], law(dark[0].absolute, dark[1].absolute, share),
-             found[1] / half[1], law(dark[0].visible, dark[1].visible, share),
-             found[2] / half[2], law(lit[0].visible, lit[1].visible, share)});
+        plot.rows.push_back({share, found[0] / half[0],
+                             law(l.absolute, r.absolute, share), found[1] / half[1],
+                             law(l.relative, r.relative, share), found[2] / half[2],
+                             law(l.visible, r.visible, share)});
     }
     save_plot(options.out, plot);
 }
 
-/// The pictures: both rooms by few photons, shared out equally and by brightness.
+/// The pictures: both rooms by few photons, shared out as lights see them and by area.
 void pictures(const examples::Options& options) {
     for (const auto& [name, albedo] : {std::pair{"dark", 0.0f}, std::pair{"lit", 0.8f}})
-        for (const auto& [how, budget] :
-             {std::pair{"seen", CausticBudget::as_seen},
-              std::pair{"brightness", CausticBudget::brightness}}) {
+        for (const auto& [how, budget] : {std::pair{"seen", CausticBudget::as_seen},
+                                          std::pair{"area", CausticBudget::area}}) {
             const auto room = two_balls(albedo);
             PhotonMappingSettings settings{.split_glass = true,
                                            .indirect = IndirectLight::photons,
