@@ -380,13 +380,13 @@ void one_picture(const examples::Options& options, const Sizes& sizes) {
                                  .samples = options.samples,
                                  .seed = options.seed,
                                  .threads = options.threads};
-    // [program]
     examples::ProgressBar bar("passes", options.quiet);
     auto stopped = [](long long, long long) { return examples::stop_signal() == 0; };
     auto settings = pass_settings(options);
     settings.caustics.progress = settings.general.progress = stopped;
     RenderSettings size = picture;
     size.progress = stopped;
+    // [program]
     const auto pass = [&](long long i, double scale) {
         return photon_mapping_pass(room.scene, room.camera, settings, size, i, scale);
     };
