@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "ljus/photons/emission.hpp"
@@ -119,7 +120,7 @@ struct ChosenTargetT {
 /// \return The target; nothing if none has a size.
 template <std::floating_point T, typename SizeOf>
 [[nodiscard]] std::optional<ChosenTargetT<T>>
-choose_target(const std::vector<ObjectId>& targets, SizeOf size_of, T u_target) {
+choose_target(std::span<const ObjectId> targets, SizeOf size_of, T u_target) {
     ChosenTargetT<T> chosen;
     // Each takes the place of the one before with its share of the sum so far, and u is
     // stretched to [0, 1) again.
@@ -172,8 +173,7 @@ template <std::floating_point T>
 /// \param choice   Of the scene's lights; at least one.
 /// \param targets  The objects; at least one.
 /// \param stream   Six numbers are drawn.
-/// \return The photon; nothing if its direction lies behind the light, or if all
-///         targets are points.
+/// \return The photon; nothing behind the light, or if all targets are points.
 /// \cost One cone a target.
 /// \report{Section 3.2.2.2} \cite jensen1996
 /// \erratum{The program behind the report does not correct for the density of the
@@ -182,7 +182,7 @@ template <std::floating_point T>
 // [aim]
 template <SceneLike S, typename Stream>
 [[nodiscard]] std::optional<detail::AimedPhotonT<typename S::Scalar>>
-aim(const S& scene, const LightChoice& choice, const std::vector<ObjectId>& targets,
+aim(const S& scene, const LightChoice& choice, std::span<const ObjectId> targets,
     Stream& stream) {
     using T = typename S::Scalar;
     const detail::ChosenLightT<T> chosen =

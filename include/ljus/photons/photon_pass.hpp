@@ -23,6 +23,15 @@ enum class MapType : std::uint8_t {
     caustics ///< Mirrors and glass only; stored: L S+ D.
 };
 
+/// What the photons of the caustics map are shared out by; see \ref budget.
+enum class CausticBudget : std::uint8_t {
+    as_seen,   ///< The cones in which lights see the objects; no pilot.
+    equal,     ///< Nothing: each object gets as many.
+    flux,      ///< Least squared error of the light on surfaces, in (W/m^2)^2.
+    area,      ///< Least squared error relative to each caustic's own mean light.
+    brightness ///< Least squared error relative to all light: what the eye sees.
+};
+
 /// Where the numbers of photons come from.
 enum class PhotonSampling : std::uint8_t {
     random, ///< Chance; see \ref random.
@@ -38,6 +47,9 @@ struct PhotonPassSettings {
     bool shadow_photons = true; ///< Whether the general map keeps them.
     PhotonKinds keep = light_kinds; ///< Which others it keeps.
     PhotonSampling numbers = PhotonSampling::random; ///< Chance, or better than chance.
+    /// Of the caustics' photons: an object each, in the order of specular_objects(),
+    /// with the sum 1; none: as lights see them. See \ref budget.
+    std::vector<double> shares = {};
     double max_memory = 4e9;       ///< Bytes that the photons may take while traced.
     long long give_up = 1LL << 20; ///< Ends after so many paths if none was stored.
     int threads = 0;               ///< 0: all that there are.

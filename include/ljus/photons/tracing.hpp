@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "ljus/parallel.hpp"
-#include "ljus/photons/aiming.hpp"
+#include "ljus/photons/detail/aim_by_share.hpp"
 #include "ljus/photons/photon_path.hpp"
 #include "ljus/scene/index.hpp"
 
@@ -44,7 +44,8 @@ void trace_block(const S& scene, MapType map, const LightChoice& choice,
         EmittedPhotonT<T> photon;
         std::optional<ObjectId> target;
         if (map == MapType::caustics) {
-            const auto aimed = aim(scene, choice, targets, stream);
+            const auto aimed =
+                aim_by_share(scene, choice, targets, pass.shares, stream);
             if (!aimed) {
                 ++block.unsent;
                 continue;
@@ -175,6 +176,7 @@ trace_photons(const S& scene, MapType map, const PhotonPassSettings& pass) {
     const detail::IndexedT<S> indexed(scene);
     const bool caustics = map == MapType::caustics;
     const auto targets = caustics ? specular_objects(scene) : std::vector<ObjectId>{};
+    if (caustics) detail::check_shares(pass.shares, targets.size());
     if (caustics && targets.empty()) return {.emitted = pass.photons};
 
     const auto trace = [&](const detail::BlockRange& paths,

@@ -60,6 +60,8 @@ struct PhotonMappingSettings {
     IndirectLight indirect = IndirectLight::rays; ///< Who carries indirect light.
     PhotonPassSettings caustics{}; ///< Photons aimed at mirrors and glass.
     PhotonPassSettings general{};  ///< Photons for all the rest.
+    CausticBudget caustic_budget =
+        CausticBudget::as_seen; ///< How mirrors and glass share caustics.photons.
     /// How caustics are estimated; radius 0: one that holds 32 photons typically.
     DensityEstimateSettings caustics_estimate{};
     /// How the general map is asked; radius 0: one that holds 64 photons typically.

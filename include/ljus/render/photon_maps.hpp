@@ -3,6 +3,7 @@
 /// \file ljus/render/photon_maps.hpp
 /// \brief The first pass of the report's renderer: its photon maps.
 
+#include "ljus/photons/budget.hpp"
 #include "ljus/photons/tracing.hpp"
 #include "ljus/render/irradiance_cache.hpp"
 #include "ljus/render/survey.hpp"
@@ -24,6 +25,37 @@ struct PhotonMapsT {
     bool complete = true;  ///< False if the progress callback stopped the pass.
     std::string remarks{}; ///< Why a pass gave up, if one did: lines.
 };
+
+namespace detail {
+
+/// The shares of the caustics' photons that a budget asks for, by a pilot.
+/// \param scene     The scene.
+/// \param settings  The budget, photons, radii. For the brightness 20 000 photons of a
+///                  general pass tell what else lights the scene.
+/// \return As PhotonPassSettings::shares.
+template <SceneLike S>
+[[nodiscard]] std::vector<double>
+shares_by_pilot(const S& scene, const PhotonMappingSettings& settings) {
+    using T = typename S::Scalar;
+    const CausticBudget budget = settings.caustic_budget;
+    if (budget == CausticBudget::as_seen || !settings.caustics.shares.empty())
+        return settings.caustics.shares;
+    std::vector<PhotonT<T>> light;
+    if (budget == CausticBudget::brightness) {
+        PhotonPassSettings pass = settings.general;
+        pass.photons = 20000;
+        pass.shadow_photons = false;
+        pass.iteration = ~pass.iteration;
+        pass.progress = {};
+        light = trace_photons(scene, MapType::general, pass).photons;
+    }
+    return caustic_shares(budget,
+                          pilot_caustics(scene, settings.caustics,
+                                         T(settings.caustics_estimate.radius), light,
+                                         T(settings.general_estimate.radius)));
+}
+
+} // namespace detail
 
 /// Runs the first pass: the maps that the plan asks for, and no others.
 /// \param scene     The scene.
@@ -51,8 +83,11 @@ make_photon_maps(const S& scene, const PhotonMappingSettings& settings = {}) {
         maps.complete = maps.complete && traced.complete;
         if (!traced.remark.empty()) maps.remarks.append(traced.remark).append("\n");
     };
-    if (run.caustics_map)
-        make(MapType::caustics, settings.caustics, maps.caustics, maps.caustics_audit);
+    if (run.caustics_map) {
+        PhotonPassSettings caustics = settings.caustics;
+        caustics.shares = detail::shares_by_pilot(scene, settings);
+        make(MapType::caustics, caustics, maps.caustics, maps.caustics_audit);
+    }
     if (run.general_map)
         make(MapType::general, general, maps.general, maps.general_audit);
     if (run.irradiance && maps.complete)

@@ -127,17 +127,35 @@ struct Passes {
         settings.indirect == IndirectLight::cache || settings.keep_general_map;
     const bool general = lit && map_asked && settings.general.photons > 0;
     const bool cache = settings.indirect == IndirectLight::cache;
-    const bool irradiance =
-        general && (cache || settings.indirect == IndirectLight::gather);
+    const bool looked_up = cache || settings.indirect == IndirectLight::gather;
     return {.shadow_rays = lit,
             .indirect_rays = rays,
             .caustics_map = lit && found.specular > 0 && settings.caustics.photons > 0,
             .general_map = general,
             .shadow_photons = general && settings.general.shadow_photons,
-            .irradiance = irradiance,
-            .cache = irradiance && cache};
+            .irradiance = general && looked_up,
+            .cache = general && cache};
 }
 // [survey]
+
+/// How a plan says what the caustics' photons are shared out by.
+/// \param settings  What the user asks for.
+/// \return The end of a clause; nothing for CausticBudget::as_seen.
+[[nodiscard]] inline std::string budget_clause(const PhotonMappingSettings& settings) {
+    if (!settings.caustics.shares.empty()) return ", photons in given shares";
+    switch (settings.caustic_budget) {
+    case CausticBudget::equal:
+        return ", each gets as many photons";
+    case CausticBudget::flux:
+        return ", photons are shared out by flux";
+    case CausticBudget::area:
+        return ", photons are shared out by caustic area";
+    case CausticBudget::brightness:
+        return ", photons are shared out by flux over brightness";
+    default:
+        return "";
+    }
+}
 
 /// The plan: choose_passes() with its reasons. Thin films and the tree are decided by
 /// the same questions where a ray is traced.
@@ -174,8 +192,9 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
         item("caustics map", run.caustics_map,
              found.specular == 0              ? "no object mirrors or refracts"
              : settings.caustics.photons == 0 ? "0 photons were asked for"
-             : run.shadow_rays ? of_all(found.specular, "mirror or refract")
-                               : "nothing is lit");
+             : run.shadow_rays
+                 ? of_all(found.specular, "mirror or refract") + budget_clause(settings)
+                 : "nothing is lit");
     plan.general_map =
         item("general map", run.general_map,
              run.general_map ? "indirect light is asked of it" : "no ray asks it");

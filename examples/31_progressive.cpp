@@ -1,0 +1,669 @@
+// smoke: --quality draft --width 24 --height 24 --passes 8 --seeds 2
+/// \file 31_progressive.cpp
+/// \brief Chapter 31: photon maps that converge. Laws, pictures, and one that resumes.
+///
+/// With --picture it makes one picture and nothing else: with a preview while it runs,
+/// and a checkpoint from which --resume goes on. This is what the chapter kills.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include <ljus/image/flip.hpp>
+#include <ljus/io/pfm.hpp>
+#include <ljus/io/progressive_file.hpp>
+#include <ljus/ljus.hpp>
+#include <ljus/scenes/cornell_box.hpp>
+
+#include "common/clock.hpp"
+#include "common/command_line.hpp"
+#include "common/convergence.hpp"
+#include "common/drawing.hpp"
+#include "common/terminal.hpp"
+
+#if __has_include(<sys/resource.h>)
+#include <sys/resource.h>
+#endif
+
+using namespace ljus;
+
+namespace {
+
+/// What the user may set besides the common options.
+struct Sizes {
+    long long passes = 0;     ///< How many.
+    int seeds = 0;            ///< Runs behind each bias and variance.
+    std::string picture = {}; ///< Make this file alone.
+    std::string checkpoint = {};
+    std::string preview = {};
+    double every = 2; ///< Seconds between previews, and between checkpoints.
+    bool resume = false;
+};
+
+/// The most memory that this program has taken so far; NaN where nobody tells.
+double peak_megabytes() {
+#if __has_include(<sys/resource.h>)
+    struct ::rusage usage = {};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return double(usage.ru_maxrss) / 1024;
+#else
+    return std::nan("");
+#endif
+}
+
+// --- The laws, where light is known --------------------------------------------------
+
+/// A point light under a square mirror: its light on the floor ends at 2.
+using Stage = Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Mirror>>;
+Stage window_stage() {
+    Stage stage;
+    stage.add(Quad{.corner{-9, 0, -9}, .edge_u{0, 0, 18}, .edge_v{18, 0, 0}},
+              stage.add(Lambertian{.albedo = Rgb{1}}));
+    stage.add(Quad{.corner{-0.5f, 1.5f, -0.5f}, .edge_u{1, 0, 0}, .edge_v{0, 0, 1}},
+              stage.add(Mirror{.reflectance = Rgb{1}}));
+    stage.add(PointLight{.position{0, 1, 0}});
+    return stage;
+}
+
+/// The exact light, relative to that in the middle.
+double window_light(double x, double z) {
+    if (std::max(std::abs(x), std::abs(z)) > 2) return 0;
+    const double d2 = x * x + z * z + 4;
+    return 8 / (d2 * std::sqrt(d2));
+}
+
+/// Places on the floor: around the middle, or across an edge.
+struct Strip {
+    const char* name;
+    double first, last;
+};
+constexpr std::array strips{Strip{"middle", -0.5, 0.5}, Strip{"edge", 1.2, 2.8}};
+constexpr int places = 48;
+
+Vec3 place(const Strip& strip, int i) {
+    return {float(strip.first + (strip.last - strip.first) * (i + 0.5) / places), 0,
+            0.5f * std::sin(2.4f * float(i))};
+}
+
+/// A picture one row high: what an estimate reads at the places, relative to the light
+/// in the middle.
+Image read_strip(const PhotonMap& map, const Strip& strip, double radius) {
+    Image row = make_image(places, 1);
+    const Lambertian white{.albedo = Rgb{1}};
+    for (int i = 0; i < places; ++i) {
+        VertexT<float> floor{.point{.position = place(strip, i), .normal{0, 1, 0}}};
+        floor.frame = frame_around(floor.point.normal);
+        std::uint64_t gathered = 0;
+        pixel(row, i, 0) =
+            4 * std::numbers::pi_v<float> *
+            estimate_radiance(map, floor, white, Vec3{0, 0, 1},
+                              DensityEstimateSettings{.radius = float(radius)},
+                              all_kinds, gathered);
+    }
+    return row;
+}
+
+Image exact_strip(const Strip& strip) {
+    Image row = make_image(places, 1);
+    for (int i = 0; i < places; ++i) {
+        const Vec3 at = place(strip, i);
+        pixel(row, i, 0) = Rgb{float(window_light(double(at.x), double(at.z)))};
+    }
+    return row;
+}
+
+PhotonMap window_map(const Stage& stage, long long photons, std::uint64_t seed,
+                     long long pass) {
+    return make_photon_map(trace_photons(stage, MapType::caustics,
+                                         {.photons = photons,
+                                          .seed = seed,
+                                          .iteration = std::uint64_t(pass),
+                                          .threads = 1})
+                               .photons);
+}
+
+/// One way to shrink at one strip, and what each seed made of it after some passes.
+struct Series {
+    Strip strip;
+    double alpha = 0;
+    double radius = 0;                           ///< Of the first pass.
+    std::vector<std::vector<Image>> images = {}; ///< [which passes][seed].
+    std::vector<double> estimates = {}; ///< Mean square of the estimated errors.
+};
+
+/// Numbers of passes that are looked at: 1, 2, 3, 6, 10, 18, 32, ...
+std::vector<long long> milestones(long long passes) {
+    std::vector<long long> list;
+    for (int i = 0;; ++i) {
+        const long long n = std::llround(std::pow(10.0, i / 4.0));
+        if (n >= passes) break;
+        if (list.empty() || n > list.back()) list.push_back(n);
+    }
+    list.push_back(passes);
+    return list;
+}
+
+/// Runs all series on the same photons, seed by seed.
+void run_series(std::vector<Series>& all, long long photons,
+                const std::vector<long long>& stops, int seeds) {
+    const Stage stage = window_stage();
+    for (Series& series : all) {
+        series.images.assign(stops.size(), {});
+        series.estimates.assign(stops.size(), 0);
+    }
+    for (int seed = 1; seed <= seeds; ++seed) {
+        std::vector<ProgressiveState> states;
+        for (const Series& series : all) states.push_back({.alpha = series.alpha});
+        std::size_t stop = 0;
+        for (long long pass = 1; pass <= stops.back(); ++pass) {
+            const PhotonMap map = window_map(stage, photons, std::uint64_t(seed), pass);
+            for (std::size_t i = 0; i < all.size(); ++i)
+                add_pass(states[i],
+                         read_strip(map, all[i].strip,
+                                    all[i].radius * std::sqrt(states[i].shrink)));
+            if (pass != stops[stop]) continue;
+            for (std::size_t i = 0; i < all.size(); ++i) {
+                all[i].images[stop].push_back(mean_image(states[i]));
+                const double error = estimate_error(states[i]).pixels;
+                all[i].estimates[stop] += error * error / seeds;
+            }
+            ++stop;
+            examples::stop_if_asked();
+        }
+    }
+}
+
+/// Slopes of bias and variance, and the estimated error beside the true one.
+void laws(const examples::Options& options, const Sizes& sizes) {
+    constexpr long long photons = 500;
+    const auto stops =
+        milestones(options.pick(sizes.passes / 5 + 1, sizes.passes, sizes.passes));
+    std::vector<Series> all;
+    for (const Strip& strip : strips)
+        for (const double alpha : {1.0 / 3, 2.0 / 3})
+            all.push_back({strip, alpha, strip.first < 0 ? 1.2 : 0.6});
+    run_series(all, photons, stops, 4 * sizes.seeds);
+
+    examples::Plot plot{.name = "progressive-laws",
+                        .columns = {"passes", "variance in the middle",
+                                    "squared bias in the middle", "estimated variance",
+                                    "squared bias across the edge", "n^(-2/3)"},
+                        .y_label = "mean square over the places",
+                        .log_x = true,
+                        .log_y = true};
+    examples::Table table{.name = "progressive-slopes",
+                          .columns = {"where", "alpha", "variance: law", "measured",
+                                      "squared bias: law", "measured", "both: law",
+                                      "measured"}};
+    std::vector<std::vector<BiasVariance>> splits;
+    for (const Series& series : all) {
+        std::vector<BiasVariance> split;
+        for (const auto& runs : series.images)
+            split.push_back(bias_variance(runs, exact_strip(series.strip)));
+        splits.push_back(split);
+        std::vector<double> n, variance, bias, both;
+        for (std::size_t i = 0; i < stops.size(); ++i) {
+            if (stops[i] * 60 < stops.back()) continue; // where it has settled
+            n.push_back(double(stops[i]));
+            variance.push_back(split[i].variance);
+            bias.push_back(split[i].bias_squared);
+            both.push_back(split[i].variance + split[i].bias_squared);
+        }
+        const bool middle = series.strip.first < 0;
+        const double a = series.alpha;
+        const double bias_law = middle ? -2 * (1 - a) : -(1 - a) / 2;
+        const auto fitted = [&](const std::vector<double>& y) {
+            const auto fit = examples::fit_power(n, y);
+            return examples::text(fit.slope, "%.3f") + " +- " +
+                   examples::text(fit.error, "%.3f");
+        };
+        table.rows.push_back(
+            {series.strip.name, a < 0.5 ? "1/3" : "2/3", examples::text(-a, "%.3f"),
+             fitted(variance), examples::text(bias_law, "%.3f"), fitted(bias),
+             examples::text(std::max(-a, bias_law), "%.3f"), fitted(both)});
+        if (!options.quiet)
+            std::printf("%s alpha %.2f: variance %s (law %.3f), bias^2 %s (law %.3f)\n",
+                        series.strip.name, a, fitted(variance).c_str(), -a,
+                        fitted(bias).c_str(), bias_law);
+    }
+    const double last = splits[1].back().variance;
+    for (std::size_t i = 0; i < stops.size(); ++i)
+        plot.rows.push_back(
+            {double(stops[i]), splits[1][i].variance, splits[1][i].bias_squared,
+             stops[i] > 1 ? all[1].estimates[i] : std::nan(""),
+             splits[3][i].bias_squared,
+             2 * last * std::pow(double(stops[i]) / double(stops.back()), -2.0 / 3)});
+    save_plot(options.out, plot);
+    save_table(options.out, table);
+}
+
+/// The same photons in one map, with the best radius that one map can have, and in
+/// passes, with the best first radius.
+void one_map(const examples::Options& options, const Sizes& sizes) {
+    constexpr long long photons = 500;
+    const int seeds = std::max(2, sizes.seeds / 2);
+    std::vector<long long> stops;
+    for (long long n = 10;
+         n <= options.pick(sizes.passes / 5, sizes.passes, sizes.passes); n *= 10)
+        stops.push_back(n);
+    if (stops.empty()) stops.push_back(sizes.passes);
+    examples::Table table{.name = "progressive-one-map",
+                          .columns = {"where", "photons", "one map: best radius",
+                                      "squared error", "passes of 500", "squared error",
+                                      "ratio"}};
+    const auto steps = {-4, -3, -2, -1, 0, 1, 2, 3, 4};
+    const auto error_of = [](const std::vector<Image>& runs, const Strip& strip) {
+        const auto split = bias_variance(runs, exact_strip(strip));
+        return split.bias_squared + split.variance;
+    };
+    std::vector<Series> all; // of each strip, several first radii
+    for (const Strip& strip : strips)
+        for (const int step : steps)
+            all.push_back({strip, strip.first < 0 ? 2.0 / 3 : 1.0 / 3,
+                           (strip.first < 0 ? 0.9 : 0.7) * std::exp2(step / 4.0)});
+    run_series(all, photons, stops, seeds);
+    const Stage stage = window_stage();
+    for (const Strip& strip : strips) {
+        const bool middle = strip.first < 0;
+        for (std::size_t s = 0; s < stops.size(); ++s) {
+            const long long count = stops[s] * photons;
+            std::vector<std::vector<Image>> runs(steps.size());
+            std::vector<double> radii;
+            for (const int step : steps)
+                radii.push_back((middle ? 2.4 * std::pow(double(count), -1.0 / 6)
+                                        : 4.0 * std::pow(double(count), -1.0 / 3)) *
+                                std::exp2(step / 4.0));
+            for (int seed = 1; seed <= seeds; ++seed) {
+                const PhotonMap map =
+                    window_map(stage, count, 5000 + std::uint64_t(seed), 0);
+                for (std::size_t i = 0; i < radii.size(); ++i)
+                    runs[i].push_back(read_strip(map, strip, radii[i]));
+                examples::stop_if_asked();
+            }
+            std::size_t best = 0;
+            for (std::size_t i = 1; i < radii.size(); ++i)
+                if (error_of(runs[i], strip) < error_of(runs[best], strip)) best = i;
+            double passes = 1e300, first = 0;
+            for (const Series& series : all) {
+                if (series.strip.first != strip.first) continue;
+                const double error = error_of(series.images[s], strip);
+                if (error < passes) passes = error, first = series.radius;
+            }
+            const double map = error_of(runs[best], strip);
+            table.rows.push_back(
+                {strip.name, std::to_string(count), examples::text(radii[best], "%.2f"),
+                 examples::text(map, "%.3g"),
+                 std::to_string(stops[s]) + ", r = " + examples::text(first, "%.2f"),
+                 examples::text(passes, "%.3g"), examples::text(passes / map, "%.2f")});
+            if (!options.quiet)
+                std::printf(
+                    "%s, %lld photons: one map %.3g (r %.2f), passes %.3g (r %.2f)\n",
+                    strip.name, count, map, radii[best], passes, first);
+        }
+    }
+    save_table(options.out, table);
+}
+
+/// Three passes at a place near the edge of the light: photons of their own, and discs
+/// that shrink.
+void draw_discs(const examples::Options& options) {
+    const Stage stage = window_stage();
+    examples::Drawing figure{.name = "progressive-discs",
+                             .description = "Three passes: the photons are others each "
+                                            "time, and the disc is smaller",
+                             .low{-0.1, -0.35},
+                             .high{6.5, 2.1},
+                             .scale = 108};
+    double shrink = 1;
+    int panel = 0;
+    constexpr std::array colors{examples::colors::blue, examples::colors::orange,
+                                examples::colors::green};
+    for (long long pass = 1; pass <= 100; ++pass) {
+        if (pass == 1 || pass == 10 || pass == 100) {
+            const double left = 2.2 * panel;
+            const char* const color = colors[std::size_t(panel)];
+            draw_line(figure,
+                      {{left, 0}, {left + 2, 0}, {left + 2, 2}, {left, 2}, {left, 0}},
+                      {"currentColor", 1});
+            const auto traced = trace_photons(stage, MapType::caustics,
+                                              {.photons = 4000,
+                                               .seed = options.seed,
+                                               .iteration = std::uint64_t(pass)});
+            for (const Photon& photon : traced.photons) { // x from 0.6 to 2.6
+                const double x = double(photon.position.x) - 0.6;
+                const double y = double(photon.position.z) + 1;
+                if (x > 0.02 && x < 1.98 && y > 0.02 && y < 1.98)
+                    draw_dot(figure, {left + x, y}, 1.7, color);
+            }
+            draw_arc(figure, {left + 1, 1}, 0.7 * std::sqrt(shrink), 0,
+                     2 * std::numbers::pi, {"currentColor", 2});
+            draw_label(figure, {left + 1, -0.2},
+                       "pass " + std::to_string(pass) +
+                           ", r = " + examples::text(0.7 * std::sqrt(shrink), "%.2f"));
+            ++panel;
+        }
+        shrink *= (double(pass) + 2.0 / 3) / (double(pass) + 1);
+    }
+    save_drawing(options.out, figure);
+}
+
+// --- The picture ---------------------------------------------------------------------
+
+using CornellScene = decltype(cornell_box().scene);
+
+/// How the box is rendered in one pass.
+PhotonMappingSettings pass_settings(const examples::Options& options) {
+    PhotonMappingSettings settings{.split_glass = true,
+                                   .indirect = IndirectLight::photons};
+    settings.caustics = {
+        .photons = 1000, .seed = options.seed, .threads = options.threads};
+    settings.general = {.photons = 5000,
+                        .seed = options.seed,
+                        .shadow_photons = false,
+                        .threads = options.threads};
+    settings.caustics_estimate.radius = 0.12f;
+    settings.general_estimate.radius = 0.3f;
+    return settings;
+}
+
+/// A picture alone, as a program makes it: it shows itself while it runs, and can be
+/// stopped, killed and resumed.
+void one_picture(const examples::Options& options, const Sizes& sizes) {
+    for (const std::string& file : {sizes.picture, sizes.checkpoint, sizes.preview})
+        if (!file.empty()) examples::require_writable(file);
+    const auto room = cornell_box();
+    const RenderSettings picture{.width = options.width,
+                                 .height = options.height,
+                                 .samples = options.samples,
+                                 .seed = options.seed,
+                                 .threads = options.threads};
+    examples::ProgressBar bar("passes", options.quiet);
+    auto stopped = [](long long, long long) { return examples::stop_signal() == 0; };
+    auto settings = pass_settings(options);
+    settings.caustics.progress = settings.general.progress = stopped;
+    RenderSettings size = picture;
+    size.progress = stopped;
+    // [program]
+    const auto pass = [&](long long i, double scale) {
+        return photon_mapping_pass(room.scene, room.camera, settings, size, i, scale);
+    };
+    ProgressiveState state;
+    if (sizes.resume) {
+        state = load_checkpoint(sizes.checkpoint);
+        require_first_pass(state, pass);
+    }
+    examples::StopWatch watch;
+    const auto save = [&](const ProgressiveState& now) {
+        if (!sizes.preview.empty()) save_png(mean_image(now), sizes.preview);
+        if (!sizes.checkpoint.empty()) save_checkpoint(sizes.checkpoint, now);
+        watch.restart();
+    };
+    const bool done = run_progressive(state, sizes.passes, pass, [&](const auto& now) {
+        if (watch.seconds() >= sizes.every) save(now);
+        return bar(now.passes, sizes.passes);
+    });
+    if (state.passes > 0) save(state);
+    if (!done) throw examples::Interrupted{};
+    save_pfm(mean_image(state), sizes.picture);
+    // [program]
+    const auto error = estimate_error(state);
+    if (!options.quiet)
+        std::printf(
+            "%lld passes, standard error %.3g a pixel, %.3g a block of %d x %d; "
+            "radius %.3f of the first\n",
+            state.passes, error.pixels, error.blocks, state.block_side,
+            state.block_side, std::sqrt(state.shrink));
+}
+
+/// The box after ever more passes, and beside one map of as many photons.
+void pictures(const examples::Options& options, const Sizes& sizes) {
+    const auto room = cornell_box();
+    const auto scene = index_scene(room.scene);
+    const int width = options.width, height = options.height;
+    const auto tracer = make_path_tracer(room.scene);
+    // Two references: what their errors do not share is their own noise.
+    const int rays = options.pick(256, 4096, 65536);
+    std::array<Image, 2> halves;
+    for (const std::size_t i : {0u, 1u}) {
+        examples::ProgressBar bar("reference", options.quiet);
+        halves[i] = render(tracer, room.camera,
+                           {.width = width,
+                            .height = height,
+                            .samples = rays,
+                            .seed = 77 + i,
+                            .threads = options.threads,
+                            .progress = bar})
+                        .image;
+        examples::stop_if_asked();
+    }
+    Image truth = halves[0];
+    for (std::size_t p = 0; p < truth.pixels.size(); ++p)
+        truth.pixels[p] = 0.5f * (halves[0].pixels[p] + halves[1].pixels[p]);
+    const ImageT<double> exact = block_means(truth, 1);
+    double its_noise = 0; // of the mean of both, as relMSE
+    for (std::size_t p = 0; p < truth.pixels.size(); ++p) {
+        const RgbT<double> d = 0.5 * (RgbT<double>(halves[0].pixels[p]) -
+                                      RgbT<double>(halves[1].pixels[p]));
+        const RgbT<double> r = exact.pixels[p];
+        const RgbT<double> e = d * d / (r * r + default_epsilon);
+        its_noise += (e.x + e.y + e.z) / 3 / double(truth.pixels.size());
+    }
+
+    // The first seed goes to the end; the others as far as bias and variance are asked.
+    const auto stops = milestones(sizes.passes);
+    const long long split_at = options.pick(4, 64, 256);
+    std::vector<std::vector<Image>> runs(stops.size());
+    std::vector<double> seconds(stops.size()), memory(stops.size()),
+        estimates(stops.size()), shrinks(stops.size());
+    for (int seed = 1; seed <= sizes.seeds; ++seed) {
+        auto settings = pass_settings(options);
+        settings.caustics.seed = settings.general.seed = std::uint64_t(seed);
+        const RenderSettings picture{.width = width,
+                                     .height = height,
+                                     .samples = 1,
+                                     .seed = std::uint64_t(seed),
+                                     .threads = options.threads};
+        const auto pass = [&](long long i, double scale) {
+            return photon_mapping_pass(scene, room.camera, settings, picture, i, scale);
+        };
+        ProgressiveState state;
+        const double begin = examples::processor_seconds();
+        examples::ProgressBar bar("seed " + std::to_string(seed), options.quiet);
+        for (std::size_t s = 0; s < stops.size(); ++s) {
+            if (seed > 1 && stops[s] > std::max(split_at, 1LL)) break;
+            (void)run_progressive(state, stops[s], pass, [&](const auto& now) {
+                return bar(now.passes, stops.back());
+            });
+            examples::stop_if_asked();
+            runs[s].push_back(mean_image(state));
+            if (seed > 1) continue;
+            seconds[s] = examples::processor_seconds() - begin;
+            memory[s] = peak_megabytes();
+            estimates[s] = estimate_error(state).pixels;
+            shrinks[s] = std::sqrt(state.shrink);
+            for (const long long shown : {1LL, 10LL, 100LL, 1000LL})
+                if (stops[s] == shown)
+                    save_png(runs[s][0], options.path("progressive-" +
+                                                      std::to_string(shown) + ".png"));
+        }
+    }
+    // The same with the exponent that edges like better.
+    std::vector<double> faster(stops.size());
+    {
+        const auto pass = [&](long long i, double scale) {
+            return photon_mapping_pass(scene, room.camera, pass_settings(options),
+                                       {.width = width,
+                                        .height = height,
+                                        .samples = 1,
+                                        .seed = options.seed,
+                                        .threads = options.threads},
+                                       i, scale);
+        };
+        ProgressiveState state{.alpha = 1.0 / 3};
+        examples::ProgressBar bar("alpha 1/3", options.quiet);
+        for (std::size_t s = 0; s < stops.size(); ++s) {
+            (void)run_progressive(state, stops[s], pass, [&](const auto& now) {
+                return bar(now.passes, stops.back());
+            });
+            examples::stop_if_asked();
+            faster[s] = rel_mse(mean_image(state), truth) - its_noise;
+        }
+    }
+    save_png(runs.back()[0], options.path("progressive-last.png"));
+    save_png(truth, options.path("progressive-reference.png"));
+
+    examples::Plot plot{
+        .name = "progressive-picture",
+        .columns = {"passes", "alpha = 2/3", "alpha = 1/3", "n^(-2/3)", "n^(-1/3)"},
+        .y_label = "relMSE of the box",
+        .log_x = true,
+        .log_y = true};
+    examples::Table table{.name = "progressive-picture-table",
+                          .columns = {"passes", "processor s", "radius", "relMSE",
+                                      "squared bias", "variance", "FLIP",
+                                      "estimated error of a pixel", "peak memory, MB"}};
+    std::vector<double> n, mse;
+    for (std::size_t s = 0; s < stops.size(); ++s) {
+        const auto split = runs[s].size() > 1
+                               ? examples::relative_split(runs[s], exact, its_noise)
+                               : BiasVariance{std::nan(""), std::nan("")};
+        const double error = rel_mse(runs[s][0], truth) - its_noise;
+        n.push_back(double(stops[s]));
+        mse.push_back(error);
+        plot.rows.push_back({n.back(), error, faster[s],
+                             mse[0] * std::pow(n.back(), -2.0 / 3),
+                             mse[0] * std::pow(n.back(), -1.0 / 3)});
+        table.rows.push_back(
+            {std::to_string(stops[s]), examples::text(seconds[s], "%.2f"),
+             examples::text(shrinks[s], "%.2f"), examples::text(error, "%.2g"),
+             examples::text(split.bias_squared, "%.2g"),
+             examples::text(split.variance, "%.2g"),
+             examples::text(flip(runs[s][0], truth), "%.3f"),
+             stops[s] > 1 ? examples::text(estimates[s], "%.2g") : "",
+             examples::text(memory[s], "%.0f")});
+        if (!options.quiet) {
+            for (const auto& cell : table.rows.back())
+                std::printf("%-10s ", cell.c_str());
+            std::printf("\n");
+        }
+    }
+    save_plot(options.out, plot);
+    save_table(options.out, table);
+
+    // As many photons and rays at once, with radii that one must choose.
+    examples::Table beside{.name = "progressive-beside",
+                           .columns = {"how", "processor s", "relMSE", "squared bias",
+                                       "variance", "FLIP"}};
+    std::size_t at = 0;
+    while (at + 1 < stops.size() && stops[at + 1] <= split_at) ++at;
+    const auto add = [&](const std::string& how, double time,
+                         const std::vector<Image>& r) {
+        const auto split = examples::relative_split(r, exact, its_noise);
+        double seen = 0;
+        for (const Image& run : r) seen += flip(run, truth) / double(r.size());
+        beside.rows.push_back(
+            {how, examples::text(time, "%.2f"),
+             examples::text(split.bias_squared + split.variance, "%.2g"),
+             examples::text(split.bias_squared, "%.2g"),
+             examples::text(split.variance, "%.2g"), examples::text(seen, "%.3f")});
+        if (!options.quiet) {
+            for (const auto& cell : beside.rows.back())
+                std::printf("%-10s ", cell.c_str());
+            std::printf("\n");
+        }
+    };
+    // All seeds of one way, and the time of the first.
+    const auto try_way = [&](const std::string& how, auto make) {
+        std::vector<Image> images;
+        double time = 0;
+        for (int seed = 1; seed <= sizes.seeds; ++seed) {
+            const double begin = examples::processor_seconds();
+            images.push_back(make(std::uint64_t(seed)));
+            if (seed == 1) time = examples::processor_seconds() - begin;
+            examples::stop_if_asked();
+        }
+        add(how, time, images);
+    };
+    const auto settings_of = [&](double scale, long long times, std::uint64_t seed) {
+        auto settings = pass_settings(options);
+        settings.caustics.photons *= times;
+        settings.general.photons *= times;
+        settings.caustics.seed = settings.general.seed = seed;
+        settings.caustics_estimate.radius *= float(scale);
+        settings.general_estimate.radius *= float(scale);
+        return settings;
+    };
+    const auto picture_of = [&](long long samples, std::uint64_t seed) {
+        return RenderSettings{.width = width,
+                              .height = height,
+                              .samples = int(samples),
+                              .seed = seed,
+                              .threads = options.threads};
+    };
+    const std::string count = std::to_string(stops[at]) + " passes, first radius ";
+    for (const double scale : {1.0, 0.5, 0.35})
+        try_way(count + examples::text(scale, "%.2f"), [&](std::uint64_t seed) {
+            return mean_image([&] {
+                ProgressiveState state;
+                const auto pass = [&](long long i, double shrunk) {
+                    return photon_mapping_pass(scene, room.camera,
+                                               settings_of(scale, 1, seed),
+                                               picture_of(1, seed), i, shrunk);
+                };
+                (void)run_progressive(state, stops[at], pass,
+                                      [](const auto&) { return true; });
+                return state;
+            }());
+        });
+    for (const double scale : {1.0, 0.5, 0.35, 0.25})
+        try_way(
+            "one map, radius " + examples::text(scale, "%.2f"),
+            [&](std::uint64_t seed) {
+                const auto settings = settings_of(scale, stops[at], seed);
+                const auto maps = make_photon_maps(scene, settings);
+                const auto mapper = make_photon_mapper(scene, maps, settings);
+                return render(mapper, room.camera, picture_of(stops[at], seed)).image;
+            });
+    save_table(options.out, beside);
+}
+
+} // namespace
+
+/// Makes the figures of chapter 31, or one picture.
+/// \param argc  Number of arguments.
+/// \param argv  The command line; `--help` explains it.
+/// \return 0; 2 with one sentence for anything that is wrong.
+int main(int argc, char** argv) {
+    return examples::run_main(argc, argv, [](examples::CommandLine& line) {
+        Sizes sizes;
+        line.about("Chapter 31, progressive photons: laws and pictures.");
+        line.add("--passes", sizes.passes, "How many passes", 1, 1000000000);
+        line.add("--seeds", sizes.seeds, "Runs behind bias and variance", 2, 1000);
+        line.add("--picture", sizes.picture, "Make this PFM file and nothing else");
+        line.add("--checkpoint", sizes.checkpoint, "With --picture: saved as it runs");
+        line.add("--resume", sizes.resume, "Go on from the checkpoint");
+        line.add("--preview", sizes.preview, "With --picture: a PNG file as it runs");
+        line.add("--every", sizes.every, "Seconds between them; 0: after each pass",
+                 0.0, 1e6);
+        const examples::Options options =
+            line.parse({.draft{.width = 32, .height = 32, .samples = 1},
+                        .report{.width = 64, .height = 64, .samples = 1},
+                        .reference{.width = 128, .height = 128, .samples = 1}});
+        if (!line.given("--passes")) sizes.passes = options.pick(100, 1000, 10000);
+        if (!line.given("--seeds")) sizes.seeds = options.pick(4, 16, 64);
+        if (sizes.picture.empty() &&
+            (sizes.resume || !sizes.checkpoint.empty() || !sizes.preview.empty()))
+            throw std::invalid_argument(
+                "--checkpoint, --resume and --preview are for --picture FILE.");
+        if (sizes.resume && sizes.checkpoint.empty())
+            throw std::invalid_argument("--resume needs --checkpoint FILE.");
+        if (!sizes.picture.empty()) return one_picture(options, sizes);
+        draw_discs(options);
+        laws(options, sizes);
+        one_map(options, sizes);
+        pictures(options, sizes);
+    });
+}

@@ -1,0 +1,126 @@
+#pragma once
+
+/// \file ljus/io/progressive_file.hpp
+/// \brief A checkpoint of a progressive picture, and back.
+
+#include "ljus/io/detail/map_bytes.hpp"
+#include "ljus/render/progressive.hpp"
+
+namespace ljus {
+
+/// \defgroup progressive_file Checkpoints
+/// \brief All that a progressive picture is so far, in a file that no kill can spoil.
+///
+/// 16 letters that say what it is; version, side of the blocks, width, height and a
+/// checksum; then the state, every number with all its bits, lowest byte first. The
+/// file is written beside the older one and takes its place when it is whole: at any
+/// moment the one or the other is there. That holds for a program that is killed;
+/// against a loss of power it is as good as the file system.
+/// \{
+
+namespace detail {
+
+inline constexpr std::string_view checkpoint_magic = "ljus progressive";
+inline constexpr std::uint32_t checkpoint_version = 1;
+
+// Calls `each` with every number behind the header, in the order of the file.
+template <typename State, typename Each>
+void each_checkpoint_number(State& state, Each each) {
+    each(state.alpha);
+    each(state.shrink);
+    each(state.passes);
+    each(state.first_pass);
+    for (auto* image : {&state.sum, &state.squares, &state.block_squares})
+        for (auto& color : image->pixels)
+            for (int channel = 0; channel < 3; ++channel) each(color[channel]);
+}
+
+// What a kill in the middle of an earlier save may have left. One process at a time
+// writes a checkpoint, so that nobody else's file goes.
+inline void remove_parts(const std::string& path) {
+    for (long long number = 0; number < 100; ++number)
+        if (std::remove(join({path, ".part", to_text(number)}).c_str()) != 0) return;
+}
+
+} // namespace detail
+
+/// Saves a checkpoint.
+/// \param path   The file; an older one is replaced at the very end (save_file()). What
+///               a killed save has left beside it, PATH.part0, is removed: two programs
+///               must not write one checkpoint.
+/// \param state  After at least one pass.
+/// \throws std::runtime_error  as save_file(); std::invalid_argument without a pass.
+/// \cost 48 bytes a pixel.
+inline void save_checkpoint(const std::string& path, const ProgressiveState& state) {
+    require(state.passes >= 1, "the number of passes", state.passes, "at least 1");
+    Bytes bytes(detail::checkpoint_magic.begin(), detail::checkpoint_magic.end());
+    for (const std::uint32_t number :
+         {detail::checkpoint_version, std::uint32_t(state.block_side),
+          std::uint32_t(state.sum.width), std::uint32_t(state.sum.height)})
+        detail::put_number(bytes, number);
+    detail::put_number(bytes, std::uint64_t(0)); // the checksum's place
+    detail::each_checkpoint_number(
+        state, [&](const auto& number) { detail::put_number(bytes, number); });
+    detail::put_checksum(bytes);
+    detail::remove_parts(detail::file_to_replace(path));
+    save_file(path, bytes);
+}
+
+/// Loads a checkpoint. Whether it is of the same picture, require_first_pass() tells.
+/// \param path  The file.
+/// \return The state, bit by bit as it was saved.
+/// \throws std::runtime_error  "cannot read 'a.check': its checksum is wrong, ...":
+///         what is cut short, damaged, of another version or no checkpoint is refused.
+[[nodiscard]] inline ProgressiveState load_checkpoint(const std::string& path) {
+    const Bytes bytes =
+        load_file(path, detail::map_limit(std::size_t(detail::max_pixels), 96),
+                  detail::checkpoint_magic);
+    const auto refuse = [&](const std::string& why) {
+        detail::fail_to_read(path, why);
+    };
+    if (bytes.size() < detail::map_header)
+        refuse("it ends in the middle of its header");
+    const unsigned char* at = bytes.data() + detail::map_magic_size;
+    const auto version = detail::take_number<std::uint32_t>(at);
+    const auto side = detail::take_number<std::uint32_t>(at);
+    const auto width = detail::take_number<std::uint32_t>(at);
+    const auto height = detail::take_number<std::uint32_t>(at);
+    const auto checksum = detail::take_number<std::uint64_t>(at);
+    if (version != detail::checkpoint_version)
+        refuse("it is of version " + std::to_string(version) +
+               ", and this library reads version " +
+               std::to_string(detail::checkpoint_version));
+    if (checksum != detail::map_checksum(bytes))
+        refuse("its checksum is wrong, so that it has been damaged or cut short");
+
+    // What has the right checksum and yet no sense was made to mislead.
+    constexpr auto most = static_cast<std::uint32_t>(detail::max_pixels);
+    const bool sized = side >= 1 && side <= most && width >= 1 && height >= 1 &&
+                       width <= most / height;
+    if (!sized) refuse("its picture has no size that a picture can have");
+    ProgressiveState state{.block_side = int(side)};
+    const auto blocks = [&](std::uint32_t pixels) {
+        return int((pixels - 1) / side + 1);
+    };
+    const int columns = blocks(width), rows = blocks(height);
+    const std::size_t numbers = 4 + 6 * std::size_t(width) * height +
+                                3 * std::size_t(columns) * std::size_t(rows);
+    if (bytes.size() != detail::map_header + 8 * numbers)
+        refuse("its " + std::to_string(bytes.size()) +
+               " bytes do not go with its picture's size");
+    state.sum = state.squares = make_image<double>(int(width), int(height));
+    state.block_squares = make_image<double>(columns, rows);
+    detail::each_checkpoint_number(state, [&]<typename Number>(Number& number) {
+        number = detail::take_number<Number>(at);
+        if constexpr (std::is_floating_point_v<Number>)
+            if (!std::isfinite(number)) refuse("it has a number that is not finite");
+    });
+    if (state.passes < 1 || !(state.alpha > 0 && state.alpha <= 1) ||
+        !(state.shrink > 0 && state.shrink <= 1))
+        refuse("its number of passes, alpha or radius is out of range");
+    return state;
+}
+
+/// \}
+
+} // namespace ljus

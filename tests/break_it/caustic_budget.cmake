@@ -1,0 +1,49 @@
+# The flux of a photon is not divided by its object's share.
+ljus_break_it(NAME caustic_budget-flux HEADER photons/detail/aim_by_share.hpp
+    TEST caustic_budget
+    FROM "if (aimed) aimed->photon.flux /= static_cast<T>(shares[chosen]);"
+    TO   ""
+    CASES "caustic_budget: any shares*")
+
+# A share of 0 is chosen where rounding leaves something over.
+ljus_break_it(NAME caustic_budget-zero HEADER photons/detail/aim_by_share.hpp
+    TEST caustic_budget
+    FROM "if (!(shares[k] > 0)) continue;"
+    TO   ""
+    CASES "caustic_budget: no shares*")
+
+# Shares by the squares: n ~ a^2.
+ljus_break_it(NAME caustic_budget-squares HEADER photons/budget.hpp TEST caustic_budget
+    FROM "floor * equal + (1 - floor) * a / sum"
+    TO   "floor * equal + (1 - floor) * a * a / (sum * sum)"
+    CASES "caustic_budget: shares follow*")
+
+# No floor: who is missed by the pilot starves.
+ljus_break_it(NAME caustic_budget-floor HEADER photons/budget.hpp TEST caustic_budget
+    FROM "floor * equal + (1 - floor) * a / sum"
+    TO   "a / sum"
+    CASES "caustic_budget: who gets nothing*")
+
+# Photons are counted, whatever flux they carry.
+ljus_break_it(NAME caustic_budget-count HEADER photons/budget.hpp TEST caustic_budget
+    FROM "pilot.absolute += double(paths) * flux * flux;"
+    TO   "pilot.absolute += 1;"
+    CASES "caustic_budget: the pilot*")
+
+# What else lights the scene is not asked.
+ljus_break_it(NAME caustic_budget-light HEADER photons/budget.hpp TEST caustic_budget
+    FROM "flux / (own + dark + detail::irradiance_around(rest, photon, wide))"
+    TO   "flux / (own + dark)"
+    CASES "caustic_budget: the pilot*")
+
+# Light on the other side of a surface counts for this one.
+ljus_break_it(NAME caustic_budget-side HEADER photons/budget.hpp TEST caustic_budget
+    FROM "photon_side(photon.direction, normal) == side"
+    TO   "side != 0"
+    CASES "caustic_budget: the pilot*")
+
+# The pilot of every object is aimed at all of them.
+ljus_break_it(NAME caustic_budget-pilot HEADER photons/budget.hpp TEST caustic_budget
+    FROM "pass.shares[object] = 1;"
+    TO   "pass.shares.clear();"
+    CASES "caustic_budget: a share*")

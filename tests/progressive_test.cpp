@@ -1,0 +1,627 @@
+/// \file progressive_test.cpp
+/// \brief Progressive passes against their laws, and checkpoints against kills.
+///
+/// Statistical checks state how often they would fail by chance, were the seeds new.
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+#include "ljus/io/progressive_file.hpp"
+#include "ljus/materials/lambertian.hpp"
+#include "ljus/materials/mirror.hpp"
+#include "ljus/render/progressive.hpp"
+#include "scratch_folder.hpp"
+#include "support/mean.hpp"
+#include "support/photon_samples.hpp"
+#include "support/refusal.hpp"
+#include "support/rooms.hpp"
+
+#if __has_include(<sys/wait.h>) && !defined(__SANITIZE_THREAD__)
+#define LJUS_TEST_FORKS
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#endif
+
+using namespace ljus;
+using ljus_test::apart;
+using ljus_test::Mean;
+using ljus_test::refusal;
+using photon_test::Numbers;
+
+namespace {
+
+/// A pass that needs no scene: light 1 + bias r^2, and noise that grows as 1/r.
+struct NoisyPass {
+    int width = 5, height = 3;
+    double bias = 0;
+    double noise = 1;
+    std::uint64_t seed = 1;
+
+    RenderedT<float> operator()(long long pass, double scale) const {
+        RenderedT<float> result{.image = make_image<float>(width, height)};
+        Numbers numbers{seed * 1000003 + std::uint64_t(pass) * 7919};
+        for (Rgb& color : result.image.pixels)
+            for (int c = 0; c < 3; ++c)
+                color[c] = float(1 + bias * scale * scale +
+                                 noise / scale * (numbers.unit() - 0.5));
+        return result;
+    }
+};
+
+const auto go_on = [](const ProgressiveState&) { return true; };
+
+/// The state after some passes.
+template <typename RenderPass>
+ProgressiveState state_after(long long passes, RenderPass&& pass,
+                             double alpha = 2.0 / 3) {
+    ProgressiveState state{.alpha = alpha};
+    CHECK(run_progressive(state, passes, pass, go_on));
+    return state;
+}
+
+bool same_image(const ImageT<double>& a, const ImageT<double>& b) {
+    return a.width == b.width && a.height == b.height &&
+           a.pixels.size() == b.pixels.size() &&
+           (a.pixels.empty() || std::memcmp(a.pixels.data(), b.pixels.data(),
+                                            a.pixels.size() * sizeof a.pixels[0]) == 0);
+}
+
+bool same_state(const ProgressiveState& a, const ProgressiveState& b) {
+    return a.alpha == b.alpha && a.shrink == b.shrink && a.passes == b.passes &&
+           a.block_side == b.block_side && a.first_pass == b.first_pass &&
+           same_image(a.sum, b.sum) && same_image(a.squares, b.squares) &&
+           same_image(a.block_squares, b.block_squares);
+}
+
+/// A point light under a square mirror, whose light on the floor ends at 0.8.
+using Stage = Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Mirror>>;
+Stage window() {
+    Stage room;
+    room.add(Quad{.corner{-10, 0, -10}, .edge_u{0, 0, 20}, .edge_v{20, 0, 0}},
+             room.add(Lambertian{.albedo = Rgb{0.5f}}));
+    room.add(
+        Quad{.corner{-0.2f, 1.5f, -0.2f}, .edge_u{0.4f, 0, 0}, .edge_v{0, 0, 0.4f}},
+        room.add(Mirror{.reflectance = Rgb{1}}));
+    room.add(PointLight{.position{0, 1, 0}});
+    return room;
+}
+
+/// A camera that sees a small patch of that floor around (0, 0, 0).
+Camera patch_camera(float degrees = 1) {
+    return look_at(View{.position{0.1f, 0.9f, 0},
+                        .target{0, 0, 0},
+                        .up{0, 0, 1},
+                        .vfov_degrees = degrees});
+}
+
+/// The kernel's mean of the mirror's irradiance 2 / (d^2 + 4)^(3/2) over a disc.
+double blurred(double radius) {
+    return photon_test::integrate(0, 1, 4, [&](double t) { // t = d^2 / r^2
+        const double d2 = t * radius * radius + 4;
+        return 2 * (1 - t) * 2 / (d2 * std::sqrt(d2));
+    });
+}
+
+PhotonMappingSettings mirror_light(float radius, long long photons,
+                                   std::uint64_t seed) {
+    PhotonMappingSettings settings{.indirect = IndirectLight::none};
+    settings.caustics = {.photons = photons, .seed = seed, .threads = 1};
+    settings.caustics_estimate.radius = radius;
+    return settings;
+}
+
+/// The shrinking of r^2 up to pass i, by the gamma function.
+double closed_shrink(double i, double alpha) {
+    return std::exp(std::lgamma(i + alpha) - std::lgamma(1 + alpha) -
+                    std::lgamma(i + 1));
+}
+
+} // namespace
+
+TEST_CASE("progressive: the radius follows the gamma function") {
+    for (const double alpha : {0.01, 1.0 / 3, 2.0 / 3, 1.0}) {
+        std::vector<double> scales;
+        const auto pass = [&](long long i, double scale) {
+            CHECK(i == (long long)(scales.size()) + 1);
+            scales.push_back(scale);
+            return RenderedT<float>{.image = make_image(1, 1)};
+        };
+        (void)progressive_mean(3000, pass, alpha);
+        REQUIRE(scales.size() == 3000);
+        CHECK(scales[0] == 1.0);
+        for (const std::size_t i : {2u, 3u, 10u, 100u, 3000u})
+            CHECK(scales[i - 1] * scales[i - 1] ==
+                  doctest::Approx(closed_shrink(double(i), alpha)).epsilon(1e-10));
+        // Both twins ask for the same radii.
+        const auto plain = scales;
+        scales.clear();
+        const auto state = state_after(3000, pass, alpha);
+        CHECK(scales == plain);
+        CHECK(state.shrink ==
+              doctest::Approx(closed_shrink(3001, alpha)).epsilon(1e-10));
+    }
+}
+
+TEST_CASE("progressive: the mean is that of the passes, added in double") {
+    const NoisyPass pass{.noise = 1e-3};
+    RgbT<double> sum{0};
+    for (long long i = 1; i <= 500; ++i)
+        sum += RgbT<double>(
+            pass(i, std::sqrt(closed_shrink(double(i), 2.0 / 3))).image.pixels[7]);
+    const auto plain = progressive_mean(500, pass);
+    const auto state = state_after(500, pass);
+    CHECK(plain.pixels[7].x == doctest::Approx(sum.x / 500).epsilon(1e-8));
+    CHECK(same_image(plain, mean_image<double>(state)));
+    CHECK(mean_image(state).pixels[7].x == float(plain.pixels[7].x));
+    // A float sum of 1 and 1e-9 a thousand times would stay at 1.
+    const auto tiny = [](long long i, double) {
+        return RenderedT<float>{
+            .image = make_image<float>(1, 1, Rgb{i == 1 ? 1.0f : 1e-9f})};
+    };
+    CHECK(state_after(1001, tiny).sum.pixels[0].x ==
+          doctest::Approx(1 + 1e-6).epsilon(1e-12));
+}
+
+TEST_CASE("progressive: the estimated error is the scatter of many runs") {
+    // Of 1500 runs of 15 pixels and 3 channels, 8 passes each. Numbers in [-1/2, 1/2)
+    // have the variance 1/12; pass i scatters by 1/scale_i more. The bias moves.
+    double exact = 0;
+    for (int i = 1; i <= 8; ++i) exact += 1 / closed_shrink(i, 2.0 / 3) / 12 / 64;
+    double drift = 0; // what the moving expectations add
+    std::array<double, 8> expected;
+    double middle = 0;
+    for (int i = 1; i <= 8; ++i) {
+        expected[std::size_t(i - 1)] = 0.3 * closed_shrink(i, 2.0 / 3);
+        middle += expected[std::size_t(i - 1)] / 8;
+    }
+    for (const double x : expected) drift += (x - middle) * (x - middle) / 8 / 7;
+    Mean pixels, blocks, scatter;
+    for (std::uint64_t seed = 1; seed <= 1500; ++seed) {
+        const auto state = state_after(8, NoisyPass{.bias = 0.3, .seed = seed});
+        const auto error = estimate_error(state);
+        pixels.add(error.pixels * error.pixels);
+        blocks.add(error.blocks * error.blocks);
+        const double off = mean_image<double>(state).pixels[3].y - (1 + middle);
+        scatter.add(off * off);
+    }
+    CAPTURE(exact);
+    CAPTURE(drift);
+    CAPTURE(pixels.mean);
+    CHECK(drift < 0.02 * exact);
+    CHECK(std::abs(apart(pixels, exact + drift)) < 4.1); // three of 1 in 10 000
+    // One block of 15 pixels that share nothing.
+    CHECK(std::abs(apart(blocks, exact / 15 + drift)) < 4.1);
+    CHECK(std::abs(apart(scatter, exact)) < 4.1);
+}
+
+TEST_CASE("progressive: the error of blocks has what their pixels share") {
+    // All pixels of a pass are off by the same: a block's mean is as wrong as a pixel.
+    const auto shared = [](long long pass, double) {
+        Numbers numbers{std::uint64_t(pass)};
+        return RenderedT<float>{
+            .image = make_image<float>(20, 13, Rgb{float(numbers.unit())})};
+    };
+    for (const int side : {1, 7, 8, 1000}) {
+        ProgressiveState state{.block_side = side};
+        (void)run_progressive(state, 50, shared, go_on);
+        const auto error = estimate_error(state);
+        CHECK(error.blocks == doctest::Approx(error.pixels).epsilon(1e-9));
+        CHECK(state.block_squares.width == (20 - 1) / side + 1);
+        CHECK(state.block_squares.height == (13 - 1) / side + 1);
+    }
+    // One pass says nothing; two equal ones say 0.
+    CHECK(std::isinf(estimate_error(ProgressiveState{}).pixels));
+    CHECK(std::isinf(estimate_error(state_after(1, shared)).blocks));
+    CHECK(estimate_error(state_after(2, NoisyPass{.noise = 0})).pixels == 0);
+    // A large number under the noise does not drown it.
+    const auto high = [](long long pass, double) {
+        return RenderedT<float>{
+            .image = make_image<float>(1, 1, Rgb{8388608.0f + float(pass % 2)})};
+    };
+    CHECK(estimate_error(state_after(1000, high)).pixels ==
+          doctest::Approx(0.5 / std::sqrt(999.0)).epsilon(1e-6));
+}
+
+TEST_CASE("progressive: photons follow the closed form of the blur, pass by pass") {
+    // The mean of the passes is the mean of the blurs of all their radii.
+    const Stage room = window();
+    const Camera camera = patch_camera();
+    const float radius = 0.7f;
+    for (const double alpha : {1.0 / 3, 2.0 / 3}) {
+        std::array<Mean, 3> found;
+        constexpr std::array counts{1LL, 16LL, 128LL};
+        for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+            const auto pass = [&](long long i, double scale) {
+                return photon_mapping_pass(
+                    room, camera, mirror_light(radius, 1500, seed),
+                    {.width = 2, .height = 1, .samples = 1, .seed = seed, .threads = 1},
+                    i, scale);
+            };
+            ProgressiveState state{.alpha = alpha};
+            for (std::size_t k = 0; k < counts.size(); ++k) {
+                (void)run_progressive(state, counts[k], pass, go_on);
+                const auto image = mean_image<double>(state);
+                found[k].add((image.pixels[0].x + image.pixels[1].x) / 2);
+            }
+        }
+        double sum = 0;
+        std::size_t k = 0;
+        for (long long i = 1; i <= counts.back(); ++i) {
+            sum += blurred(double(radius) * std::sqrt(closed_shrink(double(i), alpha)));
+            if (i != counts[k]) continue;
+            // Direct light from height 1, the mirror's, and the BRDF 0.5 / pi.
+            const double right = (1 + sum / double(i)) * 0.5 / std::numbers::pi;
+            CAPTURE(i);
+            CAPTURE(found[k].mean);
+            CAPTURE(found[k].error());
+            CAPTURE(right);
+            // Student's t with 15 degrees: six of 1 in 6000. The patch is not a point.
+            CHECK(std::abs(apart(found[k], right, 1e-4)) < 4.9);
+            CHECK(found[k].error() < 0.01 * right);
+            ++k;
+        }
+    }
+}
+
+TEST_CASE("progressive: variance and squared bias fall with the predicted slopes") {
+    const Stage room = window();
+    const Camera camera = patch_camera();
+    // Variance: a small disc, so that almost all photons lie outside of it.
+    for (const double alpha : {1.0 / 3, 2.0 / 3}) {
+        Mean few, many;
+        for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+            const auto pass = [&](long long i, double scale) {
+                return photon_mapping_pass(
+                    room, camera, mirror_light(0.2f, 200, seed),
+                    {.width = 1, .height = 1, .samples = 1, .seed = seed, .threads = 1},
+                    i, scale);
+            };
+            ProgressiveState state{.alpha = alpha};
+            const auto add = [&](Mean& to, long long passes) {
+                (void)run_progressive(state, passes, pass, go_on);
+                const double error = estimate_error(state).pixels;
+                to.add(error * error);
+            };
+            add(few, 64);
+            add(many, 512);
+        }
+        double sum_few = 0, sum_many = 0;
+        for (int i = 1; i <= 512; ++i) {
+            const double scatter = 1 / closed_shrink(i, alpha);
+            sum_many += scatter;
+            if (i <= 64) sum_few += scatter;
+        }
+        const double right = sum_many / (512 * 512) / (sum_few / (64 * 64));
+        CAPTURE(alpha);
+        CAPTURE(many.mean / few.mean);
+        CAPTURE(right);
+        // 8 runs know the ratio to 7 %, and 1 in the disc is 4 % less random at first.
+        CHECK(many.mean / few.mean == doctest::Approx(right).epsilon(0.3));
+        const double slope = std::log(many.mean / few.mean) / std::log(8.0);
+        CHECK(std::abs(slope + alpha) < 0.12);
+    }
+    // The bias that the blur predicts, which the case above has found: its slope.
+    for (const double alpha : {1.0 / 3, 2.0 / 3}) {
+        double sum = 0, at_1000 = 0;
+        for (int i = 1; i <= 64000; ++i) {
+            sum += blurred(0.7 * std::sqrt(closed_shrink(i, alpha))) - 0.25;
+            if (i == 1000) at_1000 = sum / i;
+        }
+        const double slope = 2 * std::log(sum / 64000 / at_1000) / std::log(64.0);
+        CHECK(std::abs(slope + 2 * (1 - alpha)) < 0.05); // 8 % are early passes
+    }
+}
+
+TEST_CASE("progressive: both radii shrink, and no pass repeats another") {
+    // In a room with a glass ball, with the general map and with rays.
+    ljus_test::Room room;
+    ljus_test::add_walls(room);
+    ljus_test::add_ball(room, ljus_test::Ball::glass);
+    ljus_test::add_lamps(room, ljus_test::Lamp::quad, 1);
+    const auto camera = ljus_test::room_camera<float>();
+    PhotonMappingSettings settings{.indirect = IndirectLight::photons};
+    settings.caustics = {.photons = 2000};
+    settings.general = {.photons = 2000};
+    const RenderSettings picture{.width = 12, .height = 9, .samples = 1};
+    const auto pass = [&](const PhotonMappingSettings& how, long long i, double scale) {
+        return photon_mapping_pass(room, camera, how, picture, i, scale);
+    };
+    // A pass is what it is, whatever came before.
+    const auto hash = [](const auto& rendered) {
+        return detail::hash_of(rendered.image);
+    };
+    CHECK(hash(pass(settings, 3, 0.5)) == hash(pass(settings, 3, 0.5)));
+    CHECK(hash(pass(settings, 3, 0.5)) != hash(pass(settings, 4, 0.5)));
+    // Where the camera's rays are all alike, it is the photons that differ.
+    const auto spot = [](long long i) {
+        return photon_mapping_pass(window(), patch_camera(0.01f),
+                                   mirror_light(0.2f, 500, 1),
+                                   {.width = 1, .height = 1, .samples = 1}, i, 1)
+            .image.pixels[0]
+            .x;
+    };
+    CHECK(std::abs(spot(3) / spot(4) - 1) > 0.005f);
+    // Fewer photons in smaller discs: a quarter each time the radius halves.
+    const auto gathered = [&](double scale) {
+        double photons = 0;
+        for (long long i = 1; i <= 4; ++i)
+            photons += double(pass(settings, i, scale).counts.map_photons);
+        return photons;
+    };
+    const double large = gathered(0.5), small = gathered(0.25);
+    CAPTURE(large);
+    CAPTURE(small);
+    CHECK(small / large == doctest::Approx(0.25).epsilon(0.2));
+    // Each map by itself.
+    for (const bool caustics : {false, true}) {
+        PhotonMappingSettings one = settings;
+        (caustics ? one.general : one.caustics).photons = 0;
+        CHECK(hash(pass(one, 1, 1)) != hash(pass(one, 1, 0.5)));
+        // The photons are others, and so are the camera's rays.
+        PhotonMappingSettings none = one;
+        (caustics ? none.caustics : none.general).photons = 0;
+        none.indirect = IndirectLight::none;
+        CHECK(hash(pass(none, 1, 1)) == hash(pass(none, 1, 0.5)));
+        CHECK(hash(pass(none, 1, 1)) != hash(pass(none, 2, 1)));
+    }
+    // Another number of threads, the same bytes.
+    const auto run = [&](int threads) {
+        PhotonMappingSettings how = settings;
+        how.caustics.threads = how.general.threads = threads;
+        RenderSettings size = picture;
+        size.threads = threads;
+        return state_after(5, [&](long long i, double scale) {
+            return photon_mapping_pass(room, camera, how, size, i, scale);
+        });
+    };
+    CHECK(same_state(run(1), run(3)));
+    // Who stops a pass gets the picture without it.
+    ProgressiveState state;
+    long long calls = 0;
+    auto stop = [&](long long, long long) { return ++calls < 100; };
+    PhotonMappingSettings how = settings;
+    how.caustics.progress = how.general.progress = stop;
+    RenderSettings stopped = picture;
+    stopped.progress = stop;
+    stopped.threads = how.caustics.threads = how.general.threads = 1;
+    CHECK_FALSE(run_progressive(
+        state, 1000000,
+        [&](long long i, double scale) {
+            return photon_mapping_pass(room, camera, how, stopped, i, scale);
+        },
+        go_on));
+    REQUIRE(state.passes > 0);
+    CHECK(same_state(state, [&] {
+        ProgressiveState same;
+        (void)run_progressive(
+            same, state.passes,
+            [&](long long i, double scale) { return pass(settings, i, scale); }, go_on);
+        return same;
+    }()));
+}
+
+TEST_CASE("progressive: what cannot be is refused in a sentence") {
+    const NoisyPass pass;
+    for (const double alpha : {0.0, -1.0, 1.5, std::nan("")}) {
+        ProgressiveState state{.alpha = alpha};
+        CHECK(refusal([&] { add_pass(state, pass(1, 1).image); }).find("alpha is ") ==
+              0);
+    }
+    ProgressiveState state{.block_side = 0};
+    CHECK(refusal([&] { add_pass(state, pass(1, 1).image); }) ==
+          "the side of a block is 0; it must be at least 1.");
+    state.block_side = 8;
+    CHECK(refusal([&] { (void)mean_image(state); }) ==
+          "the number of passes is 0; it must be at least 1.");
+    add_pass(state, pass(1, 1).image);
+    CHECK(refusal([&] { add_pass(state, make_image(4, 4)); }) ==
+          "The image's size is 4 x 4; the reference has 5 x 3.");
+    CHECK(refusal([&] {
+              add_pass(state, make_image(5, 3, Rgb{std::nanf("")}));
+          }).find("a pass's pixel is (NaN") == 0);
+    CHECK(state.passes == 1);
+    CHECK(refusal([&] { require_first_pass(state, pass); }).empty());
+    CHECK(refusal([&] { require_first_pass(ProgressiveState{}, pass); }).empty());
+    CHECK(refusal([&] {
+              require_first_pass(state, NoisyPass{.noise = 1.001});
+          }).find("The passes so far are of another picture") == 0);
+    // No passes asked for, or fewer than there are: nothing is done.
+    CHECK(run_progressive(state, 0, pass, go_on));
+    CHECK(run_progressive(state, -5, pass, go_on));
+    CHECK(state.passes == 1);
+    // The callback ends it, and is heard also after the last pass.
+    CHECK_FALSE(run_progressive(
+        state, 9, pass, [](const ProgressiveState& s) { return s.passes < 4; }));
+    CHECK(state.passes == 4);
+    CHECK(
+        run_progressive(state, 5, pass, [](const ProgressiveState&) { return false; }));
+}
+
+TEST_CASE("progressive: a checkpoint comes back, and nothing else does") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("a.check");
+    const auto why_not = [&] {
+        try {
+            (void)load_checkpoint(path);
+        } catch (const std::runtime_error& error) {
+            return std::string(error.what());
+        }
+        return std::string("it was read");
+    };
+    CHECK(why_not().find("cannot read") == 0);
+    CHECK_FALSE(refusal([&] { save_checkpoint(path, ProgressiveState{}); }).empty());
+    for (const int side : {1, 2, 8}) {
+        ProgressiveState state{.alpha = 0.4, .block_side = side};
+        (void)run_progressive(state, 7, NoisyPass{.width = 3, .height = 2}, go_on);
+        save_checkpoint(path, state);
+        CHECK(same_state(load_checkpoint(path), state));
+    }
+    CHECK(folder.count() == 1);
+    const std::string whole = ScratchFolder::read(path);
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        std::string broken = whole;
+        broken[i] = char(broken[i] ^ (1 << i % 8));
+        ScratchFolder::write(path, broken);
+        CHECK(why_not().find("cannot read") == 0);
+    }
+    for (std::size_t length = 0; length < whole.size(); ++length) {
+        ScratchFolder::write(path, whole.substr(0, length));
+        CHECK(why_not().find("cannot read") == 0);
+    }
+    ScratchFolder::write(path, whole + "x");
+    CHECK(why_not().find("cannot read") == 0);
+    // With a checksum that is right: sizes and numbers that cannot be.
+    const auto forged = [&](std::size_t at, std::uint64_t bits, int bytes) {
+        Bytes file(whole.begin(), whole.end());
+        for (int i = 0; i < bytes; ++i)
+            file[at + std::size_t(i)] = static_cast<unsigned char>(bits >> (8 * i));
+        detail::put_checksum(file);
+        ScratchFolder::write(path, std::string(file.begin(), file.end()));
+        return why_not();
+    };
+    CHECK(forged(16, 2, 4).find("of version 2") != std::string::npos);
+    CHECK(forged(20, 0, 4).find("no size") != std::string::npos); // block side
+    CHECK(forged(24, 0, 4).find("no size") != std::string::npos); // width
+    CHECK(forged(24, 0xffffffffu, 4).find("no size") != std::string::npos);
+    CHECK(forged(24, 6, 4).find("do not go with") != std::string::npos);
+    CHECK(forged(40, 0x7ff8000000000000u, 8).find("not finite") != std::string::npos);
+    CHECK(forged(40, 0, 8).find("out of range") != std::string::npos); // alpha
+    CHECK(forged(56, 0, 8).find("out of range") != std::string::npos); // passes
+    CHECK(forged(40, std::bit_cast<std::uint64_t>(0.5), 8) == "it was read");
+}
+
+TEST_CASE("progressive: interrupted after any pass, the end is the same") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("a.check");
+    const NoisyPass pass{.bias = 0.1};
+    const auto whole = state_after(12, pass);
+    for (long long at = 1; at < 12; ++at) {
+        ProgressiveState state;
+        (void)run_progressive(state, at, pass, go_on);
+        save_checkpoint(path, state);
+        ProgressiveState resumed = load_checkpoint(path);
+        require_first_pass(resumed, pass);
+        (void)run_progressive(resumed, 12, pass, go_on);
+        CHECK(same_state(resumed, whole));
+    }
+}
+
+#ifdef LJUS_TEST_FORKS
+
+namespace {
+
+/// What a program does with a checkpoint: begins or resumes, and saves after each pass.
+template <typename RenderPass>
+void work(const std::string& path, long long passes, const RenderPass& pass) {
+    ProgressiveState state;
+    if (::access(path.c_str(), F_OK) == 0) {
+        state = load_checkpoint(path);
+        require_first_pass(state, pass);
+    }
+    (void)run_progressive(state, passes, pass, [&](const ProgressiveState& now) {
+        save_checkpoint(path, now);
+        return true;
+    });
+}
+
+/// Runs it in a process of its own, which is killed after so many microseconds.
+/// \return Whether it came to its end by itself, and that was a good one.
+template <typename RenderPass>
+bool survives(const std::string& path, long long passes, const RenderPass& pass,
+              double microseconds) {
+    const pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        try {
+            work(path, passes, pass);
+        } catch (...) {
+            std::_Exit(7);
+        }
+        std::_Exit(0);
+    }
+    int status = 0;
+    if (microseconds >= 0) {
+        ::usleep(static_cast<useconds_t>(microseconds));
+        ::kill(child, SIGKILL);
+    }
+    ::waitpid(child, &status, 0);
+    CHECK((WIFSIGNALED(status) || WEXITSTATUS(status) == 0)); // no refusal
+    return WIFEXITED(status);
+}
+
+/// Kills a picture at random moments, many times, and lets it come to its end.
+/// \param longest  Microseconds that it may live, at most.
+template <typename RenderPass>
+void check_kills(long long passes, const RenderPass& pass, double longest) {
+    const ScratchFolder folder;
+    const std::string whole = folder.file("whole"), killed = folder.file("killed");
+    work(whole, passes, pass);
+    Numbers numbers{4};
+    int kills = 0;
+    while (kills < 60 && !survives(killed, passes, pass, numbers.between(0, longest))) {
+        ++kills;
+        // The last checkpoint is whole, and at most one file lies beside it.
+        if (::access(killed.c_str(), F_OK) == 0)
+            CHECK_NOTHROW((void)load_checkpoint(killed));
+        CHECK(folder.count() <= 3);
+    }
+    MESSAGE(kills, " kills, ",
+            ::access(killed.c_str(), F_OK) == 0 ? load_checkpoint(killed).passes : 0,
+            " passes done by then");
+    CHECK(survives(killed, passes, pass, -1));
+    CHECK(ScratchFolder::read(whole) == ScratchFolder::read(killed));
+    CHECK(folder.count() == 2);
+}
+
+} // namespace
+
+TEST_CASE("progressive: killed at any moment and resumed, the bytes are the same") {
+    // Passes of photons, of some milliseconds each.
+    const Stage room = window();
+    const Camera camera = patch_camera();
+    check_kills(
+        40,
+        [&](long long i, double scale) {
+            return photon_mapping_pass(
+                room, camera, mirror_light(0.3f, 2000, 1),
+                {.width = 16, .height = 12, .samples = 1, .threads = 1}, i, scale);
+        },
+        20000);
+    // Passes that cost nothing: it is always killed while it writes.
+    check_kills(100, NoisyPass{.width = 160, .height = 100}, 30000);
+}
+
+TEST_CASE("progressive: 150 passes take the memory of ten") {
+    // Each pass stores photons of half a megabyte or more: kept, they would be 75 MB.
+    const auto peak_megabytes = [] {
+        struct ::rusage usage = {};
+        ::getrusage(RUSAGE_SELF, &usage);
+        return double(usage.ru_maxrss) / 1024;
+    };
+    const Stage room = window();
+    const auto pass = [&, camera = patch_camera()](long long i, double scale) {
+        return photon_mapping_pass(
+            room, camera, mirror_light(0.05f, 12000, 1),
+            {.width = 8, .height = 8, .samples = 1, .threads = 1}, i, scale);
+    };
+    ProgressiveState state;
+    (void)run_progressive(state, 10, pass, go_on);
+    const double before = peak_megabytes();
+    (void)run_progressive(state, 150, pass, go_on);
+    const double grown = peak_megabytes() - before;
+    CAPTURE(before);
+    CAPTURE(grown);
+#ifndef __SANITIZE_ADDRESS__ // which keeps what was freed for a while
+    CHECK(grown < 8);
+#endif
+}
+
+#endif
