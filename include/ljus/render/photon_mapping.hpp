@@ -21,7 +21,7 @@ namespace ljus {
 /// | path            | who carries it                                              |
 /// |-----------------|-------------------------------------------------------------|
 /// | E S* L          | emission, while no diffuse surface has been met             |
-/// | E ... D L       | shadow rays                                                 |
+/// | E ... D L       | shadow rays, or a verdict of shadow photons in their place  |
 /// | E ... D S+ L    | the caustics map, at every diffuse surface                  |
 /// | E ... D ... D.. | indirect rays, or the general map where the first one ends  |
 /// \{
@@ -93,8 +93,9 @@ void light_at(const PhotonMapper<S, Stream>& mapper, const VertexT<T>& vertex,
             ask(mapper.maps.general, settings.general_estimate, light_kinds));
     else
         add("shadow ray", "DL",
-            detail::sample_all_lights(mapper.scene, vertex, material,
-                                      settings.shadow_rays, stream, counts));
+            detail::sample_all_lights(
+                mapper.scene, vertex, material, settings.shadow_rays, stream, counts,
+                detail::verdicts_at(mapper.maps.verdicts, vertex)));
     if (settings.indirect == IndirectLight::photons)
         add("general map", "D..DL",
             ask(mapper.maps.general, settings.general_estimate,
@@ -171,7 +172,9 @@ template <SceneLike S, typename Stream, std::floating_point T, typename Log = No
                         return true;
                     }
                 // Go on by one branch; after gathering, by mirrors and glass only.
-                const bool by_rays = !gather && mapper.indirect_rays;
+                const bool by_rays =
+                    !gather && mapper.indirect_rays &&
+                    !detail::skips_bounce(mapper.maps.verdicts, *vertex, counts);
                 return continue_path(path, *vertex, material, Transport::radiance,
                                      by_rays ? Lobes::all : Lobes::specular, stream);
             };

@@ -5,6 +5,7 @@
 
 #include "ljus/photons/density_estimate.hpp"
 #include "ljus/photons/photon_pass.hpp"
+#include "ljus/photons/shadow_verdict.hpp"
 
 namespace ljus {
 
@@ -32,6 +33,7 @@ struct PhotonMappingSettings {
     DensityEstimateSettings caustics_estimate{}; ///< How caustics are estimated.
     DensityEstimateSettings general_estimate{
         .radius = 0.3f}; ///< How the general map is asked.
+    SkipSettings skip{}; ///< Which rays photons make needless; none, unless asked for.
     bool keep_general_map =
         false; ///< Make the general map, even if no ray will ask it.
 };
@@ -50,6 +52,7 @@ inline void check(const PhotonMappingSettings& settings) {
             "at least 0");
     check(settings.caustics_estimate);
     check(settings.general_estimate);
+    check(settings.skip);
 }
 
 /// \}

@@ -4,6 +4,7 @@
 /// \brief The first pass of the report's renderer: its photon maps.
 
 #include "ljus/photons/tracing.hpp"
+#include "ljus/photons/verdict_grid.hpp"
 #include "ljus/render/survey.hpp"
 
 namespace ljus {
@@ -16,6 +17,7 @@ template <std::floating_point T>
 struct PhotonMapsT {
     PhotonMapT<T> caustics; ///< L S+ D; empty if the scene has no mirror and no glass.
     PhotonMapT<T> general; ///< L D, L ... D ... D, and shadows; empty unless asked for.
+    VerdictGridT<T> verdicts; ///< Which rays can be left out; empty unless asked for.
     FluxAudit caustics_audit; ///< Where the flux of the caustics pass went.
     FluxAudit general_audit;  ///< Where the flux of the general pass went.
     bool complete = true;     ///< False if the progress callback stopped the pass.
@@ -34,18 +36,29 @@ make_photon_maps(const S& scene, const PhotonMappingSettings& settings = {}) {
     const detail::Passes run = detail::choose_passes(needs(scene), settings);
     PhotonPassSettings general = settings.general;
     general.shadow_photons = run.shadow_photons;
+    const SkipSettings skip = detail::skipping(run, settings);
+    const bool verdicts = run.skipped_rays || run.skipped_bounces;
+    if (!run.general_map && !run.skipped_bounces) general.max_bounces = 1;
     PhotonMapsT<typename S::Scalar> maps;
     const auto make = [&](MapType type, const PhotonPassSettings& pass, auto& map,
                           auto& audit) {
-        const auto traced = trace_photons(scene, type, pass);
-        map = make_photon_map(traced.photons);
+        auto traced = trace_photons(scene, type, pass);
+        const bool general_pass = type == MapType::general;
+        if (general_pass && verdicts)
+            maps.verdicts = make_verdict_grid(traced.photons, scene.lights.size(), skip,
+                                              pass.threads);
+        if (general_pass && !settings.general.shadow_photons) // they have been asked
+            std::erase_if(traced.photons, [](const auto& photon) {
+                return photon.kind == PhotonKind::shadow;
+            });
+        if (!general_pass || run.general_map) map = make_photon_map(traced.photons);
         audit = traced.audit;
         maps.complete = maps.complete && traced.complete;
         if (!traced.remark.empty()) maps.remarks.append(traced.remark).append("\n");
     };
     if (run.caustics_map)
         make(MapType::caustics, settings.caustics, maps.caustics, maps.caustics_audit);
-    if (run.general_map)
+    if (run.general_map || verdicts)
         make(MapType::general, general, maps.general, maps.general_audit);
     return maps;
 }

@@ -26,25 +26,28 @@ struct PlanItem {
 
 /// What will run for a scene.
 struct Plan {
-    PlanItem shadow_rays;    ///< Rays to lights.
-    PlanItem indirect_rays;  ///< Rays between diffuse surfaces.
-    PlanItem caustics_map;   ///< Photons through mirrors and glass.
-    PlanItem general_map;    ///< Direct, indirect and shadow photons.
-    PlanItem shadow_photons; ///< Part of the general map.
-    PlanItem thin_film;      ///< Paths pass through soap films.
-    PlanItem tree;           ///< Over the shapes, or a loop over all of them.
+    PlanItem shadow_rays;     ///< Rays to lights.
+    PlanItem indirect_rays;   ///< Rays between diffuse surfaces.
+    PlanItem caustics_map;    ///< Photons through mirrors and glass.
+    PlanItem general_map;     ///< Direct, indirect and shadow photons.
+    PlanItem shadow_photons;  ///< Part of the general map.
+    PlanItem skipped_rays;    ///< Shadow rays that photons make needless.
+    PlanItem skipped_bounces; ///< Indirect rays where no indirect photon is near.
+    PlanItem thin_film;       ///< Paths pass through soap films.
+    PlanItem tree;            ///< Over the shapes, or a loop over all of them.
     /// A line for each type of shape and of material that the scene lists, in their
     /// order: which hooks it has, and what happens without the others. A hook that is
     /// misspelt is among the others.
     std::vector<std::string> types;
 
     /// All items, in the order in which they are printed.
-    [[nodiscard]] std::array<const PlanItem*, 7> items() const& {
-        return {&shadow_rays,    &indirect_rays, &caustics_map, &general_map,
-                &shadow_photons, &thin_film,     &tree};
+    [[nodiscard]] std::array<const PlanItem*, 9> items() const& {
+        return {&shadow_rays,     &indirect_rays,  &caustics_map,
+                &general_map,     &shadow_photons, &skipped_rays,
+                &skipped_bounces, &thin_film,      &tree};
     }
     /// Not of a temporary: the items would be gone before they are read.
-    std::array<const PlanItem*, 7> items() const&& = delete;
+    std::array<const PlanItem*, 9> items() const&& = delete;
 };
 
 /// One pass of a plan: its name, on or off, and why.
@@ -97,11 +100,13 @@ namespace detail {
 
 /// Which passes run: the decisions of a plan, without their reasons.
 struct Passes {
-    bool shadow_rays = false;    ///< As in Plan.
-    bool indirect_rays = false;  ///< As in Plan.
-    bool caustics_map = false;   ///< As in Plan.
-    bool general_map = false;    ///< As in Plan.
-    bool shadow_photons = false; ///< As in Plan.
+    bool shadow_rays = false;     ///< As in Plan.
+    bool indirect_rays = false;   ///< As in Plan.
+    bool caustics_map = false;    ///< As in Plan.
+    bool general_map = false;     ///< As in Plan.
+    bool shadow_photons = false;  ///< As in Plan.
+    bool skipped_rays = false;    ///< As in Plan.
+    bool skipped_bounces = false; ///< As in Plan.
 };
 
 /// Decides which passes run; make_photon_maps() and make_photon_mapper() obey it, and
@@ -120,13 +125,29 @@ struct Passes {
                            settings.indirect == IndirectLight::photons ||
                            settings.keep_general_map;
     const bool general = lit && map_asked && settings.general.photons > 0;
+    const bool skip = lit && settings.skip.rule != SkipRule::none &&
+                      settings.general.photons >= photons_needed(settings.skip);
     return {.shadow_rays = lit,
             .indirect_rays = rays,
             .caustics_map = lit && found.specular > 0 && settings.caustics.photons > 0,
             .general_map = general,
-            .shadow_photons = general && settings.general.shadow_photons};
+            .shadow_photons = skip || (general && settings.general.shadow_photons),
+            .skipped_rays = skip,
+            .skipped_bounces =
+                rays && settings.skip.indirect_rays && settings.general.photons > 0};
 }
 // [survey]
+
+/// What is skipped, by a plan.
+/// \param run       The plan's decisions.
+/// \param settings  What the user asks for.
+[[nodiscard]] inline SkipSettings skipping(const Passes& run,
+                                           const PhotonMappingSettings& settings) {
+    SkipSettings skip = settings.skip;
+    if (!run.skipped_rays) skip.rule = SkipRule::none;
+    skip.indirect_rays = run.skipped_bounces;
+    return skip;
+}
 
 /// The plan: choose_passes() with its reasons. Thin films and the tree are decided by
 /// the same questions where a ray is traced.
@@ -170,7 +191,23 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
              run.general_map ? "indirect light is asked of it" : "no ray asks it");
     plan.shadow_photons =
         item("shadow photons", run.shadow_photons,
-             run.shadow_photons ? "the general map keeps them" : "no map keeps them");
+             run.skipped_rays     ? "they tell which shadow rays are needless"
+             : run.shadow_photons ? "the general map keeps them"
+                                  : "no map keeps them");
+    const std::string photons = std::to_string(settings.general.photons) + " photons";
+    const std::string needed = std::to_string(photons_needed(settings.skip));
+    plan.skipped_rays =
+        item("skipped rays", run.skipped_rays,
+             settings.skip.rule == SkipRule::none ? "no rule was asked for"
+             : run.skipped_rays ? "where " + needed + " of " + photons + " agree"
+             : !run.shadow_rays ? "nothing is lit"
+                                : photons + ", and one verdict takes " + needed);
+    plan.skipped_bounces =
+        item("skipped bounces", run.skipped_bounces,
+             run.skipped_bounces             ? "where none of " + photons + " is near"
+             : !settings.skip.indirect_rays  ? "not asked for"
+             : settings.general.photons == 0 ? "0 photons were asked for"
+                                             : "there are no indirect rays");
     plan.thin_film = item("thin film", found.films,
                           found.films ? "paths pass through the listed films"
                                       : "no material is one");
