@@ -36,6 +36,8 @@ struct PhotonPassSettings {
     std::uint64_t iteration = 0; ///< Which repetition of the pass.
     int max_bounces = 1000; ///< Surfaces a photon may meet; roulette ends it before.
     bool shadow_photons = true; ///< Whether the general map keeps them.
+    bool equal_lights = false;  ///< As many from each light, not as its power: for
+                                ///< what each light hides rather than what it sends.
     PhotonSampling numbers = PhotonSampling::random; ///< Chance, or better than chance.
     double max_memory = 4e9;       ///< Bytes that the photons may take while traced.
     long long give_up = 1LL << 20; ///< Ends after so many paths if none was stored.

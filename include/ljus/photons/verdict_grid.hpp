@@ -20,8 +20,8 @@ namespace ljus {
 /// no shadow photon either.
 template <std::floating_point T>
 struct VerdictGridT {
-    detail::VerdictBitsT<T> known; ///< Brick by brick.
-    bool dark_known = false;       ///< Whether indirect photons were looked for.
+    detail::VerdictBitsT<T> known{}; ///< Brick by brick.
+    bool dark_known = false;         ///< Whether indirect photons were looked for.
 
     /// A cell, and a way in which a surface faces there.
     struct Place {

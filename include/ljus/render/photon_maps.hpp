@@ -38,7 +38,10 @@ make_photon_maps(const S& scene, const PhotonMappingSettings& settings = {}) {
     general.shadow_photons = run.shadow_photons;
     const SkipSettings skip = detail::skipping(run, settings);
     const bool verdicts = run.skipped_rays || run.skipped_bounces;
-    if (!run.general_map && !run.skipped_bounces) general.max_bounces = 1;
+    if (!run.general_map && !run.skipped_bounces) { // only shadow rays are asked about
+        general.max_bounces = 1;
+        general.equal_lights = true;
+    }
     PhotonMapsT<typename S::Scalar> maps;
     const auto make = [&](MapType type, const PhotonPassSettings& pass, auto& map,
                           auto& audit) {

@@ -138,9 +138,7 @@ struct Passes {
 }
 // [survey]
 
-/// What is skipped, by a plan.
-/// \param run       The plan's decisions.
-/// \param settings  What the user asks for.
+/// What is skipped, by a plan for these settings.
 [[nodiscard]] inline SkipSettings skipping(const Passes& run,
                                            const PhotonMappingSettings& settings) {
     SkipSettings skip = settings.skip;

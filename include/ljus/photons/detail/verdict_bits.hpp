@@ -19,14 +19,14 @@ namespace ljus::detail {
 /// Bricks with what is known in their cells.
 template <std::floating_point T>
 struct VerdictBitsT {
-    CellsT<T> cells;        ///< Where they lie.
+    CellsT<T> cells{};      ///< Where they lie.
     std::size_t lights = 0; ///< How many lights the verdicts are of.
-    BrickTable table;       ///< The bricks that there are.
+    BrickTable table{};     ///< The bricks that there are.
     /// For each brick, light by light, a bit for each cell that is lit and then one for
     /// each that is in shadow; at last those with an indirect photon near.
-    std::vector<std::uint64_t> bits;
+    std::vector<std::uint64_t> bits{};
 
-    /// The bits of a brick.
+    /// How many numbers a brick has in `bits`.
     [[nodiscard]] constexpr std::size_t stride() const noexcept {
         return 2 * lights + 1;
     }
@@ -106,9 +106,9 @@ find_witnesses(const std::vector<PhotonT<T>>& photons, const SkipSettings& skip,
         // An indirect photon makes all bricks that it is near to: where there is no
         // brick it is dark.
         for (int corner = 0; indirect && corner < 8; ++corner)
-            (void)grid.table.insert(brick_key(
-                {at->x + (corner & 1) * 2 - 1, at->y + (corner & 2) - 1,
-                 at->z + (corner & 4) / 2 - 1, at->way}));
+            (void)grid.table.insert(
+                brick_key({at->x + (corner & 1) * 2 - 1, at->y + (corner & 2) - 1,
+                           at->z + (corner & 4) / 2 - 1, at->way}));
         const std::uint32_t brick = grid.table.insert(brick_key(*at));
         const bool together = skip.rule == SkipRule::report;
         const std::size_t list = indirect ? grid.lights : together ? 0 : photon.light;
@@ -191,9 +191,9 @@ judge_brick(const CountsAround& sums, SkipRule rule, std::uint32_t needed) noexc
 /// \param threads  As in ParallelSettings.
 // [make_bits]
 template <std::floating_point T>
-[[nodiscard]] VerdictBitsT<T>
-make_bits(const std::vector<PhotonT<T>>& photons, const CellsT<T>& cells,
-          std::size_t lights, const SkipSettings& skip, int threads) {
+[[nodiscard]] VerdictBitsT<T> make_bits(const std::vector<PhotonT<T>>& photons,
+                                        const CellsT<T>& cells, std::size_t lights,
+                                        const SkipSettings& skip, int threads) {
     VerdictBitsT<T> grid{.cells = cells, .lights = lights};
     const auto found = find_witnesses(photons, skip, grid);
     const std::uint32_t bricks = grid.table.size();
