@@ -92,9 +92,9 @@ void draw_idea(const examples::Options& options) {
         examples::draw_dot(drawing, to, 3.5,
                            hidden ? examples::colors::orange : examples::colors::blue);
     }
-    const std::array circles{std::pair{Point{2.2, 0}, "lit"},
-                             std::pair{Point{0.9, 0}, "unknown: a ray"},
-                             std::pair{Point{-0.3, 0}, "in shadow"}};
+    const std::array circles{std::pair{Point{1.9, 0}, "lit"},
+                             std::pair{Point{0.66, 0}, "unknown"},
+                             std::pair{Point{-0.45, 0}, "in shadow"}};
     for (const auto& [at, name] : circles) {
         examples::draw_arc(drawing, at, 0.3, 0, 2 * std::numbers::pi,
                            {.color = examples::colors::green, .width = 1.5});
@@ -135,9 +135,9 @@ Image verdict_map(const S& scene, const Camera& camera, const VerdictGrid& grid,
             });
             if (!matt || vertex.emits()) continue;
             const Verdict verdict = grid.verdict(detail::place_of(grid, vertex), lamp);
-            const Rgb color = verdict == Verdict::lit      ? Rgb{0.9f, 0.75f, 0.3f}
-                              : verdict == Verdict::shadow ? Rgb{0.1f, 0.2f, 0.55f}
-                                                           : Rgb{0.75f, 0.1f, 0.1f};
+            const Rgb color = verdict == Verdict::lit      ? Rgb{0.85f, 0.6f, 0.1f}
+                              : verdict == Verdict::shadow ? Rgb{0.02f, 0.07f, 0.35f}
+                                                           : Rgb{0.55f, 0.02f, 0.02f};
             pixel(image, x, y) = color * (0.35f + 0.65f * std::abs(vertex.wo.z));
         }
     return image;
@@ -298,42 +298,45 @@ void over_photons(const examples::Options& options) {
                           .columns = {"radius of the balls", "photons", "rule",
                                       "skipped", "wrong, of all", "shadow lost"},
                           .rows = {}};
+    examples::Plot skipped{.name = "shadow-skipped",
+                           .columns = {"photons emitted"},
+                           .y_label = "shadow rays skipped, %",
+                           .rows = {},
+                           .log_x = true};
+    examples::Plot lost = skipped;
+    lost.name = "shadow-lost";
+    lost.y_label = "of the shadow called lit, %";
     const int last = options.pick(4, 6, 6), seeds = options.pick(1, 4, 8);
+    for (int i = 6; i <= 2 * last; ++i) {
+        const double photons = std::round(std::pow(10, i / 2.0));
+        skipped.rows.push_back({photons});
+        lost.rows.push_back({photons});
+    }
     for (const float size : sizes) {
         const Hall hall = three_balls(size);
         const Probes probes = make_probes(hall, size, options);
-        const auto plot = [&](const char* name, const char* what) {
-            return examples::Plot{.name = name + examples::text(100 * size, "-%.0f"),
-                                  .columns = {"photons emitted", rule_names[0],
-                                              rule_names[1], rule_names[2]},
-                                  .y_label = what,
-                                  .rows = {},
-                                  .log_x = true};
-        };
-        auto skipped = plot("shadow-skipped", "shadow rays skipped, %");
-        auto lost = plot("shadow-lost", "of the shadow called lit, %");
-        for (int i = 6; i <= 2 * last; ++i) {
-            const auto photons =
-                static_cast<long long>(std::llround(std::pow(10, i / 2.0)));
-            examples::Row skip_row{double(photons)}, lost_row{double(photons)};
-            for (std::size_t r = 0; r < rules.size(); ++r) {
+        for (std::size_t r = 0; r < rules.size(); ++r) {
+            const std::string curve =
+                std::string(rule_names[r]) + ": " + examples::text(double(size));
+            if (size == sizes[0]) skipped.columns.push_back(curve);
+            if (r > 0) lost.columns.push_back(curve);
+            for (std::size_t row = 0; row < skipped.rows.size(); ++row) {
+                const auto photons = static_cast<long long>(skipped.rows[row][0]);
                 const Outcome found =
                     outcome(hall, probes, {.rule = rules[r]}, photons, options, seeds);
-                skip_row.push_back(100 * found.skipped);
-                lost_row.push_back(100 * found.lost);
-                if (i % 2 == 0)
+                if (size == sizes[0]) skipped.rows[row].push_back(100 * found.skipped);
+                if (r > 0) lost.rows[row].push_back(100 * found.lost);
+                if (row % 2 == 0)
                     table.rows.push_back(
-                        {examples::text(size), std::to_string(photons), rule_names[r],
-                         examples::text(100 * found.skipped, "%.1f %%"),
+                        {examples::text(double(size)), std::to_string(photons),
+                         rule_names[r], examples::text(100 * found.skipped, "%.1f %%"),
                          examples::text(100 * found.wrong, "%.3f %%"),
                          examples::text(100 * found.lost, "%.1f %%")});
             }
-            skipped.rows.push_back(skip_row);
-            lost.rows.push_back(lost_row);
         }
-        examples::save_plot(options.out, skipped);
-        examples::save_plot(options.out, lost);
     }
+    examples::save_plot(options.out, skipped);
+    examples::save_plot(options.out, lost);
     save(options, table);
 }
 
@@ -642,7 +645,7 @@ Hall two_rooms() {
     hall.add(Quad{.corner{-2, 0, 0}, .edge_u = x, .edge_v = y}, white);
     hall.add(Quad{.corner{-2, 0, 0}, .edge_u = y, .edge_v = z}, white);
     hall.add(Quad{.corner{2, 0, 0}, .edge_u = z, .edge_v = y}, white);
-    hall.add(Quad{.corner{0, 0, 0}, .edge_u{0, 1, 0}, .edge_v{0, 0, 0.85f}}, white);
+    hall.add(Quad{.corner{0, 0, 0}, .edge_u{0, 1, 0}, .edge_v{0, 0, 0.6f}}, white);
     hall.add(
         Quad{.corner{-1.2f, 0.999f, 0.3f}, .edge_u{0.3f, 0, 0}, .edge_v{0, 0, 0.3f}},
         hall.add(Lambertian{.albedo = Rgb{0}}), Rgb{20});
@@ -662,7 +665,7 @@ void indirect(const examples::Options& options) {
         settings_of(options, SkipRule::none, options.pick(1000LL, 100LL, 100LL));
     const auto none = make_photon_maps(hall, settings);
     const auto all = render(make_photon_mapper(hall, none, settings), camera, picture);
-    save_png(all.image, options.path("shadow-dark-all.png"), {.exposure = 1.5});
+    save_png(all.image, options.path("shadow-dark-all.png"), {.exposure = 3});
     const auto right_half = [](const Image& image) {
         double sum = 0;
         for (int y = 0; y < image.height; ++y)
@@ -681,6 +684,7 @@ void indirect(const examples::Options& options) {
                                       "light of the picture", "of the dark room"},
                           .rows = {}};
     settings.skip.indirect_rays = true;
+    settings.skip.radius = 0.1f; // chosen by the photons, it would shrink with them
     for (const long long photons : {100LL, 1000LL, 10000LL, 100000LL}) {
         settings.general.photons = photons;
         const auto maps = make_photon_maps(hall, settings);
@@ -689,7 +693,7 @@ void indirect(const examples::Options& options) {
         if (photons <= 1000)
             save_png(some.image,
                      options.path("shadow-dark-" + std::to_string(photons) + ".png"),
-                     {.exposure = 1.5});
+                     {.exposure = 3});
         const Rgb flux{Vec3(maps.general_audit.emitted) / float(photons)};
         const float radius = maps.verdicts.radius();
         const double bound = double(unseen_irradiance(flux, radius).y);

@@ -30,7 +30,7 @@ ljus_break_it(NAME shadow-photons-lights HEADER photons/detail/verdict_bits.hpp 
 
 # The normal alone decides which way a side faces, and both sides of a wall are one.
 ljus_break_it(NAME shadow-photons-side HEADER photons/shadow_verdict.hpp TEST shadow_photons
-    FROM "return side * n[axis] < 0 ? axis + 3 : axis;"
+    FROM "return (n[axis] < 0) == (side < 0) ? axis : axis + 3;"
     TO   "(void)side; return n[axis] < 0 ? axis + 3 : axis;"
     CASES "shadow photons: which way*,shadow photons: the penumbra*")
 

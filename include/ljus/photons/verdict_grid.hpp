@@ -45,7 +45,7 @@ struct VerdictGridT {
     [[nodiscard]] Place place_of(const SurfacePointT<T>& point,
                                  int side) const noexcept {
         if (empty()) return {};
-        const int way = detail::facing(small_normal(point.normal), side);
+        const int way = detail::facing(point.normal, side);
         const auto at = known.cells.cell_of(point.position, way);
         if (!at) return {};
         const std::uint32_t brick = known.table.find(detail::brick_key(*at));
