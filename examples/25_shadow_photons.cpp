@@ -1,7 +1,7 @@
 // figures: shadow-verdicts shadow-wire
 // smoke: --quality draft --photons 1000 --width 24 --height 24 --cuts 1
 /// \file 25_shadow_photons.cpp
-/// \brief Chapter 25: which rays photons make needless, what that saves, and what is lost.
+/// \brief Chapter 25: which rays photons make needless, what that saves, what is lost.
 
 #include <algorithm>
 #include <array>
@@ -44,7 +44,7 @@ void save(const examples::Options& options, const examples::Table& table) {
     }
 }
 
-// --- The idea, drawn ------------------------------------------------------------------
+// --- The idea, drawn -----------------------------------------------------------------
 
 /// Rays from a lamp past a disc to a floor, and the photons that they leave.
 void draw_idea(const examples::Options& options) {
@@ -103,7 +103,7 @@ void draw_idea(const examples::Options& options) {
     examples::save_drawing(options.out, drawing);
 }
 
-// --- Pictures of the report's room ----------------------------------------------------
+// --- Pictures of the report's room ---------------------------------------------------
 
 PhotonMappingSettings settings_of(const examples::Options& options, SkipRule rule,
                                   long long photons) {
@@ -195,7 +195,7 @@ void pictures(const examples::Options& options, long long photons) {
     save(options, table);
 }
 
-// --- Skipped and wrong, over photons, radius and the size of what throws the shadow ----
+// --- Skipped and wrong, over photons, radius and the size of what throws the shadow --
 
 /// A floor of 10 x 10, a lamp of 2 x 2 at the height 5, and three balls that lie on it.
 Hall three_balls(float radius) {
@@ -370,7 +370,7 @@ void over_radius(const examples::Options& options) {
     examples::save_plot(options.out, lost);
 }
 
-// --- The wire that defeats it ---------------------------------------------------------
+// --- The wire that defeats it --------------------------------------------------------
 
 constexpr float lamp_height = 4, wire_height = 0.5f, lamp_away = 2;
 
@@ -451,7 +451,7 @@ void wire(const examples::Options& options, long long photons) {
     }
 }
 
-// --- What it saves --------------------------------------------------------------------
+// --- What it saves -------------------------------------------------------------------
 
 /// A hall with walls, a lamp, and nine balls of so many triangles each; spheres for 0.
 Hall hall_of_meshes(int cuts, int lamps) {
@@ -633,7 +633,7 @@ void savings(const examples::Options& options, long long photons, int cuts) {
     examples::save_plot(options.out, plot);
 }
 
-// --- Indirect rays --------------------------------------------------------------------
+// --- Indirect rays -------------------------------------------------------------------
 
 /// Two rooms with a door between; the lamp is in the left one.
 Hall two_rooms() {

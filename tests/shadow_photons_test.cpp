@@ -1,6 +1,6 @@
 // Which rays are needless: against verdicts counted one by one, the visible part of a
-// lamp in closed form, and the laws of chance. Where chance decides, the false-alarm rate
-// stands beside the check.
+// lamp in closed form, and the laws of chance. Where chance decides, the false-alarm
+// rate stands beside the check.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -136,7 +136,7 @@ TEST_CASE("shadow photons: which way a side faces") {
     }
 }
 
-// --- The grid and its plain twins -----------------------------------------------------
+// --- The grid and its plain twins ----------------------------------------------------
 
 namespace {
 
@@ -226,7 +226,7 @@ TEST_CASE("shadow photons: the grid has the same bytes for any number of threads
     }
 }
 
-// --- Is it right? ---------------------------------------------------------------------
+// --- Is it right? --------------------------------------------------------------------
 
 TEST_CASE("shadow photons: the penumbra of a square lamp behind a straight edge") {
     for (const bool up : {true, false}) { // the floor's own normal does not matter
@@ -349,7 +349,7 @@ TEST_CASE("shadow photons: the irradiance that no photon has seen") {
               0.0003); // a binomial is not quite Poisson
 }
 
-// --- In the renderer ------------------------------------------------------------------
+// --- In the renderer -----------------------------------------------------------------
 
 namespace {
 
@@ -495,7 +495,7 @@ TEST_CASE("shadow photons: the survey says why") {
     settings.general.photons = 58;
     plan = survey(room, settings);
     CHECK_FALSE(plan.skipped_rays.on);
-    CHECK(plan.skipped_rays.why == "58 photons, and one verdict takes 59");
+    CHECK(plan.skipped_rays.why == "58 photons, and each of 1 light(s) takes 59");
     CHECK(make_photon_maps(room, settings).verdicts.empty());
     settings.general.photons = 1000;
     settings.skip.indirect_rays = true;
@@ -514,7 +514,7 @@ TEST_CASE("shadow photons: the survey says why") {
     CHECK(survey(dark, settings).skipped_rays.why == "nothing is lit");
 }
 
-// --- Indirect rays --------------------------------------------------------------------
+// --- Indirect rays -------------------------------------------------------------------
 
 TEST_CASE("shadow photons: no indirect ray where no indirect photon is near") {
     // Two rooms, one of them closed and dark.
@@ -566,7 +566,7 @@ TEST_CASE("shadow photons: no indirect ray where no indirect photon is near") {
     }
     CHECK(sum < 0.95 * should);
 
-    // A place next to an indirect photon is never called dark, in whichever brick it is.
+    // A place next to an indirect photon is never called dark, whatever its brick.
     const auto photons = photons_of(room, 300);
     SkipSettings skip{.indirect_rays = true, .radius = 0.05f};
     const VerdictGrid grid = make_verdict_grid(photons, 1, skip);
@@ -583,7 +583,7 @@ TEST_CASE("shadow photons: no indirect ray where no indirect photon is near") {
     }
 }
 
-// --- Extremes -------------------------------------------------------------------------
+// --- Extremes ------------------------------------------------------------------------
 
 TEST_CASE("shadow photons: extremes") {
     const SurfacePoint point = floor_point(0, 0);
@@ -668,6 +668,25 @@ TEST_CASE("shadow photons: extremes") {
         CHECK(verdict_of(grid, floor_point(-0.5f, 0), 1) == Verdict::lit);
         CHECK(verdict_of(grid, floor_point(0.5f, 0), 1) == Verdict::shadow);
         CHECK(verdict_of(grid, floor_point(1e-4f, 0), 1) == Verdict::unknown);
+    }
+    SUBCASE("in double") {
+        RoomT<double> room;
+        add_walls(room);
+        add_ball(room, Ball::lambertian);
+        add_lamps(room, Lamp::quad, 1);
+        const auto traced = trace_photons(room, MapType::general, {.photons = 50000});
+        const auto grid = make_verdict_grid(traced.photons, 1, enough);
+        int known = 0;
+        for (std::size_t i = 0; i < traced.photons.size(); i += 50) {
+            const auto& photon = traced.photons[i];
+            const SurfacePointT<double> at{
+                .position = photon.position,
+                .normal = glm::normalize(Vec3T<double>(photon.normal))};
+            const auto place =
+                grid.place_of(at, photon_side(photon.direction, at.normal));
+            known += grid.verdict(place, 0) != Verdict::unknown ? 1 : 0;
+        }
+        CHECK(known * 50 > int(traced.photons.size()) / 2);
     }
     SUBCASE("a hundred lights") {
         std::vector<Photon> photons;

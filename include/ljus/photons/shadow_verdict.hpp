@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/shadow_verdict.hpp
-/// \brief What direct and shadow photons say of a shadow ray: it can be left out, or not.
+/// \brief What direct and shadow photons say of a shadow ray: is it needed?
 
 #include <cmath>
 #include <cstdint>
@@ -110,7 +110,7 @@ template <typename N>
 [[nodiscard]] inline int facing(const SmallNormal& n, int side) noexcept {
     return facing(std::abs(n.x), std::abs(n.y), std::abs(n.z), n, side);
 }
-/// Which way a side faces, by a unit vector: rounded as small_normal() does, but faster.
+/// Which way a side faces, by a unit vector: rounded as in small_normal(), but faster.
 template <std::floating_point T>
 [[nodiscard]] int facing(const Vec3T<T>& n, int side) noexcept {
     const auto size = [](T c) { return int(T(127) * std::abs(c) + T(0.5)); };

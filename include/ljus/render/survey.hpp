@@ -126,7 +126,8 @@ struct Passes {
                            settings.keep_general_map;
     const bool general = lit && map_asked && settings.general.photons > 0;
     const bool skip = lit && settings.skip.rule != SkipRule::none &&
-                      settings.general.photons >= photons_needed(settings.skip);
+                      double(settings.general.photons) >=
+                          double(found.lights) * photons_needed(settings.skip);
     return {.shadow_rays = lit,
             .indirect_rays = rays,
             .caustics_map = lit && found.specular > 0 && settings.caustics.photons > 0,

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/detail/brick_table.hpp
-/// \brief Cells of a grid, 4 x 4 x 4 to a brick, of which only those with photons exist.
+/// \brief Cells of a grid, 4 x 4 x 4 to a brick; bricks without photons do not exist.
 
 #include <cstdint>
 #include <optional>

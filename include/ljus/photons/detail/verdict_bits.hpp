@@ -118,6 +118,9 @@ find_witnesses(const std::vector<PhotonT<T>>& photons, const SkipSettings& skip,
     return found;
 }
 
+/// So many bricks, at most: while it is made each takes 512 bytes.
+inline constexpr std::uint32_t most_bricks = 1 << 21;
+
 /// Photons in a cell: direct ones in the lower half of 64 bits, shadows in the upper.
 using PackedCounts = std::uint64_t;
 
@@ -197,6 +200,9 @@ template <std::floating_point T>
     VerdictBitsT<T> grid{.cells = cells, .lights = lights};
     const auto found = find_witnesses(photons, skip, grid);
     const std::uint32_t bricks = grid.table.size();
+    require(bricks <= most_bricks, "the number of bricks in a verdict grid",
+            static_cast<long long>(bricks),
+            "at most 2097152: a larger skip.radius makes fewer");
     grid.bits.assign(bricks * grid.stride(), 0);
     std::vector<PackedCounts> counts(64 * std::size_t(bricks));
     for (std::size_t list = 0; list <= lights; ++list) {
