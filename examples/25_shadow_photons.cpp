@@ -117,8 +117,21 @@ PhotonMappingSettings settings_of(const examples::Options& options, SkipRule rul
     return settings;
 }
 
+/// Whether some of a lamp could shine on a surface.
+template <typename S>
+bool faces(const S& scene, const Vertex& vertex, std::size_t lamp) {
+    for (int i = 0; i < 4; ++i) {
+        const Vec2 u{i % 2 == 0 ? 0.1f : 0.9f, i < 2 ? 0.1f : 0.9f};
+        const auto sampled =
+            sample_light(scene, scene.lights[lamp], vertex.point.position, u);
+        if (sampled && to_local(vertex.frame, sampled->wi).z * vertex.wo.z > 0)
+            return true;
+    }
+    return false;
+}
+
 /// What is known of a lamp where each pixel looks: yellow for lit, blue for shadow, red
-/// where a ray must tell.
+/// where a ray must tell, and no colour where no ray is asked.
 template <typename S>
 Image verdict_map(const S& scene, const Camera& camera, const VerdictGrid& grid,
                   std::size_t lamp, const examples::Options& options) {
@@ -133,7 +146,7 @@ Image verdict_map(const S& scene, const Camera& camera, const VerdictGrid& grid,
             const bool matt = visit_material_at(scene, vertex, [](const auto& m) {
                 return has(lobes(m), Lobes::non_specular);
             });
-            if (!matt || vertex.emits()) continue;
+            if (!matt || vertex.emits() || !faces(scene, vertex, lamp)) continue;
             const Verdict verdict = grid.verdict(detail::place_of(grid, vertex), lamp);
             const Rgb color = verdict == Verdict::lit      ? Rgb{0.85f, 0.6f, 0.1f}
                               : verdict == Verdict::shadow ? Rgb{0.02f, 0.07f, 0.35f}
@@ -299,10 +312,11 @@ void over_photons(const examples::Options& options) {
                                       "skipped", "wrong, of all", "shadow lost"},
                           .rows = {}};
     examples::Plot skipped{.name = "shadow-skipped",
-                           .columns = {"photons emitted"},
+                           .columns = {"photons emitted"}, // and the rules
                            .y_label = "shadow rays skipped, %",
                            .rows = {},
                            .log_x = true};
+    skipped.more = "set xrange [1000:1000000]\nset yrange [0:100]\n";
     examples::Plot lost = skipped;
     lost.name = "shadow-lost";
     lost.y_label = "of the shadow called lit, %";
@@ -319,13 +333,14 @@ void over_photons(const examples::Options& options) {
             const std::string curve =
                 std::string(rule_names[r]) + ": " + examples::text(double(size));
             if (size == sizes[0]) skipped.columns.push_back(curve);
-            if (r > 0) lost.columns.push_back(curve);
+            const bool shown = r == 2 || (r == 1 && size == sizes[0]);
+            if (shown) lost.columns.push_back(curve);
             for (std::size_t row = 0; row < skipped.rows.size(); ++row) {
                 const auto photons = static_cast<long long>(skipped.rows[row][0]);
                 const Outcome found =
                     outcome(hall, probes, {.rule = rules[r]}, photons, options, seeds);
                 if (size == sizes[0]) skipped.rows[row].push_back(100 * found.skipped);
-                if (r > 0) lost.rows[row].push_back(100 * found.lost);
+                if (shown) lost.rows[row].push_back(100 * found.lost);
                 if (row % 2 == 0)
                     table.rows.push_back(
                         {examples::text(double(size)), std::to_string(photons),
@@ -432,9 +447,9 @@ void wire(const examples::Options& options, long long photons) {
     }
     examples::save_plot(options.out, plot);
 
-    const Hall hall = wire_hall(0.02f * radius * 4);
+    const Hall hall = wire_hall(0.05f * radius);
     const Camera camera =
-        look_at({.position{0, 3.4f, -2.2f}, .target{0, 0, -0.1f}, .vfov_degrees = 38});
+        look_at({.position{0, 3.4f, -2.2f}, .target{0, 0, -0.1f}, .vfov_degrees = 30});
     for (const SkipRule rule : {SkipRule::none, SkipRule::enough}) {
         PhotonMappingSettings settings = settings_of(options, rule, photons);
         settings.skip.radius = radius;
