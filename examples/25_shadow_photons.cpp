@@ -581,11 +581,11 @@ struct Seconds {
 };
 template <typename S>
 Seconds seconds_of(const S& scene, const Camera& camera, int shadow_rays,
-                   long long photons, const examples::Options& options) {
+                   long long photons, int samples, int runs,
+                   const examples::Options& options) {
     std::array<std::vector<double>, 2> seconds;
     std::array<Image, 2> images;
     std::array<double, 2> rays{};
-    const int runs = options.pick(1, 3, 9);
     for (int run = 0; run < runs; ++run)
         for (const std::size_t i : {0u, 1u}) {
             PhotonMappingSettings settings = settings_of(
@@ -597,7 +597,7 @@ Seconds seconds_of(const S& scene, const Camera& camera, int shadow_rays,
             auto picture = render(make_photon_mapper(scene, maps, settings), camera,
                                   {.width = options.pick(16, 120, 400),
                                    .height = options.pick(16, 120, 400),
-                                   .samples = 16,
+                                   .samples = samples,
                                    .seed = options.seed,
                                    .threads = 1});
             seconds[i].push_back(examples::processor_seconds() - start);
@@ -638,7 +638,8 @@ void savings(const examples::Options& options, long long photons, int cuts) {
              examples::text(cost[2], "%.0f"), examples::text(cost[3], "%.0f"),
              examples::text(cost[3] / (cost[0] - cost[1]), "%.0f")});
         for (const int rays : {1, 4, 9}) {
-            const Seconds found = seconds_of(scene, from, rays, photons, options);
+            const Seconds found = seconds_of(scene, from, rays, photons, 16,
+                                             options.pick(1, 3, 9), options);
             const double ratio = found.with / found.without;
             table.rows.push_back({name, std::to_string(rays),
                                   examples::text(100 * found.skipped, "%.1f %%"),
@@ -659,6 +660,22 @@ void savings(const examples::Options& options, long long photons, int cuts) {
                 hall_of_meshes(cut, 1), camera);
     measure("the same, 4 lamps", hall_of_meshes(cuts, 4), camera);
     std::sort(plot.rows.begin(), plot.rows.end());
+    examples::Plot size{.name = "shadow-seconds-size",
+                        .columns = {"rays per pixel", "1 shadow ray", "4", "9"},
+                        .y_label = "processor time, with / without",
+                        .rows = {},
+                        .log_x = true,
+                        .more = "set yrange [0:*]\n"};
+    for (int samples = 1; samples <= options.pick(4, 256, 1024); samples *= 4) {
+        examples::Row row{double(samples)};
+        for (const int rays : {1, 4, 9}) {
+            const Seconds found = seconds_of(glass.scene, glass.camera, rays, photons,
+                                             samples, samples < 64 ? 5 : 1, options);
+            row.push_back(found.with / found.without);
+        }
+        size.rows.push_back(row);
+    }
+    examples::save_plot(options.out, size);
     save(options, costs);
     save(options, table);
     examples::save_plot(options.out, plot);
