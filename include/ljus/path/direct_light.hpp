@@ -96,7 +96,6 @@ template <SceneLike S, std::floating_point T, Material M, typename Stream,
     };
     RgbT<T> sum{T(0)};
     for (std::size_t number = 0; number < scene.lights.size(); ++number) {
-        const LightT<T>& light = scene.lights[number];
         const Vec2T<T> u = next_2d<T>(stream);
         const Verdict verdict = verdicts(number);
         if (verdict == Verdict::shadow) {
@@ -105,7 +104,7 @@ template <SceneLike S, std::floating_point T, Material M, typename Stream,
         }
         const std::uint64_t key = stream.key + std::uint64_t(u.x * 0x1p24f);
         for (int i = 0; i < rays; ++i)
-            sum += direct_light(scene, light, vertex, material,
+            sum += direct_light(scene, scene.lights[number], vertex, material,
                                 rays > 1 ? detail::stratified(strata, i, key, u) : u,
                                 unweighted, counts, verdict);
     }
