@@ -200,7 +200,7 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
              settings.skip.rule == SkipRule::none ? "no rule was asked for"
              : run.skipped_rays ? "where " + needed + " of " + photons + " agree"
              : !run.shadow_rays ? "nothing is lit"
-                                : photons + ", and one verdict takes " + needed);
+                                : photons + ", and each light takes " + needed);
     plan.skipped_bounces =
         item("skipped bounces", run.skipped_bounces,
              run.skipped_bounces             ? "where none of " + photons + " is near"
