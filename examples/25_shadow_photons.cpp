@@ -407,7 +407,7 @@ void wire(const examples::Options& options, long long photons) {
     // In the middle of the shadow nothing of the light is seen, and the cells around a
     // point hold a strip of it 3 h long and as wide as the shadow. No shadow photon
     // falls into it with the probability exp(-density * 3 h * width).
-    constexpr float radius = 0.15f;
+    constexpr float radius = 0.2f;
     const double scale = lamp_height / (lamp_height - wire_height);
     const double z = lamp_away - scale * lamp_away;
     examples::Plot plot{.name = "shadow-wire",
@@ -448,7 +448,7 @@ void wire(const examples::Options& options, long long photons) {
     }
     examples::save_plot(options.out, plot);
 
-    const Hall hall = wire_hall(0.05f * radius);
+    const Hall hall = wire_hall(0.025f * radius);
     const Camera camera =
         look_at({.position{0, 3.4f, -2.2f}, .target{0, 0, -0.1f}, .vfov_degrees = 30});
     for (const SkipRule rule : {SkipRule::none, SkipRule::enough}) {
