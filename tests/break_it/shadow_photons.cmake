@@ -2,7 +2,7 @@
 ljus_break_it(NAME shadow-photons-needed HEADER photons/shadow_verdict.hpp TEST shadow_photons
     FROM "if (direct + shadow < needed) return Verdict::unknown;"
     TO   "if (direct + shadow < 1) return Verdict::unknown; (void)needed;"
-    CASES "shadow photons: how many*,shadow photons: called lit*")
+    CASES "shadow photons: how many*")
 
 # The number that is needed by the wrong logarithm: of tau in place of 1 - tau.
 ljus_break_it(NAME shadow-photons-logarithm HEADER photons/shadow_verdict.hpp TEST shadow_photons
