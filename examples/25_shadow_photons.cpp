@@ -499,6 +499,87 @@ Hall hall_of_meshes(int cuts, int lamps) {
     return hall;
 }
 
+/// Where indirect rays have ended: points of a room as a picture asks about them.
+template <typename S>
+std::vector<Vertex> places_of(const IndexedScene<S>& scene, const Camera& camera,
+                              std::size_t count, std::uint64_t seed) {
+    std::vector<Vertex> places;
+    auto stream = random_stream(seed, Pass::camera, 1, 0);
+    for (std::size_t tries = 0; tries < 5 * count && places.size() < count; ++tries) {
+        PathStateT<float> path{
+            .ray = primary_ray(camera, 100.0f * next_2d<float>(stream), 100, 100)};
+        auto vertex = next_vertex(scene, path, stream);
+        if (!vertex) continue;
+        const Vec3 out = sample_cosine_hemisphere(next_2d<float>(stream));
+        const Vec3 up = vertex->wo.z < 0 ? -out : out;
+        path.ray = spawn_ray(vertex->point, to_world(vertex->frame, up));
+        vertex = next_vertex(scene, path, stream);
+        if (vertex && visit_material_at(scene, *vertex, [](const auto& m) {
+                return has(lobes(m), Lobes::non_specular);
+            }))
+            places.push_back(*vertex);
+    }
+    return places;
+}
+
+/// How often a room's verdicts are wrong: a row for each rule.
+template <typename S>
+void judge_room(examples::Table& table, const char* name, const S& of,
+                const Camera& camera, long long photons,
+                const examples::Options& options) {
+    const IndexedScene<S> scene(of);
+    const auto places =
+        places_of(scene, camera, options.pick<std::size_t>(200, 4000, 20000), 5);
+    std::vector<double> seen; // place by place and lamp by lamp; -1: it faces away
+    for (const Vertex& place : places)
+        for (std::size_t lamp = 0; lamp < of.lights.size(); ++lamp) {
+            int rays = 0, through = 0;
+            for (int i = 0; i < 256; ++i) {
+                const Vec2 u{(float(i % 16) + 0.5f) / 16, (float(i / 16) + 0.5f) / 16};
+                const auto sampled =
+                    sample_light(scene, of.lights[lamp], place.point.position, u);
+                if (!sampled || to_local(place.frame, sampled->wi).z * place.wo.z <= 0)
+                    continue;
+                ++rays;
+                through +=
+                    occluded(scene, spawn_ray_to(place.point, sampled->point)) ? 0 : 1;
+            }
+            seen.push_back(rays == 0 ? -1 : double(through) / rays);
+        }
+    for (std::size_t r = 0; r < rules.size(); ++r) {
+        const auto maps = make_photon_maps(of, settings_of(options, rules[r], photons));
+        double asked = 0, known = 0, wrong = 0;
+        for (std::size_t i = 0; i < seen.size(); ++i) {
+            if (seen[i] < 0) continue;
+            const std::size_t lamps = of.lights.size();
+            const Verdict verdict = maps.verdicts.verdict(
+                detail::place_of(maps.verdicts, places[i / lamps]), i % lamps);
+            const double said = verdict == Verdict::lit ? 1 : 0;
+            ++asked;
+            known += verdict != Verdict::unknown ? 1 : 0;
+            wrong += verdict != Verdict::unknown && std::abs(said - seen[i]) > 0.05;
+        }
+        table.rows.push_back({name, std::to_string(photons), rule_names[r],
+                              examples::text(100 * known / asked, "%.1f %%"),
+                              examples::text(100 * wrong / asked, "%.3f %%")});
+    }
+}
+
+void rooms(const examples::Options& options, long long photons) {
+    examples::Table table{
+        .name = "shadow-rooms",
+        .columns = {"room", "photons", "rule", "skipped", "wrong, of all"},
+        .rows = {}};
+    const auto glass = four_glass_room<float>();
+    const auto final = final_room<float>();
+    for (const long long count : {photons, 10 * photons}) {
+        judge_room(table, "figure 11", glass.scene, glass.camera, count, options);
+        judge_room(table, "figure 1, two lamps", final.scene, final.camera, count,
+                   options);
+    }
+    save(options, table);
+}
+
 /// Nanoseconds of a shadow ray, of a verdict from the grid, and of one by the plain
 /// twin, which asks the map: at the same points, for the first lamp. And of a photon,
 /// from the lamp into the grid.
@@ -533,24 +614,11 @@ std::array<double, 4> cost_of(const S& of, const Camera& camera, long long photo
         int side = 1;
     };
     std::vector<Question> questions;
-    auto stream = random_stream(options.seed, Pass::camera, 1, 0);
-    for (int tries = 0; tries < 20000 && questions.size() < 4000; ++tries) {
-        // Where an indirect ray has ended: the points of a picture, but in no order.
-        PathStateT<float> path{
-            .ray = primary_ray(camera, 100.0f * next_2d<float>(stream), 100, 100)};
-        auto vertex = next_vertex(scene, path, stream);
-        if (!vertex) continue;
-        const Vec3 out = sample_cosine_hemisphere(next_2d<float>(stream));
-        const Vec3 up = vertex->wo.z < 0 ? -out : out;
-        path.ray = spawn_ray(vertex->point, to_world(vertex->frame, up));
-        vertex = next_vertex(scene, path, stream);
-        if (!vertex) continue;
-        const auto sampled = sample_light(scene, of.lights[0], vertex->point.position,
-                                          next_2d<float>(stream));
-        if (sampled)
-            questions.push_back(
-                {vertex->point, sampled->point, vertex->wo.z < 0 ? -1 : 1});
-    }
+    auto stream = random_stream(options.seed, Pass::camera, 2, 0);
+    for (const Vertex& place : places_of(scene, camera, 4000, options.seed))
+        if (const auto sampled = sample_light(scene, of.lights[0], place.point.position,
+                                              next_2d<float>(stream)))
+            questions.push_back({place.point, sampled->point, place.wo.z < 0 ? -1 : 1});
     const double calls = double(std::max<std::size_t>(questions.size(), 1));
     const int runs = options.pick(3, 21, 51);
     const auto time = [&](auto ask) {
@@ -791,6 +859,7 @@ int main(int argc, char** argv) {
         pictures(options, photons);
         over_photons(options);
         over_radius(options);
+        rooms(options, photons);
         wire(options, photons);
         indirect(options);
         savings(options, photons, cuts);

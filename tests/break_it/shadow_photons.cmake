@@ -60,8 +60,8 @@ ljus_break_it(NAME shadow-photons-dark HEADER path/direct_light.hpp TEST shadow_
 
 # What is in shadow is taken to be lit.
 ljus_break_it(NAME shadow-photons-verdict HEADER photons/verdict_grid.hpp TEST shadow_photons
-    FROM "if (at.bits[2 * light + 1] >> at.cell & 1) return Verdict::shadow;"
-    TO   "if (at.bits[2 * light + 1] >> at.cell & 1) return Verdict::lit;"
+    FROM "lit + 2 * shadow"
+    TO   "lit + shadow"
     CASES "shadow photons: the grid says*,shadow photons: fewer*")
 
 # The bound for the mean of one photon in the disc, not of three.

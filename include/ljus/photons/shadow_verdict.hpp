@@ -101,7 +101,8 @@ inline constexpr std::uint64_t report_ratio = 1200;
 // [facing]
 template <typename N>
 [[nodiscard]] constexpr int facing(int x, int y, int z, const N& n, int side) noexcept {
-    const int axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+    const int larger = x >= y ? x : y;
+    const int axis = larger >= z ? (x >= y ? 0 : 1) : 2;
     return (n[axis] < 0) == (side < 0) ? axis : axis + 3;
 }
 // [facing]

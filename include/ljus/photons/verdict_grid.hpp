@@ -56,9 +56,9 @@ struct VerdictGridT {
     /// What is known of a light there.
     [[nodiscard]] Verdict verdict(const Place& at, std::size_t light) const noexcept {
         if (at.bits == nullptr) return Verdict::unknown;
-        if (at.bits[2 * light] >> at.cell & 1) return Verdict::lit;
-        if (at.bits[2 * light + 1] >> at.cell & 1) return Verdict::shadow;
-        return Verdict::unknown;
+        const std::uint64_t lit = at.bits[2 * light] >> at.cell & 1;
+        const std::uint64_t shadow = at.bits[2 * light + 1] >> at.cell & 1;
+        return static_cast<Verdict>(lit + 2 * shadow); // no branch to guess wrong
     }
     // [place_of]
 
