@@ -504,8 +504,8 @@ template <typename S>
 std::vector<Vertex> places_of(const IndexedScene<S>& scene, const Camera& camera,
                               std::size_t count, std::uint64_t seed) {
     std::vector<Vertex> places;
-    auto stream = random_stream(seed, Pass::camera, 1, 0);
     for (std::size_t tries = 0; tries < 5 * count && places.size() < count; ++tries) {
+        auto stream = random_stream(seed, Pass::camera, 1, tries); // a path of its own
         PathStateT<float> path{
             .ray = primary_ray(camera, 100.0f * next_2d<float>(stream), 100, 100)};
         auto vertex = next_vertex(scene, path, stream);
