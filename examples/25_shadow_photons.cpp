@@ -420,7 +420,7 @@ void wire(const examples::Options& options, long long photons) {
         const double width = 0.02 * i * double(radius);
         const Hall hall = wire_hall(float(width));
         double lost = 0, expected = 0;
-        const int seeds = options.pick(2, 16, 64);
+        const int seeds = options.pick(2, 40, 160);
         for (int seed = 0; seed < seeds; ++seed) {
             const auto traced =
                 trace_photons(hall, MapType::general,
@@ -432,7 +432,7 @@ void wire(const examples::Options& options, long long photons) {
                 traced.photons, 1, {.rule = SkipRule::enough, .radius = radius},
                 options.threads);
             for (int k = 0; k < points; ++k) {
-                const double x = -1 + 2 * (k + 0.5) / points;
+                const double x = -2 + 4 * (k + 0.5) / points;
                 const SurfacePoint at{.position{float(x), 0, float(z)},
                                       .normal{0, 1, 0}};
                 const bool lit = grid.verdict(grid.place_of(at, 1), 0) == Verdict::lit;
@@ -448,9 +448,9 @@ void wire(const examples::Options& options, long long photons) {
     }
     examples::save_plot(options.out, plot);
 
-    const Hall hall = wire_hall(0.025f * radius);
+    const Hall hall = wire_hall(0.03f * radius);
     const Camera camera =
-        look_at({.position{0, 3.4f, -2.2f}, .target{0, 0, -0.1f}, .vfov_degrees = 30});
+        look_at({.position{0, 3.4f, -2.2f}, .target{0, 0, -0.1f}, .vfov_degrees = 50});
     for (const SkipRule rule : {SkipRule::none, SkipRule::enough}) {
         PhotonMappingSettings settings = settings_of(options, rule, photons);
         settings.skip.radius = radius;
