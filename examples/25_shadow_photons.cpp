@@ -1,4 +1,4 @@
-// figures: shadow-verdicts shadow-wire
+// figures: shadow_photons
 // smoke: --quality draft --photons 1000 --width 24 --height 24 --cuts 1
 /// \file 25_shadow_photons.cpp
 /// \brief Chapter 25: which rays photons make needless, what that saves, what is lost.
