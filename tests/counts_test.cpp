@@ -14,12 +14,16 @@ TEST_CASE("counts: sums, member by member") {
              .shadow_rays = 3,
              .map_queries = 4,
              .map_photons = 5,
+             .skipped_rays = 7,
+             .skipped_bounces = 8,
              .rejected = 6};
     const Counts b{.camera_rays = 10,
                    .bounce_rays = 20,
                    .shadow_rays = 30,
                    .map_queries = 40,
                    .map_photons = 50,
+                   .skipped_rays = 70,
+                   .skipped_bounces = 80,
                    .rejected = 60};
     a += b;
     CHECK(a.camera_rays == 11);
@@ -27,6 +31,8 @@ TEST_CASE("counts: sums, member by member") {
     CHECK(a.shadow_rays == 33);
     CHECK(a.map_queries == 44);
     CHECK(a.map_photons == 55);
+    CHECK(a.skipped_rays == 77);
+    CHECK(a.skipped_bounces == 88);
     CHECK(a.rejected == 66);
     CHECK(a.rays() == 66); // no queries, no photons
 }

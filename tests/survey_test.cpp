@@ -178,14 +178,14 @@ TEST_CASE("survey: what the plan leaves out is not done") {
     add_walls(dark); // nothing is lit, so no ray looks for light
     const PhotonMapsT<float> none{};
     const auto mapper = make_photon_mapper(dark, none);
-    CHECK_FALSE(mapper.indirect_rays);
+    CHECK(mapper.bounces == Lobes::specular);
     const auto picture =
         render(mapper, room_camera<float>(), {.width = 4, .height = 4, .samples = 2});
     CHECK(picture.counts.rays() == picture.counts.camera_rays);
     Room lit;
     add_walls(lit);
     add_lamps(lit, Lamp::quad, 1);
-    CHECK(make_photon_mapper(lit, none).indirect_rays);
+    CHECK(make_photon_mapper(lit, none).bounces == Lobes::all);
 }
 
 TEST_CASE("survey: settings that give no picture are refused") {

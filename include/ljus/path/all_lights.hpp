@@ -69,20 +69,21 @@ template <SceneLike S, std::floating_point T>
 /// \param place     Called as place(i) for the point of the unit square that the i-th
 ///                  of them asks.
 /// \param counts    Counts the rays.
+/// \param verdict   What is known of the lamp before a ray is cast.
 /// \return Radiance towards wo.
 /// \cite heitz2018
 // [analytic_light]
 template <SceneLike S, std::floating_point T, typename Place>
-[[nodiscard]] RgbT<T> analytic_light(const S& scene, const LightT<T>& light, T form,
-                                     const VertexT<T>& vertex,
-                                     const LambertianT<T>& material, int rays,
-                                     const Place& place, Counts& counts) {
+[[nodiscard]] RgbT<T>
+analytic_light(const S& scene, const LightT<T>& light, T form, const VertexT<T>& vertex,
+               const LambertianT<T>& material, int rays, const Place& place,
+               Counts& counts, Verdict verdict) {
     const auto whole = [](const LightSampleT<T>&, const Vec3T<T>&) { return T(1); };
     RgbT<T> arrived{T(0)}, sent{T(0)}, result{T(0)};
     if (!(form > T(0))) return result;
     for (int i = 0; i < rays; ++i) {
-        const LightShareT<T> share =
-            light_share(scene, light, vertex, material, place(i), whole, counts);
+        const LightShareT<T> share = light_share(scene, light, vertex, material,
+                                                 place(i), whole, counts, verdict);
         arrived += share.arrived;
         sent += share.sent;
     }
@@ -129,6 +130,14 @@ template <SceneLike S, std::floating_point T, Material M, typename Stream>
 }
 // [found_light]
 
+/// Knows nothing of any light: every shadow ray is cast.
+struct NoVerdicts {
+    /// Of the light with this number.
+    constexpr Verdict operator()(std::size_t) const noexcept {
+        return Verdict::unknown;
+    }
+};
+
 /// The light of all lights at a surface.
 /// \param scene     The scene.
 /// \param vertex    The surface.
@@ -137,14 +146,18 @@ template <SceneLike S, std::floating_point T, Material M, typename Stream>
 /// \param rays      Shadow rays to each light, at least 1: it has as many cells.
 /// \param stream    Two numbers per light: the place in the cells, the same in all. The
 ///                  rays of a pixel share out a cell as they would share out the light.
-/// \param counts    Counts the rays.
+/// \param counts    Counts the rays; in shadow, as many as would have been cast if the
+///                  surface faces all of the light.
+/// \param verdicts  Called with a light's number: what is known of it here.
 /// \return Radiance towards wo.
 /// \report{Section 3.2.3}
 // [sample_all_lights]
-template <SceneLike S, std::floating_point T, Material M, typename Stream>
+template <SceneLike S, std::floating_point T, Material M, typename Stream,
+          typename Verdicts = NoVerdicts>
 [[nodiscard]] RgbT<T> sample_all_lights(const S& scene, const VertexT<T>& vertex,
                                         const M& material, DirectLight how, int rays,
-                                        Stream& stream, Counts& counts) {
+                                        Stream& stream, Counts& counts,
+                                        Verdicts verdicts = {}) {
     constexpr bool lambertian = std::same_as<M, LambertianT<T>>;
     const bool both =
         how == DirectLight::mis || (how == DirectLight::analytic && !lambertian);
@@ -155,8 +168,14 @@ template <SceneLike S, std::floating_point T, Material M, typename Stream>
                                  pdf(material, vertex.wo, wi, Lobes::non_specular));
     };
     RgbT<T> sum{T(0)};
-    for (const LightT<T>& light : scene.lights) {
+    for (std::size_t number = 0; number < scene.lights.size(); ++number) {
+        const LightT<T>& light = scene.lights[number];
         const Vec2T<T> u = next_2d<T>(stream);
+        const Verdict verdict = verdicts(number);
+        if (verdict == Verdict::shadow) {
+            counts.skipped_rays += std::uint64_t(rays);
+            continue;
+        }
         const std::uint64_t key = stream.key + std::uint64_t(u.x * T(0x1p24));
         const auto place = [&](int i) {
             return rays > 1 ? stratified(strata, i, key, u) : u;
@@ -165,13 +184,13 @@ template <SceneLike S, std::floating_point T, Material M, typename Stream>
             if (how == DirectLight::analytic)
                 if (const auto form = form_factor_of(scene, light, vertex)) {
                     sum += analytic_light(scene, light, *form, vertex, material, rays,
-                                          place, counts);
+                                          place, counts, verdict);
                     continue;
                 }
         for (int i = 0; i < rays; ++i)
-            sum +=
-                direct_light(scene, light, vertex, material, place(i), weigh, counts) /
-                T(rays);
+            sum += direct_light(scene, light, vertex, material, place(i), weigh, counts,
+                                verdict) /
+                   T(rays);
     }
     if (both) sum += found_light(scene, vertex, material, rays, stream, counts);
     return sum;

@@ -13,12 +13,14 @@ namespace ljus {
 
 /// Rays and photons of a rendering.
 struct Counts {
-    std::uint64_t camera_rays = 0; ///< Primary rays.
-    std::uint64_t bounce_rays = 0; ///< Reflected, refracted and indirect rays.
-    std::uint64_t shadow_rays = 0; ///< Rays to lights.
-    std::uint64_t map_queries = 0; ///< Estimates asked of a photon map.
-    std::uint64_t map_photons = 0; ///< Photons summed in them.
-    std::uint64_t rejected = 0;    ///< Samples that were not finite and left out.
+    std::uint64_t camera_rays = 0;     ///< Primary rays.
+    std::uint64_t bounce_rays = 0;     ///< Reflected, refracted and indirect rays.
+    std::uint64_t shadow_rays = 0;     ///< Rays to lights.
+    std::uint64_t map_queries = 0;     ///< Estimates asked of a photon map.
+    std::uint64_t map_photons = 0;     ///< Photons summed in them.
+    std::uint64_t skipped_rays = 0;    ///< Shadow rays that photons have made needless.
+    std::uint64_t skipped_bounces = 0; ///< Indirect rays left out where it is dark.
+    std::uint64_t rejected = 0;        ///< Samples that were not finite and left out.
 
     /// All rays.
     [[nodiscard]] constexpr std::uint64_t rays() const noexcept {
@@ -32,6 +34,8 @@ struct Counts {
         shadow_rays += other.shadow_rays;
         map_queries += other.map_queries;
         map_photons += other.map_photons;
+        skipped_rays += other.skipped_rays;
+        skipped_bounces += other.skipped_bounces;
         rejected += other.rejected;
         return *this;
     }

@@ -13,6 +13,13 @@ namespace ljus {
 /// \brief Section 3.2.3: a shadow ray toward each light source.
 /// \{
 
+/// What is known of the way from a surface to a light before a ray is cast.
+enum class Verdict : std::uint8_t {
+    unknown, ///< Nothing: a shadow ray finds V.
+    lit,     ///< Nothing stands in the way: V = 1.
+    shadow   ///< All of the light is hidden: V = 0.
+};
+
 namespace detail {
 
 /// The balance heuristic: the share of one of two strategies that could have made the
@@ -50,9 +57,10 @@ struct LightShareT {
 
 /// What direct_light() returns, and what it would return if nothing lay between.
 template <SceneLike S, std::floating_point T, Material M, typename Weigh>
-[[nodiscard]] LightShareT<T>
-light_share(const S& scene, const LightT<T>& light, const VertexT<T>& vertex,
-            const M& material, const Vec2T<T>& u, Weigh weigh, Counts& counts) {
+[[nodiscard]] LightShareT<T> light_share(const S& scene, const LightT<T>& light,
+                                         const VertexT<T>& vertex, const M& material,
+                                         const Vec2T<T>& u, Weigh weigh, Counts& counts,
+                                         Verdict verdict) {
     const SurfacePointT<T>& point = vertex.point;
     const auto sampled = sample_light(scene, light, point.position, u, vertex.time);
     if (!sampled) return {};
@@ -62,9 +70,14 @@ light_share(const S& scene, const LightT<T>& light, const VertexT<T>& vertex,
 
     LightShareT<T> share;
     share.sent = std::abs(wi.z) * weigh(*sampled, wi) * f * sampled->weight;
-    ++counts.shadow_rays;
-    const RgbT<T> visible = visibility(scene, point, sampled->point, vertex.time);
-    if (is_black(visible)) return share;
+    RgbT<T> visible{T(1)};
+    if (verdict == Verdict::lit) {
+        ++counts.skipped_rays;
+    } else {
+        ++counts.shadow_rays;
+        visible = visibility(scene, point, sampled->point, vertex.time);
+        if (is_black(visible)) return share;
+    }
     const T distance = glm::distance(point.position, sampled->point.position);
     share.arrived = share.sent * transmittance(vertex.medium, distance) * visible;
     return share;
@@ -83,6 +96,7 @@ light_share(const S& scene, const LightT<T>& light, const VertexT<T>& vertex,
 ///                  its cosine; returns the factor of multiple importance sampling, or
 ///                  1.
 /// \param counts    Counts the ray; none is cast where the surface cannot reflect.
+/// \param verdict   With Verdict::lit no ray is cast, and V = 1.
 /// \return Radiance towards wo.
 /// \report{Section 3.2.3}
 /// \erratum{The report's program divides the sum over the lights by their number, so
@@ -90,8 +104,10 @@ light_share(const S& scene, const LightT<T>& light, const VertexT<T>& vertex,
 template <SceneLike S, std::floating_point T, Material M, typename Weigh>
 [[nodiscard]] RgbT<T> direct_light(const S& scene, const LightT<T>& light,
                                    const VertexT<T>& vertex, const M& material,
-                                   const Vec2T<T>& u, Weigh weigh, Counts& counts) {
-    return detail::light_share(scene, light, vertex, material, u, weigh, counts)
+                                   const Vec2T<T>& u, Weigh weigh, Counts& counts,
+                                   Verdict verdict = Verdict::unknown) {
+    return detail::light_share(scene, light, vertex, material, u, weigh, counts,
+                               verdict)
         .arrived;
 }
 

@@ -99,6 +99,8 @@ template <std::floating_point T>
     require(choice.cumulative.back() > 0, "the power of all lights",
             choice.cumulative.back(), "above 0: a sun needs objects to shine on");
     require_memory<T>(pass, 0);
+    for (std::size_t i = 0; pass.equal_lights && i < lights.size(); ++i)
+        choice.cumulative[i] = static_cast<double>(i + 1);
     return choice;
 }
 

@@ -76,6 +76,29 @@ template <std::floating_point T>
 }
 // [interpolate]
 
+/// The indirect irradiance at a vertex, by the points of a cache; where none of them is
+/// near enough, it is gathered here and now.
+/// \param scene     The scene.
+/// \param points    What gather rays look up.
+/// \param cache     May be empty.
+/// \param vertex    The surface; the side is that of `wo`.
+/// \param settings  How.
+/// \param stream    The numbers of the path.
+/// \param counts    Counts the query, and the rays if there are any.
+/// \return W/m^2.
+template <SceneLike S, std::floating_point T, typename Stream>
+[[nodiscard]] RgbT<T>
+irradiance_between(const S& scene, const IrradiancePointsT<T>& points,
+                   const IrradianceCacheT<T>& cache, const VertexT<T>& vertex,
+                   const GatherSettings& settings, Stream& stream, Counts& counts) {
+    ++counts.map_queries;
+    const auto known = interpolate(cache, vertex.point.position,
+                                   detail::seen_normal(vertex), T(settings.reach));
+    if (known) return *known;
+    return gather_irradiance(scene, points, vertex, settings, stream, counts)
+        .irradiance;
+}
+
 namespace detail {
 
 /// Tells each point of a cache how far its nearest points of a like normal lie.

@@ -21,7 +21,7 @@ namespace ljus {
 /// | path            | who carries it                                              |
 /// |-----------------|-------------------------------------------------------------|
 /// | E S* L          | emission, while no diffuse surface has been met             |
-/// | E ... D L       | shadow rays                                                 |
+/// | E ... D L       | shadow rays, or a verdict of shadow photons in their place  |
 /// | E ... D S+ L    | the caustics map, at every diffuse surface                  |
 /// | E ... D ... D.. | indirect rays, or the general map where the first one ends  |
 /// \{
@@ -74,34 +74,6 @@ PhotonMapper<S, Draws> make_photon_mapper(const S& scene,
                                           const PhotonMapsT<typename S::Scalar>&& maps,
                                           const PhotonMappingSettings& = {}) = delete;
 
-namespace detail {
-
-/// The indirect light of a surface by the irradiance cache; where no point of the cache
-/// is near enough, by gathering here and now.
-/// \param mapper    The scene, the maps, the settings.
-/// \param vertex    The surface.
-/// \param material  What it is made of; only its diffuse part counts.
-/// \param stream    The numbers of the path.
-/// \param counts    Counts rays and queries.
-/// \return W/(m^2 sr).
-template <SceneLike S, std::floating_point T, Material M, typename Stream>
-[[nodiscard]] RgbT<T> cached_light(const PhotonMapper<S, Stream>& mapper,
-                                   const VertexT<T>& vertex, const M& material,
-                                   Stream& stream, Counts& counts) {
-    const GatherSettings& gather = mapper.settings.gather;
-    ++counts.map_queries;
-    const auto known = interpolate(mapper.maps.cache, vertex.point.position,
-                                   seen_normal(vertex), T(gather.reach));
-    const RgbT<T> irradiance =
-        known ? *known
-              : gather_irradiance(mapper.scene, mapper.maps.irradiance, vertex, gather,
-                                  stream, counts)
-                    .irradiance;
-    return reflected(material, vertex.wo, irradiance, Lobes::diffuse, stream);
-}
-
-} // namespace detail
-
 /// The light that a diffuse surface sends back along a camera path, but for what comes
 /// by its indirect ray: shadow rays and the caustics map; or, where an indirect ray has
 /// ended on it, the two maps.
@@ -139,8 +111,9 @@ void light_at(const PhotonMapper<S, Stream>& mapper, const VertexT<T>& vertex,
             ask(mapper.maps.general, settings.general_estimate, light_kinds));
     else
         add("shadow ray", "DL",
-            detail::sample_all_lights(mapper.scene, vertex, material, settings.direct,
-                                      settings.shadow_rays, stream, counts));
+            detail::sample_all_lights(
+                mapper.scene, vertex, material, settings.direct, settings.shadow_rays,
+                stream, counts, detail::verdicts_at(mapper.maps.verdicts, vertex)));
     if (settings.indirect == IndirectLight::photons)
         add("general map", "D..DL",
             ask(mapper.maps.general, settings.general_estimate,
@@ -148,7 +121,11 @@ void light_at(const PhotonMapper<S, Stream>& mapper, const VertexT<T>& vertex,
     if (settings.indirect == IndirectLight::cache &&
         has(lobes(material), Lobes::diffuse))
         add("irradiance cache", "D..DL",
-            detail::cached_light(mapper, vertex, material, stream, counts));
+            detail::reflected(material, vertex.wo,
+                              irradiance_between(mapper.scene, mapper.maps.irradiance,
+                                                 mapper.maps.cache, vertex,
+                                                 settings.gather, stream, counts),
+                              Lobes::diffuse, stream));
     if (!mapper.maps.caustics.empty())
         add("caustics map", "DS+L",
             ask(mapper.maps.caustics, settings.caustics_estimate, light_kinds));
@@ -220,7 +197,10 @@ template <SceneLike S, typename Stream, std::floating_point T, typename Log = No
                         return true;
                     }
                 // Go on by one branch; after gathering, by mirrors and glass only.
-                const Lobes which = gather ? Lobes::specular : mapper.bounces;
+                Lobes which = gather ? Lobes::specular : mapper.bounces;
+                if (has(which, Lobes::diffuse) &&
+                    detail::skips_bounce(mapper.maps.verdicts, *vertex, counts))
+                    which = Lobes::specular;
                 return continue_path(path, *vertex, material, Transport::radiance,
                                      which, stream);
             };

@@ -8,6 +8,7 @@
 #include "ljus/photons/density_estimate.hpp"
 #include "ljus/photons/irradiance_points.hpp"
 #include "ljus/photons/photon_pass.hpp"
+#include "ljus/photons/shadow_verdict.hpp"
 
 namespace ljus {
 
@@ -68,6 +69,7 @@ struct PhotonMappingSettings {
     DensityEstimateSettings general_estimate{.radius = 0.3f};
     IrradiancePointSettings irradiance{}; ///< What gather rays look up.
     GatherSettings gather{};              ///< How the irradiance cache is made.
+    SkipSettings skip{}; ///< Which rays photons make needless; none, unless asked for.
     bool keep_general_map =
         false; ///< Make the general map, even if no ray will ask it.
 };
@@ -112,6 +114,7 @@ inline void check(const PhotonMappingSettings& settings) {
         if (gather.radius == 0) gather.radius = 1; // will be chosen from the photons
         check(gather);
     }
+    check(settings.skip);
 }
 
 /// Settings that go together.

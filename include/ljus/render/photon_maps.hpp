@@ -5,6 +5,7 @@
 
 #include "ljus/photons/budget.hpp"
 #include "ljus/photons/tracing.hpp"
+#include "ljus/photons/verdict_grid.hpp"
 #include "ljus/render/irradiance_cache.hpp"
 #include "ljus/render/survey.hpp"
 
@@ -20,10 +21,11 @@ struct PhotonMapsT {
     PhotonMapT<T> general; ///< L D, L ... D ... D, and shadows; empty unless asked for.
     IrradiancePointsT<T> irradiance{}; ///< Looked up by gather rays, if any are sent.
     IrradianceCacheT<T> cache{};       ///< Of add_irradiance_cache(); else empty.
-    FluxAudit caustics_audit;          ///< Where the flux of the caustics pass went.
-    FluxAudit general_audit;           ///< Where the flux of the general pass went.
-    bool complete = true;  ///< False if the progress callback stopped the pass.
-    std::string remarks{}; ///< Why a pass gave up, if one did: lines.
+    VerdictGridT<T> verdicts{}; ///< Which rays can be left out; empty unless asked for.
+    FluxAudit caustics_audit{}; ///< Where the flux of the caustics pass went.
+    FluxAudit general_audit{};  ///< Where the flux of the general pass went.
+    bool complete = true;       ///< False if the progress callback stopped the pass.
+    std::string remarks{};      ///< Why a pass gave up, if one did: lines.
 };
 
 namespace detail {
@@ -72,13 +74,28 @@ make_photon_maps(const S& scene, const PhotonMappingSettings& settings = {}) {
     const bool only_indirect = settings.indirect == IndirectLight::photons ||
                                settings.indirect == IndirectLight::gather ||
                                settings.indirect == IndirectLight::cache;
+    PhotonKinds kept = settings.general.shadow_photons ? all_kinds : light_kinds;
     if (only_indirect && !settings.keep_general_map)
-        general.keep = one_kind(PhotonKind::indirect);
+        kept = one_kind(PhotonKind::indirect);
+    const SkipSettings skip = detail::skipping(run, settings);
+    const bool verdicts = run.skipped_rays || run.skipped_bounces;
+    if (!verdicts) general.keep = kept;
+    if (!run.general_map && !run.skipped_bounces) { // only shadow rays are asked about
+        general.max_bounces = 1;
+        general.equal_lights = true;
+    }
     PhotonMapsT<typename S::Scalar> maps;
     const auto make = [&](MapType type, const PhotonPassSettings& pass, auto& map,
                           auto& audit) {
-        const auto traced = trace_photons(scene, type, pass);
-        map = make_photon_map(traced.photons);
+        auto traced = trace_photons(scene, type, pass);
+        const bool general_pass = type == MapType::general;
+        if (general_pass && verdicts)
+            maps.verdicts = make_verdict_grid(traced.photons, scene.lights.size(), skip,
+                                              pass.threads);
+        if (general_pass && verdicts) // those that only the verdicts asked for
+            std::erase_if(traced.photons,
+                          [&](const auto& photon) { return !kept.has(photon.kind); });
+        if (!general_pass || run.general_map) map = make_photon_map(traced.photons);
         audit = traced.audit;
         maps.complete = maps.complete && traced.complete;
         if (!traced.remark.empty()) maps.remarks.append(traced.remark).append("\n");
@@ -88,7 +105,7 @@ make_photon_maps(const S& scene, const PhotonMappingSettings& settings = {}) {
         caustics.shares = detail::shares_by_pilot(scene, settings);
         make(MapType::caustics, caustics, maps.caustics, maps.caustics_audit);
     }
-    if (run.general_map)
+    if (run.general_map || verdicts)
         make(MapType::general, general, maps.general, maps.general_audit);
     if (run.irradiance && maps.complete)
         maps.irradiance = make_irradiance_points(

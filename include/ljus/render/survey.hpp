@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "ljus/path/next_vertex.hpp"
-#include "ljus/render/photon_mapping_settings.hpp"
+#include "ljus/render/detail/choose_passes.hpp"
 #include "ljus/scene/index.hpp"
 
 namespace ljus {
@@ -26,28 +26,38 @@ struct PlanItem {
 
 /// What will run for a scene.
 struct Plan {
-    PlanItem shadow_rays;    ///< Rays to lights.
-    PlanItem indirect_rays;  ///< Rays between diffuse surfaces.
-    PlanItem caustics_map;   ///< Photons through mirrors and glass.
-    PlanItem general_map;    ///< Direct, indirect and shadow photons.
-    PlanItem shadow_photons; ///< Part of the general map.
-    PlanItem irradiance;     ///< Precomputed at photons, for gather rays.
-    PlanItem cache;          ///< Irradiance gathered at few points of the picture.
-    PlanItem thin_film;      ///< Paths pass through soap films.
-    PlanItem tree;           ///< Over the shapes, or a loop over all of them.
+    PlanItem shadow_rays;     ///< Rays to lights.
+    PlanItem indirect_rays;   ///< Rays between diffuse surfaces.
+    PlanItem caustics_map;    ///< Photons through mirrors and glass.
+    PlanItem general_map;     ///< Direct, indirect and shadow photons.
+    PlanItem shadow_photons;  ///< Part of the general map.
+    PlanItem skipped_rays;    ///< Shadow rays that photons make needless.
+    PlanItem skipped_bounces; ///< Indirect rays where no indirect photon is near.
+    PlanItem irradiance;      ///< Precomputed at photons, for gather rays.
+    PlanItem cache;           ///< Irradiance gathered at few points of the picture.
+    PlanItem thin_film;       ///< Paths pass through soap films.
+    PlanItem tree;            ///< Over the shapes, or a loop over all of them.
     /// A line for each type of shape and of material that the scene lists, in their
     /// order: which hooks it has, and what happens without the others. A hook that is
     /// misspelt is among the others.
     std::vector<std::string> types;
 
     /// All items, in the order in which they are printed.
-    [[nodiscard]] std::array<const PlanItem*, 9> items() const& {
-        return {&shadow_rays, &indirect_rays,  &caustics_map,
-                &general_map, &shadow_photons, &irradiance,
-                &cache,       &thin_film,      &tree};
+    [[nodiscard]] std::array<const PlanItem*, 11> items() const& {
+        return {&shadow_rays,
+                &indirect_rays,
+                &caustics_map,
+                &general_map,
+                &shadow_photons,
+                &skipped_rays,
+                &skipped_bounces,
+                &irradiance,
+                &cache,
+                &thin_film,
+                &tree};
     }
     /// Not of a temporary: the items would be gone before they are read.
-    std::array<const PlanItem*, 9> items() const&& = delete;
+    std::array<const PlanItem*, 11> items() const&& = delete;
 };
 
 /// One pass of a plan: its name, on or off, and why.
@@ -69,15 +79,6 @@ struct Plan {
     return text;
 }
 
-/// What a survey counts in a scene.
-struct SceneNeeds {
-    std::size_t objects = 0;  ///< All.
-    std::size_t diffuse = 0;  ///< Those with a part that is not a mirror or glass.
-    std::size_t specular = 0; ///< Those with a part that is.
-    std::size_t lights = 0;   ///< Emissive objects and point lights.
-    bool films = false;       ///< Whether a material is a thin surface.
-};
-
 /// Counts what a scene is made of.
 /// \param scene  The scene.
 /// \return The counts.
@@ -97,65 +98,6 @@ template <SceneLike S>
 }
 
 namespace detail {
-
-/// Which passes run: the decisions of a plan, without their reasons.
-struct Passes {
-    bool shadow_rays = false;    ///< As in Plan.
-    bool indirect_rays = false;  ///< As in Plan.
-    bool caustics_map = false;   ///< As in Plan.
-    bool general_map = false;    ///< As in Plan.
-    bool shadow_photons = false; ///< As in Plan.
-    bool irradiance = false;     ///< As in Plan.
-    bool cache = false;          ///< As in Plan.
-};
-
-/// Decides which passes run; make_photon_maps() and make_photon_mapper() obey it, and
-/// make_plan() says why.
-/// \param found     What the scene is made of.
-/// \param settings  What the user asks for.
-/// \return The decisions.
-// [survey]
-[[nodiscard]] inline Passes choose_passes(const SceneNeeds& found,
-                                          const PhotonMappingSettings& settings) {
-    const bool lit = found.diffuse > 0 && found.lights > 0;
-    const bool gather_asked = settings.indirect == IndirectLight::map ||
-                              settings.indirect == IndirectLight::gather;
-    const bool rays_asked = settings.indirect == IndirectLight::rays || gather_asked;
-    const bool rays = lit && rays_asked && settings.max_depth > 1;
-    const bool map_asked =
-        (rays && gather_asked) || settings.indirect == IndirectLight::photons ||
-        settings.indirect == IndirectLight::cache || settings.keep_general_map;
-    const bool general = lit && map_asked && settings.general.photons > 0;
-    const bool cache = settings.indirect == IndirectLight::cache;
-    const bool looked_up = cache || settings.indirect == IndirectLight::gather;
-    return {.shadow_rays = lit,
-            .indirect_rays = rays,
-            .caustics_map = lit && found.specular > 0 && settings.caustics.photons > 0,
-            .general_map = general,
-            .shadow_photons = general && settings.general.shadow_photons,
-            .irradiance = general && looked_up,
-            .cache = general && cache};
-}
-// [survey]
-
-/// How a plan says what the caustics' photons are shared out by.
-/// \param settings  What the user asks for.
-/// \return The end of a clause; nothing for CausticBudget::as_seen.
-[[nodiscard]] inline std::string budget_clause(const PhotonMappingSettings& settings) {
-    if (!settings.caustics.shares.empty()) return ", photons in given shares";
-    switch (settings.caustic_budget) {
-    case CausticBudget::equal:
-        return ", each gets as many photons";
-    case CausticBudget::flux:
-        return ", photons are shared out by flux";
-    case CausticBudget::area:
-        return ", photons are shared out by caustic area";
-    case CausticBudget::brightness:
-        return ", photons are shared out by flux over brightness";
-    default:
-        return "";
-    }
-}
 
 /// The plan: choose_passes() with its reasons. Thin films and the tree are decided by
 /// the same questions where a ray is traced.
@@ -200,7 +142,23 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
              run.general_map ? "indirect light is asked of it" : "no ray asks it");
     plan.shadow_photons =
         item("shadow photons", run.shadow_photons,
-             run.shadow_photons ? "the general map keeps them" : "no map keeps them");
+             run.skipped_rays     ? "they tell which shadow rays are needless"
+             : run.shadow_photons ? "the general map keeps them"
+                                  : "no map keeps them");
+    const std::string photons = std::to_string(settings.general.photons) + " photons";
+    const std::string needed = std::to_string(photons_needed(settings.skip));
+    plan.skipped_rays =
+        item("skipped rays", run.skipped_rays,
+             settings.skip.rule == SkipRule::none ? "no rule was asked for"
+             : run.skipped_rays ? "where " + needed + " of " + photons + " agree"
+             : !run.shadow_rays ? "nothing is lit"
+                                : photons + ", and each light takes " + needed);
+    plan.skipped_bounces =
+        item("skipped bounces", run.skipped_bounces,
+             run.skipped_bounces             ? "where none of " + photons + " is near"
+             : !settings.skip.indirect_rays  ? "not asked for"
+             : settings.general.photons == 0 ? "0 photons were asked for"
+                                             : "there are no indirect rays");
     plan.irradiance = item("irradiance", run.irradiance,
                            run.irradiance ? "gather rays look it up where they end"
                                           : "no gather ray asks for it");
