@@ -62,7 +62,7 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-// --- A straight line through times ----------------------------------------------------
+// --- A straight line through times ---------------------------------------------------
 
 /// Times of the form fixed + each * rays.
 struct Line {
@@ -90,7 +90,7 @@ Line fit_line(const std::vector<double>& rays, const std::vector<double>& second
 }
 // [fit]
 
-// --- Table 1 --------------------------------------------------------------------------
+// --- Table 1 -------------------------------------------------------------------------
 
 /// What a picture of the loop took.
 struct Timing {
@@ -239,7 +239,7 @@ FirstPass table_1(const R& room, const examples::Options& options, const Sizes& 
     return alone;
 }
 
-// --- What a picture costs, pixel by pixel ---------------------------------------------
+// --- What a picture costs, pixel by pixel --------------------------------------------
 
 /// A renderer whose radiance is what the path costs: rays, and photon searches.
 template <typename Renderer>
@@ -403,7 +403,7 @@ void schedules(const Image& costs, const examples::Options& options) {
     save_table(options.path(""), table);
 }
 
-// --- Amdahl's law ---------------------------------------------------------------------
+// --- Amdahl's law --------------------------------------------------------------------
 
 void amdahl(const FirstPass& first, const Line& loop,
             const examples::Options& options) {
@@ -435,7 +435,7 @@ void amdahl(const FirstPass& first, const Line& loop,
     save_table(options.path(""), table);
 }
 
-// --- The same bytes -------------------------------------------------------------------
+// --- The same bytes ------------------------------------------------------------------
 
 /// A sum whose parts are made by each thread, as OpenMP's `reduction` would: with
 /// another number of threads it is rounded elsewhere.
@@ -531,7 +531,7 @@ bool same_bytes(const R& room, const examples::Options& options) {
     return same;
 }
 
-// --- What threads cost ----------------------------------------------------------------
+// --- What threads cost ---------------------------------------------------------------
 
 /// More threads than processors: the same work, in turns.
 template <typename R>
@@ -615,7 +615,7 @@ void empty_loops(const examples::Options& options, int threads) {
     save_table(options.path(""), table);
 }
 
-// --- On many machines, on paper -------------------------------------------------------
+// --- On many machines, on paper ------------------------------------------------------
 
 /// What would limit many machines, from the times above and a network of a gigabyte a
 /// second.

@@ -1,10 +1,10 @@
 // smoke: --quality draft --truth 32 --size 12 --seeds 2 --only radius
 /// \file 35_trades.cpp
-/// \brief Every knob of the photon mapper, turned: error against time and memory, and the
-/// Pareto front of all settings.
+/// \brief Every knob of the photon mapper, turned: error against time and memory, and
+/// the Pareto front of all settings.
 ///
-/// Each setting that is done is a line of trades.csv; what is there is not done again, so
-/// that a run can be stopped and gone on with. ./scripts/trades builds and runs it.
+/// Each setting that is done is a line of trades.csv; what is there is not done again,
+/// so that a run can be stopped and gone on with. ./scripts/trades builds and runs it.
 
 #include <algorithm>
 #include <array>
@@ -233,7 +233,8 @@ void measure(const std::string& name, const R& room, const examples::Options& op
                 result.rays = double(seen.counts.rays()) / size / size;
                 return seen.image;
             };
-            // A small picture is the fingerprint: other code, other numbers, measured anew.
+            // A small picture is the fingerprint: other code, other numbers, measured
+            // anew.
             result.stamp =
                 examples::hex_text(examples::hash_of(shoot(1, 6).pixels)).substr(0, 8) +
                 "-" + std::to_string(request.size) + "-" +

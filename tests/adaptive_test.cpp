@@ -147,9 +147,10 @@ TEST_CASE("adaptive: the same bytes for any number of threads") {
 TEST_CASE("adaptive: it stops at the target, and the error is what it says") {
     // The truth is 1 everywhere, variances 0.01 and 0.16 of 1.01: relMSE 0.0004 takes
     // scale (1, 4) = roots/target: (0.1 + 0.4) / 2 / 0.000404, 62 and 248 rays.
-    // With blocks of 64 pixels and 16 rays a variance is known within 3 %, the picture's
-    // error over 4096 pixels and three equal channels within sqrt(2 / 4096) = 2.2 %: 12 %
-    // are more than 5 standard errors, and the first seed that fails is news.
+    // With blocks of 64 pixels and 16 rays a variance is known within 3 %, the
+    // picture's error over 4096 pixels and three equal channels within sqrt(2 / 4096) =
+    // 2.2 %: 12 % are more than 5 standard errors, and the first seed that fails is
+    // news.
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         const auto seen = render_adaptive(Halves{}, Camera{}, square(64, 1000, seed),
                                           {.block = 8, .target = 0.0004});
@@ -231,8 +232,8 @@ TEST_CASE("adaptive: choosing by the rays that are averaged is biased, as foreto
 }
 
 TEST_CASE("adaptive: in two stages there is no bias") {
-    // The same spot, judged pixel by pixel: n depends on the first rays alone, which are
-    // forgotten. The mean over 16 seeds has a standard error of at most
+    // The same spot, judged pixel by pixel: n depends on the first rays alone, which
+    // are forgotten. The mean over 16 seeds has a standard error of at most
     // 0.3 / sqrt(2 * 16 * 64^2) = 0.0008; 5 of them are allowed.
     double mean = 0, few = 0;
     for (std::uint64_t seed = 1; seed <= 16; ++seed) {

@@ -1,5 +1,5 @@
-// What a ray buys, in a room with a matt ball. Slopes and ratios of variances: the bands
-// are stated with the standard error that several sets of seeds showed.
+// What a ray buys, in a room with a matt ball. Slopes and ratios of variances: the
+// bands are stated with the standard error that several sets of seeds showed.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -43,9 +43,10 @@ TEST_CASE("rays_per_pixel: the slope of a power law, and how sure it is") {
     }
     CHECK(examples::fit_power(x, y).slope == doctest::Approx(-1));
     CHECK(examples::fit_power(x, y).error == doctest::Approx(0).epsilon(1e-6));
-    // Off the line by e^(+-0.1) in turn. About the middle log x is (-3, -1, 1, 3) log 2:
-    // the slope moves by 0.1 (-3 + 1 + 1 - 3) / (20 log 2) = -0.02 / log 2, and what is
-    // left is a square sum of 0.04 - 20 (0.02)^2 = 0.032 over two degrees of freedom.
+    // Off the line by e^(+-0.1) in turn. About the middle log x is (-3, -1, 1, 3) log
+    // 2: the slope moves by 0.1 (-3 + 1 + 1 - 3) / (20 log 2) = -0.02 / log 2, and what
+    // is left is a square sum of 0.04 - 20 (0.02)^2 = 0.032 over two degrees of
+    // freedom.
     for (std::size_t i = 0; i < 4; ++i) y[i] *= std::exp(i % 2 == 0 ? 0.1 : -0.1);
     const auto law = examples::fit_power(x, y);
     const double step = std::log(2.0);
