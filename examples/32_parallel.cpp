@@ -62,7 +62,7 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-// --- A straight line through times ----------------------------------------------------
+// --- A straight line through times ---------------------------------------------------
 
 /// Times of the form fixed + each * rays.
 struct Line {
@@ -90,7 +90,7 @@ Line fit_line(const std::vector<double>& rays, const std::vector<double>& second
 }
 // [fit]
 
-// --- Table 1 --------------------------------------------------------------------------
+// --- Table 1 -------------------------------------------------------------------------
 
 /// What a picture of the loop took.
 struct Timing {
@@ -179,7 +179,7 @@ FirstPass table_1(const R& room, const examples::Options& options, const Sizes& 
                                       "printed", "is", "1 thread, s",
                                       std::to_string(threads) + " threads, s", "ratio",
                                       "work of all", "relMSE"}};
-    std::vector<double> counts, ones, manys, report_ones, report_fours;
+    std::vector<double> counts, ones, manys;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const ReportRow& row = report_rows[i];
         std::vector<double> one, many, ratio, work;
@@ -194,8 +194,6 @@ FirstPass table_1(const R& room, const examples::Options& options, const Sizes& 
         counts.push_back(row.rays);
         ones.push_back(median(one));
         manys.push_back(median(many));
-        report_ones.push_back(row.one);
-        report_fours.push_back(row.four);
         table.rows.push_back({std::to_string(row.rays), text(row.one), text(row.four),
                               text(row.printed), text(row.one / row.four, "%.2f"),
                               text(ones.back(), "%.3g"), text(manys.back(), "%.3g"),
@@ -212,8 +210,14 @@ FirstPass table_1(const R& room, const examples::Options& options, const Sizes& 
         lines.rows.push_back({name, text(line.fixed, "%.3g"), text(line.each, "%.3g"),
                               text(1e6 * line.each / of_pixels, "%.3g")});
     };
-    add("report, 1 thread", fit_line(counts, report_ones), 160000);
-    add("report, 4 threads", fit_line(counts, report_fours), 160000);
+    std::vector<double> all_rays, report_ones, report_fours;
+    for (const ReportRow& row : report_rows) {
+        all_rays.push_back(row.rays);
+        report_ones.push_back(row.one);
+        report_fours.push_back(row.four);
+    }
+    add("report, 1 thread", fit_line(all_rays, report_ones), 160000);
+    add("report, 4 threads", fit_line(all_rays, report_fours), 160000);
     loop = fit_line(counts, ones);
     add("second pass, 1 thread", loop, pixels);
     add("second pass, " + std::to_string(threads) + " threads", fit_line(counts, manys),
@@ -235,7 +239,7 @@ FirstPass table_1(const R& room, const examples::Options& options, const Sizes& 
     return alone;
 }
 
-// --- What a picture costs, pixel by pixel ---------------------------------------------
+// --- What a picture costs, pixel by pixel --------------------------------------------
 
 /// A renderer whose radiance is what the path costs: rays, and photon searches.
 template <typename Renderer>
@@ -399,7 +403,7 @@ void schedules(const Image& costs, const examples::Options& options) {
     save_table(options.path(""), table);
 }
 
-// --- Amdahl's law ---------------------------------------------------------------------
+// --- Amdahl's law --------------------------------------------------------------------
 
 void amdahl(const FirstPass& first, const Line& loop,
             const examples::Options& options) {
@@ -431,7 +435,7 @@ void amdahl(const FirstPass& first, const Line& loop,
     save_table(options.path(""), table);
 }
 
-// --- The same bytes -------------------------------------------------------------------
+// --- The same bytes ------------------------------------------------------------------
 
 /// A sum whose parts are made by each thread, as OpenMP's `reduction` would: with
 /// another number of threads it is rounded elsewhere.
@@ -527,7 +531,7 @@ bool same_bytes(const R& room, const examples::Options& options) {
     return same;
 }
 
-// --- What threads cost ----------------------------------------------------------------
+// --- What threads cost ---------------------------------------------------------------
 
 /// More threads than processors: the same work, in turns.
 template <typename R>
@@ -611,7 +615,7 @@ void empty_loops(const examples::Options& options, int threads) {
     save_table(options.path(""), table);
 }
 
-// --- On many machines, on paper -------------------------------------------------------
+// --- On many machines, on paper ------------------------------------------------------
 
 /// What would limit many machines, from the times above and a network of a gigabyte a
 /// second.

@@ -61,7 +61,7 @@ PhotonMappingSettings settings_with(bool fixed_depth, std::uint64_t seed, int th
 
 using Room3 = decltype(all_materials_room());
 
-// --- Why one over the root ------------------------------------------------------------
+// --- Why one over the root -----------------------------------------------------------
 
 /// The means of n rays through one pixel, again and again: how they are spread.
 void one_pixel(const Room3& room, const examples::Options& options) {
@@ -129,7 +129,7 @@ void one_pixel(const Room3& room, const examples::Options& options) {
     save_table(options.path(""), table);
 }
 
-// --- Figure 12 ------------------------------------------------------------------------
+// --- Figure 12 -----------------------------------------------------------------------
 
 /// What the pictures of figure 12 took.
 struct Shots {
@@ -162,7 +162,7 @@ Shots figure_12(const Room3& room, const std::vector<int>& rays,
     return shots;
 }
 
-// --- Errors ---------------------------------------------------------------------------
+// --- Errors --------------------------------------------------------------------------
 
 /// What a number of rays brought, over several seeds.
 struct Rung {

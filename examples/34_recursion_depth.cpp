@@ -1,8 +1,8 @@
 // figures: table-4 fig-13
 // smoke: --quality draft --width 20 --height 20 --rays 2 --seeds 2 --truth 64
 /// \file 34_recursion_depth.cpp
-/// \brief Chapter 34: depth. Table 4, figure 13; how paths end, and which pixels deserve
-/// rays.
+/// \brief Chapter 34: depth. Table 4, figure 13; how paths end, and which pixels
+/// deserve rays.
 
 #include <algorithm>
 #include <array>
@@ -70,7 +70,7 @@ std::string percent(double mean, double truth) {
     return text(100 * (mean - truth) / truth, "%+.2f %%");
 }
 
-// --- Figure 13 and table 4 ------------------------------------------------------------
+// --- Figure 13 and table 4 -----------------------------------------------------------
 
 void table_4(const Room4& room, const examples::Oracle& oracle,
              const examples::Options& options, const Sizes& sizes) {
@@ -134,7 +134,7 @@ void table_4(const Room4& room, const examples::Oracle& oracle,
     save_table(options.path(""), table);
 }
 
-// --- The furnace ----------------------------------------------------------------------
+// --- The furnace ---------------------------------------------------------------------
 
 /// What is lost in a room whose answer is known, by each way to end a path.
 void furnace(const examples::Options& options) {
@@ -206,7 +206,7 @@ void furnace(const examples::Options& options) {
     save_table(options.path(""), table);
 }
 
-// --- Depth, threshold, roulette: error against time -----------------------------------
+// --- Depth, threshold, roulette: error against time ----------------------------------
 
 void endings(const Room4& room, const examples::Oracle& oracle,
              const examples::Options& options, const Sizes& sizes) {
@@ -261,7 +261,7 @@ void endings(const Room4& room, const examples::Oracle& oracle,
     save_table(options.path(""), table);
 }
 
-// --- Which pixels deserve rays --------------------------------------------------------
+// --- Which pixels deserve rays -------------------------------------------------------
 
 /// A way to share out rays, by the number of them.
 struct Sharing {

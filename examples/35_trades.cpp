@@ -1,10 +1,10 @@
 // smoke: --quality draft --truth 32 --size 12 --seeds 2 --only radius
 /// \file 35_trades.cpp
-/// \brief Every knob of the photon mapper, turned: error against time and memory, and the
-/// Pareto front of all settings.
+/// \brief Every knob of the photon mapper, turned: error against time and memory, and
+/// the Pareto front of all settings.
 ///
-/// Each setting that is done is a line of trades.csv; what is there is not done again, so
-/// that a run can be stopped and gone on with. ./scripts/trades builds and runs it.
+/// Each setting that is done is a line of trades.csv; what is there is not done again,
+/// so that a run can be stopped and gone on with. ./scripts/trades builds and runs it.
 
 #include <algorithm>
 #include <array>
@@ -233,7 +233,8 @@ void measure(const std::string& name, const R& room, const examples::Options& op
                 result.rays = double(seen.counts.rays()) / size / size;
                 return seen.image;
             };
-            // A small picture is the fingerprint: other code, other numbers, measured anew.
+            // A small picture is the fingerprint: other code, other numbers, measured
+            // anew.
             result.stamp =
                 examples::hex_text(examples::hash_of(shoot(1, 6).pixels)).substr(0, 8) +
                 "-" + std::to_string(request.size) + "-" +
@@ -283,23 +284,7 @@ void show(const std::string& name, const Notebook& notebook,
                 of_room[place->second] = r;
         }
     if (of_room.empty()) return;
-    examples::Plot plot{.name = "trades-" + name,
-                        .columns = {"processor seconds"},
-                        .y_label = "relMSE",
-                        .log_x = true,
-                        .log_y = true};
-    plot.columns.insert(plot.columns.end(), knobs.begin(), knobs.end());
-    plot.columns.push_back("no setting is better");
-    const auto row = [&](const Result& r, std::size_t column) {
-        examples::Row line(plot.columns.size(), nothing);
-        line[0] = r.seconds;
-        line[column] = r.error();
-        plot.rows.push_back(line);
-    };
-    for (std::size_t k = 0; k < knobs.size(); ++k)
-        for (const Result& r : of_room)
-            if (r.knob == knobs[k] && r.value.rfind("paths", 0) != 0) row(r, k + 1);
-
+    std::vector<examples::Row> best_rows; // seconds and error of the front
     std::sort(of_room.begin(), of_room.end(),
               [](const Result& a, const Result& b) { return a.seconds < b.seconds; });
     examples::Table front{.name = "trades-" + name + "-front",
@@ -309,14 +294,32 @@ void show(const std::string& name, const Notebook& notebook,
     for (const Result& r : of_room) {
         if (!(r.error() < best)) continue;
         best = r.error();
-        row(r, plot.columns.size() - 1);
+        best_rows.push_back({r.seconds, r.error()});
         front.rows.push_back({text(r.seconds, "%.3g"), text(r.error(), "%.2g"),
                               text(r.bias, "%.2g"), text(r.block, "%.2g"),
                               text(r.trimmed, "%.2g"), text(r.flip, "%.3f"),
                               text(r.bytes * 1e-6, "%.3g"), r.knob, r.value});
     }
-    save_plot(options.path(""), plot);
     save_table(options.path(""), front);
+    for (const std::string& knob : knobs) {
+        std::string file = "trades-" + name + "-" + knob;
+        std::replace(file.begin(), file.end(), ' ', '-');
+        examples::Plot plot{.name = file,
+                            .columns = {"processor seconds", knob, "path tracing",
+                                        "no setting is better"},
+                            .y_label = "relMSE",
+                            .log_x = true,
+                            .log_y = true};
+        for (const bool paths : {false, true})
+            for (const Result& r : of_room)
+                if (r.knob == knob && (r.value.rfind("paths", 0) == 0) == paths)
+                    plot.rows.push_back({r.seconds, paths ? nothing : r.error(),
+                                         paths ? r.error() : nothing, nothing});
+        if (plot.rows.empty()) continue;
+        for (const auto& row : best_rows)
+            plot.rows.push_back({row[0], nothing, nothing, row[1]});
+        save_plot(options.path(""), plot);
+    }
 }
 
 /// The same as JSON, with what a number depends on.

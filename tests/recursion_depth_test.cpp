@@ -57,7 +57,8 @@ TEST_CASE("recursion_depth: a limit of d surfaces loses albedo^(d + 1) of all li
 TEST_CASE("recursion_depth: a threshold loses what comes after it is crossed") {
     for (const float albedo : {0.3f, 0.75f, 0.9f})
         for (const double threshold : {0.5, 0.1, 0.01}) {
-            // After k surfaces a path carries albedo^k: the first k below it is the last.
+            // After k surfaces a path carries albedo^k: the first k below it is the
+            // last.
             int last = 1;
             while (std::pow(double(albedo), last) >= threshold) ++last;
             const auto room = sphere_furnace<float>(Rgb{1}, Rgb{albedo});

@@ -30,7 +30,8 @@ struct EndedPaths {
 /// Makes one.
 /// \param scene      Must outlive it.
 /// \param ending     How paths end.
-/// \param depth      Surfaces on a path, for Ending::depth; from where on roulette plays.
+/// \param depth      Surfaces on a path, for Ending::depth; from where on
+///                   roulette plays.
 /// \param threshold  What a path must carry to go on, or to be safe from roulette.
 /// \return The renderer.
 template <ljus::SceneLike S>

@@ -30,7 +30,8 @@ enum class Ramp {
 /// \return Linear sRGB, for save_png().
 [[nodiscard]] inline ljus::Rgb ramp_color(Ramp ramp, double t) {
     using Bytes = std::array<double, 3>;
-    // In steps of equal difference to the eye, roughly; each lighter than the one before.
+    // In steps of equal difference to the eye, roughly; each lighter than the one
+    // before.
     static constexpr std::array<Bytes, 6> heat{{{0, 0, 0},
                                                 {62, 22, 92},
                                                 {140, 38, 107},

@@ -29,9 +29,9 @@ struct Oracle {
 /// The truth of a room: path tracing without a limit of depth, in eight pieces whose
 /// scatter tells its error.
 ///
-/// The pieces are kept as oracle-NAME-....pfm beside the figures, and found there by the
-/// next program. Their names hold the fingerprint of a small picture of the room, so
-/// that a room or a path tracer that has changed is rendered anew.
+/// The pieces are kept as oracle-NAME-....pfm beside the figures, and found there by
+/// the next program. Their names hold the fingerprint of a small picture of the room,
+/// so that a room or a path tracer that has changed is rendered anew.
 /// \param name     Of the room, for the files.
 /// \param room     With a `scene` and a `camera`.
 /// \param size     Width and height in pixels.

@@ -60,8 +60,8 @@ ljus_break_it(NAME depth-limit HEADER render/path_tracing.hpp TEST recursion_dep
     TO   "if (path.depth >= settings.max_depth) break;"
     CASES "recursion_depth: a limit*")
 
-# One surface more on a path of the photon mapper.
+# One surface fewer on a path of the photon mapper.
 ljus_break_it(NAME depth-photons HEADER render/photon_mapping.hpp TEST recursion_depth
     FROM "while (path.depth < settings.max_depth) {"
-    TO   "while (path.depth <= settings.max_depth) {"
+    TO   "while (path.depth + 1 < settings.max_depth) {"
     CASES "recursion_depth: the depth of*")
