@@ -41,7 +41,8 @@ BEGINS_NO_EXPRESSION = set(
 )
 OPENS = {"(": ")", "[": "]", "{": "}"}
 COMMUTES = set(
-    "dot min max distance hypot is_same_v equal same_as multiply fmax fmin swap".split()
+    "dot min max distance hypot is_same_v equal same_as multiply fmax fmin swap has "
+    "box_union".split()
 )
 DROPPED_CALLS = {
     "abs": 1, "sqrt": 1, "normalize": 1, "floor": 1, "ceil": 1, "round": 1,
@@ -323,7 +324,7 @@ class Reader:
                 continue
             if self.opens(i) and text != "<":
                 before = tokens[i - 1].text if i else ""
-                if before not in ("sizeof", "decltype", "noexcept", "alignof", "alignas"):
+                if before not in ("sizeof", "decltype", "noexcept", "alignof", "alignas", "requires"):
                     for begin, end in self.pieces(i + 1, tokens[i].partner, ","):
                         if begin < end:
                             self.item(begin, end)
@@ -397,8 +398,10 @@ class Reader:
         tokens = self.tokens
         token = tokens[i]
         if token.kind == "number":
-            if not (i > 0 and tokens[i - 1].text == "." ):
-                for new in other_numbers(token.text):
+            if not (i > 0 and tokens[i - 1].text == "."):
+                # How many units of roundoff a bound allows is a choice; none is an error.
+                bound = re.search(r"epsilon|rounding_bound", self.source_of(region))
+                for new in [] if bound else other_numbers(token.text):
                     self.edit(region, "constant", token.start, token.end, new)
         elif token.text in ("true", "false"):
             new = "false" if token.text == "true" else "true"
@@ -425,8 +428,13 @@ class Reader:
                 if token.text in ("*", "/"):
                     self.factors(region, i, first, last)
 
+    def source_of(self, region):
+        return self.clean[region.start : region.end]
+
     def calls(self, i, last):
         """Whether a word is the name of a function that is called."""
+        if self.tokens[i].text in ("requires", "sizeof", "decltype", "alignof"):
+            return False
         j = i + 1
         if j < last and tokens_text(self.tokens, j) == "<" and self.opens(j):
             j = self.after(j)
@@ -523,7 +531,7 @@ class Reader:
                 j = self.after(j)
             end = self.end_of_statement(i, len(self.tokens))
             if j < len(self.tokens) and self.tokens[j].text == "=" and end - j < 12:
-                if self.tokens[j + 1].text not in ("{", "["):
+                if self.tokens[j + 1].text not in ("{", "[", "true", "false"):
                     region = self.expression(j + 1, end)
                     word = self.tokens[i + 1]
                     region.name = self.tokens[j - 1].text

@@ -22,7 +22,7 @@ change nothing that a test could see, with the reason; they are not counted.
   --build FOLDER  where to work (build/mutants)
   --commands FILE a compile_commands.json that says how tests are compiled
   --report FILE   write the survivors there as well
-  --no-compiled   not those that only the compiler runs, in a program each
+  --compiled      those that only the compiler runs as well, in a program each
   --list          only count the mutants
 """
 
@@ -319,7 +319,7 @@ class Program:
 
         process = subprocess.Popen(
             arguments, cwd=work, env=environment, stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, start_new_session=True,
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True,
             preexec_fn=set_limits,
         )  # fmt: skip
         try:
@@ -352,6 +352,7 @@ class Program:
             result = self.run(-1, [name], 600)
             if result != "survived":
                 print(f"{self.test}: '{name}' {result} though nothing is wrong", flush=True)
+                write(self.folder / "unbroken.txt", self.output.decode(errors="replace"))
                 continue
             self.cases[name] = time.monotonic() - start
             for number in self.seen:
@@ -406,7 +407,7 @@ class Program:
                 for m in region.mutants
                 if region.constexpr and results.get(m.number) == "not reached"
             }  # fmt: skip
-            if not self.options.no_compiled:
+            if self.options.compiled:
                 runs = {pool.submit(self.copy().attempt_compiled, n): n for n in compiled}
                 for run in concurrent.futures.as_completed(runs):
                     results[runs[run]] = run.result()
@@ -438,7 +439,7 @@ def main():
     parser.add_argument("--again", action="store_true")
     parser.add_argument("--long", action="store_true")
     parser.add_argument("--list", action="store_true")
-    parser.add_argument("--no-compiled", action="store_true")
+    parser.add_argument("--compiled", action="store_true")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
     parser.add_argument("--timeout", type=float, default=5)
     parser.add_argument("--build", type=Path, default=ROOT / "build/mutants")
@@ -504,7 +505,7 @@ def main():
             for header in by_test[test]:
                 left = [
                     m for m in chosen_of[header]
-                    if fate.get(id(m), "survived") in ("survived", "not reached", "left out")
+                    if fate.get(id(m), "survived") in ("survived", "not reached")
                 ]  # fmt: skip
                 asked.update({id(m): m for m in left})
                 program.take(header, regions_of[header], asked)
