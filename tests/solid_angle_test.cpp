@@ -246,3 +246,24 @@ TEST_CASE("solid angle: a surface seen edge-on gives no light, not a wrong one")
     const auto on_it = sample_towards(lamp, Vec3{0.5f, 0.5f, 0}, Vec2{0.5f, 0.5f});
     CHECK_FALSE(std::isfinite(on_it.pdf));
 }
+
+TEST_CASE("solid angle: what stands for a lamp is its middle, or its nearest point") {
+    const QuadT<double> quad{{-1, 4, -2}, {2, 0, 0}, {0, 0, 6}};
+    const Vec3T<double> eye{3, 1, 2};
+    CHECK(sample_towards(quad, eye, center_sample(quad)).point.position ==
+          Vec3T<double>{0, 4, 1});
+    const SphereT<double> ball{{3, 1, -4}, 2};
+    CHECK(glm::distance(sample_towards(ball, eye, center_sample(ball)).point.position,
+                        Vec3T<double>{3, 1, -2}) < 1e-12);
+}
+
+TEST_CASE("solid angle: on a far sphere, whichever way it lies, nobody is outside") {
+    for (const float far : {-1000.0f, 1000.0f}) {
+        const Sphere ball{Vec3{far}, 1};
+        for (const Vec3& way : {Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}}) {
+            // A point of it, and one farther out than the rounding reaches.
+            CHECK_FALSE(detail::sees_cone(ball, ball.center + 1.0002f * way));
+            CHECK(detail::sees_cone(ball, ball.center + 1.01f * way));
+        }
+    }
+}

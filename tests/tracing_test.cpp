@@ -3,6 +3,7 @@
 // in 13 %.
 #include <doctest/doctest.h>
 
+#include <cstdio>
 #include <numbers>
 #include <string>
 
@@ -721,4 +722,80 @@ TEST_CASE("tracing: one photon, and numbers that make no sense") {
     CHECK_THROWS_WITH_AS((void)trace_photons(empty, MapType::general, {}),
                          doctest::Contains("power of all lights"),
                          std::invalid_argument);
+}
+
+TEST_CASE("tracing: the memory by hand, and what the sentences say") {
+    CHECK(detail::photon_block == 512);
+    const double block = sizeof(detail::PhotonBlockT<float>);
+    CHECK(detail::expected_bytes<float>(1024, 1.5) ==
+          doctest::Approx(2 * 1024 * 1.5 * 44 + 2 * block));
+    CHECK(detail::expected_bytes<float>(1025, 0) == doctest::Approx(3 * block));
+    CHECK(detail::expected_bytes<double>(100, 3) ==
+          doctest::Approx(2 * 100 * 3 * 80 +
+                          double(sizeof(detail::PhotonBlockT<double>))));
+    // 2 x 10^9 x 2 x 44 bytes, and 10^9 / 512 blocks besides, some hundred bytes each.
+    const PhotonPassSettings pass{.photons = 1000000000, .max_memory = 3e9};
+    const double gigabytes = (176e9 + 1953125 * block) * 1e-9;
+    char right[40];
+    std::snprintf(right, sizeof right, "take %.3g GB at 2 stored", gigabytes);
+    CHECK_THROWS_WITH_AS(detail::require_memory<float>(pass, 2),
+                         doctest::Contains(right), std::invalid_argument);
+    CHECK_THROWS_WITH_AS(detail::require_memory<float>(pass, 2),
+                         doctest::Contains("photons is 1000000000, which"),
+                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(detail::require_memory<float>(pass, 2),
+                         doctest::Contains("max_memory allows 3 GB."),
+                         std::invalid_argument);
+    const PhotonPassSettings exact{
+        .photons = 1024, .max_memory = detail::expected_bytes<float>(1024, 1)};
+    CHECK_NOTHROW(detail::require_memory<float>(exact, 1)); // all of it may be taken
+
+    // Of 800 paths 200 could not be sent; the others' 8 W went by tenths.
+    const FluxAudit audit{.emitted{1, 2, 5},
+                          .absorbed{0.8, 0.8, 0.6},
+                          .escaped{0.6, 0.5, 0.5},
+                          .cut{1.2, 1, 1},
+                          .roulette{0.4, 0.4, 0.2}};
+    const std::string why =
+        detail::why_nothing({.photons = 1000}, MapType::caustics, 800, 200, audit);
+    CHECK(why ==
+          "gave up after 800 of 1000 photons, none of which was stored: 25 % "
+          "could not be sent (mirrors and glass lie behind the lights), 30 % met "
+          "something else before the mirror or glass, 15 % left the scene, 30 % "
+          "was absorbed");
+    const std::string general =
+        detail::why_nothing({.photons = 1000}, MapType::general, 800, 200, audit);
+    CHECK(general.find("(no light), 30 % met the limit of bounces,") !=
+          std::string::npos);
+}
+
+TEST_CASE("tracing: a disc of photons of known flux, and of a map of its own") {
+    // A spot as narrow as parallel light, straight down onto a black floor: all its
+    // power lands, and each of the two maps draws numbers of its own.
+    Room room;
+    room.add(Quad{{-9, 0, 9}, {18, 0, 0}, {0, 0, -18}},
+             room.add(Lambertian{.albedo = Rgb{0}}));
+    room.add(PointLight{.position{0, 3, 0}, .intensity{2, 4, 8}});
+    PhotonPassSettings pass{.photons = 20000, .max_bounces = 1};
+    const auto traced = trace_photons(room, MapType::general, pass);
+    glm::dvec3 in_disc{0}, sum{0};
+    for (const auto& photon : traced.photons) {
+        if (photon.kind != PhotonKind::direct) continue;
+        sum += glm::dvec3(photon.flux);
+        const double r = std::hypot(photon.position.x, photon.position.z);
+        if (r < 3) in_disc += glm::dvec3(photon.flux);
+    }
+    // The disc of radius 3 at distance 3 is a cone of 45 degrees: 2 pi (1 - cos 45) I.
+    const double cone = 2 * pi * (1 - std::sqrt(0.5));
+    // Of 20000 paths in all directions 0.146 meet it: 5 standard errors are 8.5 %.
+    for (int c = 0; c < 3; ++c) {
+        CHECK(in_disc[c] / (2 << c) == doctest::Approx(cone).epsilon(0.085));
+        CHECK(traced.audit.emitted[c] ==
+              doctest::Approx(4 * pi * (2 << c)).epsilon(1e-5));
+        // What landed was absorbed, the rest escaped.
+        CHECK(traced.audit.absorbed[c] == doctest::Approx(sum[c]).epsilon(1e-5));
+        CHECK(traced.audit.escaped[c] ==
+              doctest::Approx(traced.audit.emitted[c] - sum[c]).epsilon(1e-5));
+    }
+    CHECK(traced.emitted == 20000);
 }

@@ -424,13 +424,14 @@ TEST_CASE("whitted: ambient light comes along the normal, on both sides") {
             room.add(floor, room.add(OrenNayarT<double>{albedo, sigma}));
         else
             room.add(floor, room.add(LambertianT<double>{.albedo = albedo}));
-        for (const double side : {1.0, -1.0})
+        for (const D3& from :
+             {D3{-1, 1, 0.5}, D3{1, 1, 1}, D3{1, -1, -0.5}, D3{-1, -1, -1}})
             for (const float ambient : {0.25f, 1.0f}) {
                 RandomStream stream;
                 Counts counts;
                 PathLog log;
-                const RayT<double> ray{.origin{-1, side, 0.5},
-                                       .direction = glm::normalize(D3{1, -side, -0.5})};
+                const RayT<double> ray{.origin = from,
+                                       .direction = -glm::normalize(from)};
                 const auto seen =
                     radiance(make_whitted(room, {.ambient = Rgb{ambient}}), ray, stream,
                              counts, log);
@@ -443,6 +444,27 @@ TEST_CASE("whitted: ambient light comes along the normal, on both sides") {
                 CHECK(log.lines[0].path == "ED");
             }
     }
+}
+
+TEST_CASE("whitted: straight through a ball of glass, the log says ESSD") {
+    // Head on each boundary reflects 0.04; what has turned back within leaves later.
+    auto scene = ball_scene<double>(GlassT<double>{glass_index});
+    const auto tracer = make_whitted(scene, {.max_depth = 4, .ambient = Rgb{0.5f}});
+    const RayT<double> ray{.origin = ball_center + D3{0, 3, 0}, .direction{0, -1, 0}};
+    RandomStream stream;
+    Counts counts;
+    PathLog log;
+    (void)radiance(tracer, ray, stream, counts, log);
+    std::vector<std::string> ambient;
+    for (const PathLogLine& line : log.lines)
+        if (line.what == "ambient") {
+            ambient.push_back(line.path);
+            const double albedo = 0.96 * 0.96 * (ambient.size() == 1 ? 0.04 * 0.04 : 1);
+            CHECK((line.value.x / albedo == doctest::Approx(0.5 * even) ||
+                   line.value.x / albedo == doctest::Approx(0.5 * odd)));
+        }
+    // The branch that was reflected twice within is followed first.
+    CHECK(ambient == std::vector<std::string>{"ESSSSD", "ESSD"});
 }
 
 TEST_CASE("whitted: the log names both branches of glass, and adds up ray by ray") {

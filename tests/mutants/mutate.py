@@ -35,6 +35,7 @@ import random
 import re
 import resource
 import shlex
+import shutil
 import signal
 import subprocess
 import sys
@@ -219,7 +220,8 @@ class Program:
 
     def drop_what_does_not_compile(self):
         """Compiles, leaves out what the compiler complains about, and compiles again."""
-        for turn in range(25):
+        shutil.rmtree(self.folder / "include", ignore_errors=True)  # of another run
+        for _ in range(25):
             self.write_headers()
             command = [*self.compiler(), "-fsyntax-only", "-ftemplate-backtrace-limit=0"]
             run = subprocess.run(
@@ -325,6 +327,7 @@ class Program:
         try:
             self.output = process.communicate(timeout=8 * limit)[0]
             code = process.returncode
+            self.code = code
             result = "survived" if code == 0 else "killed" if code == 1 else "crashed"
             if code in (-signal.SIGXCPU, -signal.SIGKILL):
                 result = "timed out"
@@ -334,7 +337,7 @@ class Program:
             result = "timed out"
         seen = work / "seen.txt"
         self.seen = [int(line) for line in read(seen).split()] if seen.exists() else []
-        subprocess.run(["rm", "-rf", str(work)], check=False)
+        shutil.rmtree(work, ignore_errors=True)
         return result
 
     def learn(self):
@@ -351,7 +354,7 @@ class Program:
             start = time.monotonic()
             result = self.run(-1, [name], 600)
             if result != "survived":
-                print(f"{self.test}: '{name}' {result} though nothing is wrong", flush=True)
+                print(f"{self.test}: '{name}' {result} though nothing is wrong, exit code {self.code}", flush=True)
                 write(self.folder / "unbroken.txt", self.output.decode(errors="replace"))
                 continue
             self.cases[name] = time.monotonic() - start
