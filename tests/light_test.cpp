@@ -260,8 +260,8 @@ TEST_CASE("light: a spot's flux is the integral of what it sends, at any angle")
             Room room;
             // 3 -4 0 is 5 long, and a direction of any length will do.
             room.add(SpotLightT<double>{.position{1, 2, 3},
-                                        .intensity{2, 3, 4},
                                         .direction{30, -40, 0},
+                                        .intensity{2, 3, 4},
                                         .inner_degrees = inner,
                                         .outer_degrees = outer});
             const Vec3T<double> axis{0.6, -0.8, 0}, across{0.8, 0.6, 0};
@@ -320,7 +320,7 @@ TEST_CASE("light: a sun has the flux of a disc as wide as the scene, from anywhe
         for (const bool sun_first : {true, false}) {
             Room room;
             const auto grey = room.add(LambertianT<double>{});
-            const SunLightT<double> sun{.irradiance{1, 2, 3}, .direction = 1e-30 * way};
+            const SunLightT<double> sun{.direction = 1e-30 * way, .irradiance{1, 2, 3}};
             if (sun_first) room.add(sun);
             room.add(SphereT<double>{low + 0.5, 0.5}, grey);
             room.add(SphereT<double>{high - 0.25, 0.25}, grey);
@@ -348,8 +348,8 @@ TEST_CASE("light: the ends of what a spot may be, and a direction along each axi
             way[axis] = length;
             unit[axis] = length > 0 ? 1.0f : -1.0f;
             CHECK(detail::unit_along("way", way) == unit);
-            CHECK_NOTHROW(check(SpotLight{.intensity = Rgb{1}, .direction = way}));
+            CHECK_NOTHROW(check(SpotLight{.direction = way, .intensity = Rgb{1}}));
         }
-    CHECK_THROWS_AS(check(SpotLight{.intensity = Rgb{1}, .direction = Vec3{0}}),
+    CHECK_THROWS_AS(check(SpotLight{.direction = Vec3{0}, .intensity = Rgb{1}}),
                     std::invalid_argument);
 }

@@ -469,6 +469,15 @@ TEST_CASE("path tracing: the plain one, path by path, in closed form") {
     }
     CHECK(std::abs(first - 500) < 5 * std::sqrt(250.0)); // once in 1.7 million
 
+    // Without a light nobody is asked, on a matt floor and in a mirror.
+    Hall dark;
+    dark.add(floor, dark.add(LambertianT<double>{.albedo = D3{1}}));
+    dark.add(ceiling, dark.add(MirrorT<double>{}));
+    counts = {};
+    CHECK(seen(dark, down, 9, 1, counts) == D3{0});
+    CHECK(seen(dark, up, 9, 1, counts) == D3{0});
+    CHECK(counts.shadow_rays == 0);
+
     // Facing mirrors end at the depth; nothing else would end a path of throughput 1.
     Hall mirrors;
     const auto mirror = mirrors.add(MirrorT<double>{.reflectance = D3{1}});

@@ -98,6 +98,7 @@ TEST_CASE("require: a number reads as a person writes it") {
     CHECK(to_text(-2.2250738585072014e-308) == "-2.2250738585072014e-308");
     CHECK(to_text(1.5e-10f) == "1.5e-10");
     CHECK(to_text(123457.0) == "123457");
+    CHECK(to_text(100000.0f) == "100000");
 }
 
 TEST_CASE("require: a number just outside its range is not shown as the range's end") {
