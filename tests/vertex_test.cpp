@@ -120,11 +120,11 @@ RoomT<double> slab() {
 }
 
 /// A vertex at the origin whose shading normal leans by 0.3 to +x from the surface's
-/// own, which is +z; seen from a direction.
+/// own, which is +y; seen from a direction.
 VertexT<double> leaning(const D3& back) {
     VertexT<double> vertex;
-    vertex.point.normal = {0, 0, 1};
-    vertex.frame = frame_around(glm::normalize(D3{0.3, 0, 1}));
+    vertex.point.normal = {0, 1, 0};
+    vertex.frame = frame_around(glm::normalize(D3{0.3, 1, 0}));
     vertex.wo = to_local(vertex.frame, back);
     vertex.smooth = true;
     return vertex;
@@ -315,20 +315,20 @@ TEST_CASE("vertex: at a boundary a path splits by Fresnel's share") {
     CHECK_FALSE(split_path(steep, *total, glass));
     CHECK(steep.ray.direction.z == 0.6);
     CHECK_FALSE(split_path(steep, *total, LambertianT<double>{}));
-    auto smooth = leaning({0, 0, 1});
+    auto smooth = leaning({0, 1, 0});
     CHECK_FALSE(split_path(steep, smooth, glass));
     smooth.smooth = false;
     CHECK(split_path(steep, smooth, glass));
 }
 
 TEST_CASE("vertex: with two normals, radiance by the one and flux by both") {
-    const D3 lean = glm::normalize(D3{0.3, 0, 1}), up{0, 0, 1};
+    const D3 lean = glm::normalize(D3{0.3, 1, 0}), up{0, 1, 0};
     const LambertianT<double> matt{.albedo{0.8, 0.5, 0.2}};
     int ended = 0, went_on = 0;
     for (const double x : {-0.9, -0.3, 0.4, 0.9})
         for (std::uint64_t i = 0; i < 500; ++i) {
             auto stream = random_stream(3, Pass::user, 0, i);
-            const D3 back = glm::normalize(D3{x, 0.2, 0.6});
+            const D3 back = glm::normalize(D3{x, 0.6, 0.2});
             const auto vertex = leaning(back);
             const auto u = next_3d<double>(stream);
             const auto radiance = scatter(vertex, matt, u, Transport::radiance);
@@ -336,9 +336,9 @@ TEST_CASE("vertex: with two normals, radiance by the one and flux by both") {
             const D3 local = sample(matt, vertex.wo, u, Transport::radiance)->wi;
             const D3 wi = to_world(vertex.frame, local);
             REQUIRE(glm::dot(wi, lean) > 0);
-            REQUIRE(bool(radiance) == (wi.z > 0)); // through the surface: it ends
-            REQUIRE(bool(flux) == (wi.z > 0));
-            (wi.z > 0 ? went_on : ended) += 1;
+            REQUIRE(bool(radiance) == (wi.y > 0)); // through the surface: it ends
+            REQUIRE(bool(flux) == (wi.y > 0));
+            (wi.y > 0 ? went_on : ended) += 1;
             if (!radiance) continue;
             CHECK(glm::distance(radiance->wi, wi) < 1e-14);
             CHECK(glm::distance(radiance->sample.weight, matt.albedo) < 1e-14);
@@ -355,15 +355,99 @@ TEST_CASE("vertex: with two normals, radiance by the one and flux by both") {
     // about the surface's own.
     const MirrorT<double> mirror{.reflectance = D3{0.9}};
     for (const double x : {-0.9, -0.3, 0.0, 0.9}) {
-        const D3 back = glm::normalize(D3{x, 0.1, 0.5});
+        const D3 back = glm::normalize(D3{x, 0.5, 0.1});
         const auto seen = scatter(leaning(back), mirror, D3{0.5}, Transport::radiance);
         REQUIRE(seen);
         const D3 by_lean = 2 * glm::dot(back, lean) * lean - back;
-        const D3 by_own{-back.x, -back.y, back.z};
+        const D3 by_own{-back.x, back.y, -back.z};
         CAPTURE(x);
-        CHECK(glm::distance(seen->wi, by_lean.z > 0 ? by_lean : by_own) < 1e-12);
+        CHECK(glm::distance(seen->wi, by_lean.y > 0 ? by_lean : by_own) < 1e-12);
     }
     // Seen along the surface itself nothing is known: no infinite flux.
-    const auto grazing = scatter(leaning({1, 0, 0}), matt, D3{0.5}, Transport::flux);
-    CHECK_FALSE(grazing);
+    VertexT<double> edge;
+    edge.frame = {.tangent{1, 0, 0}, .bitangent{0, 1, 0}, .normal{0, 0, 1}};
+    edge.point.normal = {1, 0, 0};
+    edge.wo = {0, 0.6, 0.8};
+    edge.smooth = true;
+    int refused = 0;
+    for (const double u : {0.1, 0.4, 0.6, 0.9}) {
+        const D3 three{u, u, u};
+        const auto radiance = scatter(edge, matt, three, Transport::radiance);
+        CHECK_FALSE(scatter(edge, matt, three, Transport::flux));
+        refused += bool(radiance);
+    }
+    CHECK(refused > 0);
+}
+
+TEST_CASE("vertex: panes in the way let a path pass, or stop it by what they reflect") {
+    // Head on, r = 0.04 at each side and a tint a on each way through: all turns within
+    // together let (1 - r)^2 a / (1 - r^2 a^2) pass.
+    const D3 tint{1, 0.5, 0.25};
+    D3 passed;
+    for (int c = 0; c < 3; ++c)
+        passed[c] = 0.96 * 0.96 * tint[c] / (1 - 0.0016 * tint[c] * tint[c]);
+    const double stop = 1 - (passed.x + passed.y + passed.z) / 3;
+    const ThinGlassT<double> pane{1.5, tint};
+    const auto at_height = [](double z) {
+        return QuadT<double>{{-9, -9, z}, {18, 0, 0}, {0, 18, 0}};
+    };
+    const auto scene =
+        make_scene(placed(at_height(0), LambertianT<double>{}),
+                   placed(at_height(1), pane), placed(at_height(2), pane));
+    int stopped[3] = {};
+    const int paths = 20000;
+    for (int i = 0; i < paths; ++i) {
+        auto stream = random_stream(8, Pass::user, 0, std::uint64_t(i));
+        PathStateT<double> path{
+            .ray{.origin{0, 0, 4}, .direction{0, 0, -1}, .time = 0.75},
+            .throughput{2, 3, 4},
+            .medium = fog,
+            .depth = 1};
+        const auto vertex = next_vertex(scene, path, stream);
+        REQUIRE(vertex);
+        const double z = std::round(vertex->point.position.z);
+        const int panes = 2 - int(z); // that it has passed
+        ++stopped[panes];
+        REQUIRE(vertex->point.position.z == doctest::Approx(z).epsilon(1e-9));
+        REQUIRE(vertex->distance == doctest::Approx(4 - z).epsilon(1e-9));
+        REQUIRE(vertex->stop_probability == doctest::Approx(z > 0 ? stop : 1));
+        REQUIRE(vertex->time == 0.75);
+        REQUIRE(path.depth == 2);
+        for (int c = 0; c < 3; ++c)
+            REQUIRE(path.throughput[c] ==
+                    doctest::Approx((2 + c) * std::pow(passed[c] / (1 - stop), panes) *
+                                    std::exp(-fog[c] * (4 - z)))
+                        .epsilon(1e-9));
+    }
+    const double on = 1 - stop, share[3] = {stop, on * stop, on * on};
+    for (int k = 0; k < 3; ++k) // once in 1.7 million each
+        CHECK(std::abs(stopped[k] - paths * share[k]) <
+              5 * std::sqrt(paths * share[k] * (1 - share[k])));
+    // Out of the scene through both panes: no vertex. And how much of a lamp is seen.
+    bool left = false;
+    for (std::uint64_t i = 0; i < 50; ++i) {
+        auto stream = random_stream(9, Pass::user, 0, i);
+        PathStateT<double> path{.ray{.origin{0, 0, 0.5}, .direction{0, 0, 1}}};
+        left = left || !next_vertex(scene, path, stream);
+    }
+    CHECK(left);
+    const auto point = [](double z) {
+        return SurfacePointT<double>{.position{0, 0, z}, .normal{0, 0, 1}};
+    };
+    const D3 through = visibility(scene, point(0.5), point(3));
+    CHECK(glm::distance(through, passed * passed) < 1e-9);
+    CHECK(visibility(scene, point(2.5), point(3)) == D3{1});
+    CHECK(visibility(scene, point(-1), point(3)) == D3{0});
+}
+
+TEST_CASE("vertex: roulette's threshold and its largest probability") {
+    const auto alive = [](float carried, float u, float threshold, float most) {
+        Rgb throughput{carried};
+        return survives(throughput, 1.0f, u, threshold, most) ? throughput.x : 0.0f;
+    };
+    CHECK(alive(0.25f, 0.49f, 0.5f, 1) == 0.5f); // with probability 0.25 / 0.5
+    CHECK(alive(0.25f, 0.51f, 0.5f, 1) == 0);
+    CHECK(alive(4, 0.74f, 0.5f, 0.75f) == doctest::Approx(4 / 0.75f));
+    CHECK(alive(4, 0.76f, 0.5f, 0.75f) == 0);
+    CHECK(alive(0.001f, 0.99f, 0, 1) == 0.001f); // any is safe
 }
