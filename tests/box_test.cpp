@@ -174,8 +174,8 @@ TEST_CASE("box: the slack is 16 units of roundoff of the farthest side") {
             Box box{{0, 0, 0}, {4, 4, 4}};
             (side < 0 ? box.low : box.high)[axis] = side;
             const float reach = std::abs(side - ray.origin[axis]);
-            CHECK(detail::box_ray(ray, box)->slack ==
-                  doctest::Approx(16 * 0x1p-24 * reach).epsilon(1e-5));
+            CHECK(detail::box_ray(ray, box)->slack / (16 * 0x1p-24 * reach) ==
+                  doctest::Approx(1).epsilon(1e-5));
         }
 }
 
@@ -193,4 +193,10 @@ TEST_CASE("box: around a quad it is hardly larger than the quad") {
     const Box box = bounds(quad);
     CHECK(glm::distance(box.low, Vec3{1, -3, 2}) < 1e-5f);
     CHECK(glm::distance(box.high, Vec3{5, 2, 5}) < 1e-5f);
+}
+
+TEST_CASE("box: around a ball it is hardly larger than the ball") {
+    const Box box = bounds(Sphere{{1, -2, 3}, 4});
+    CHECK(glm::distance(box.low, Vec3{-3, -6, -1}) < 1e-5f);
+    CHECK(glm::distance(box.high, Vec3{5, 2, 7}) < 1e-5f);
 }

@@ -99,3 +99,13 @@ TEST_CASE("fresnel: Schlick's curve takes the cosine of the thinner side, by Sne
                   doctest::Approx(r0 + (1 - r0) * std::pow(thin, 5)));
         }
 }
+
+TEST_CASE("fresnel: Schlick's curve depends on the ratio of the indices alone") {
+    for (const double scale : {0.7, 1.3, 2.0})
+        for (const double c : {0.0, 0.2, 0.7, 0.8, 0.95, 1.0}) {
+            CHECK(ljus::schlick_dielectric(c, 1.5 * scale, scale) ==
+                  doctest::Approx(ljus::schlick_dielectric(c, 1.5, 1.0)));
+            CHECK(ljus::schlick_dielectric(c, scale, 1.5 * scale) ==
+                  doctest::Approx(ljus::schlick_dielectric(c, 1.0, 1.5)));
+        }
+}

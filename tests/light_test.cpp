@@ -353,3 +353,50 @@ TEST_CASE("light: the ends of what a spot may be, and a direction along each axi
     CHECK_THROWS_AS(check(SpotLight{.direction = Vec3{0}, .intensity = Rgb{1}}),
                     std::invalid_argument);
 }
+
+TEST_CASE("light: a spot's photons go where its intensity is, angle by angle") {
+    // With w = 1 - cos the share of the flux below w is the area below the curve: w up
+    // to the inner cone, and w - (w - i)^2 / (2 (o - i)) in the part that fades.
+    for (const double inner : {0.0, 0.1, 0.6})
+        for (const double outer : {0.6, 1.0, 2.0}) {
+            const LightT<double> spot{
+                .kind = LightKind::spot, .inner = inner, .outer = outer};
+            double last = 0;
+            for (int k = 0; k < 200; ++k) {
+                const double u = k / 200.0, w = detail::sample_spot(spot, u);
+                REQUIRE(w >= last);
+                REQUIRE(w <= outer);
+                const double fades =
+                    w > inner ? (w - inner) * (w - inner) / (2 * (outer - inner)) : 0;
+                REQUIRE((w - fades) / ((inner + outer) / 2) ==
+                        doctest::Approx(u).epsilon(1e-9));
+                last = w;
+            }
+        }
+}
+
+TEST_CASE("light: what no picture can be made with is refused, and a sample faces it") {
+    using Room = Scene<Shapes<Sphere>, Materials<Lambertian>>;
+    const float nan = std::nanf(""), huge = 3e38f;
+    Room room;
+    room.add(Sphere{.radius = 1e10f}, room.add(Lambertian{}));
+    CHECK_THROWS_AS(room.add(PointLight{.position{0, nan, 0}, .intensity = Rgb{1}}),
+                    std::invalid_argument);
+    CHECK_THROWS_AS(room.add(PointLight{.intensity{1, -1, 1}}), std::invalid_argument);
+    CHECK_THROWS_AS(room.add(PointLight{.intensity{1, nan, 1}}), std::invalid_argument);
+    // Each part is finite, the flux is not.
+    CHECK_THROWS_WITH_AS(room.add(PointLight{.intensity = Rgb{huge}}),
+                         doctest::Contains("the flux of a light"),
+                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(room.add(SunLight{.irradiance = Rgb{1e30f}}),
+                         doctest::Contains("the flux of a light"),
+                         std::invalid_argument);
+    CHECK_THROWS_AS(room.add(SunLight{.direction{0, nan, 0}, .irradiance = Rgb{1}}),
+                    std::invalid_argument);
+    CHECK_NOTHROW(room.add(
+        SpotLight{.intensity = Rgb{1}, .inner_degrees = 0, .outer_degrees = 0.5f}));
+    room.add(PointLight{.position{0, 3, 4}, .intensity = Rgb{1}});
+    const auto seen = sample_light(room, room.lights.back(), Vec3{0}, Vec2{0.5f, 0.5f});
+    REQUIRE(seen);
+    CHECK(glm::distance(seen->point.normal, Vec3{0, -0.6f, -0.8f}) < 1e-6f);
+}

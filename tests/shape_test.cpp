@@ -328,3 +328,17 @@ TEST_CASE_TEMPLATE("shape: a moving one is where its time says, and in its bound
     CHECK(detail::is_flat<S> == !std::is_same_v<S, Sphere>);
     CHECK(std::is_same_v<decltype(at_time(any(), 0.5f)), const S&>);
 }
+
+TEST_CASE("shape: a ball that no picture can be made of is refused by name") {
+    CHECK_NOTHROW(check(Sphere{{1, 2, 3}, 1e-30f}));
+    for (const float bad : {0.0f, -1.0f, infinity, not_a_number})
+        CHECK_THROWS_AS(check(Sphere{{1, 2, 3}, bad}), std::invalid_argument);
+    for (int axis = 0; axis < 3; ++axis) {
+        Sphere ball;
+        ball.center[axis] = not_a_number;
+        CHECK_THROWS_AS(check(ball), std::invalid_argument);
+    }
+    CHECK_THROWS_WITH_AS(check(Sphere{.radius = 0}),
+                         "sphere.radius is 0; it must be finite and above 0.",
+                         std::invalid_argument);
+}

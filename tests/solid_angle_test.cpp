@@ -267,3 +267,22 @@ TEST_CASE("solid angle: on a far sphere, whichever way it lies, nobody is outsid
         }
     }
 }
+
+TEST_CASE("solid angle: a sampled point is where the observer's ray meets the ball") {
+    Numbers n;
+    for (int i = 0; i < 5000; ++i) {
+        const SphereT<double> ball{n.point(5), n.power(-1, 1)};
+        const auto from = ball.center + ball.radius * n.between(1.1, 9) * n.direction();
+        auto u = n.square<double>();
+        if (i % 10 == 0) u.x = u.y = 1 - 0x1p-53; // the rim
+        const auto seen = sample_towards(ball, from, u);
+        REQUIRE(is_finite(seen.point.position));
+        const auto way = glm::normalize(seen.point.position - from);
+        REQUIRE(glm::dot(way, seen.point.normal) < 1e-6);
+        const auto t = intersect(RayT<double>{.origin = from, .direction = way}, ball);
+        if (i % 10 == 0) continue; // beside the rim there may be no hit
+        REQUIRE(t);
+        REQUIRE(std::abs(*t - glm::distance(seen.point.position, from)) <
+                1e-6 * ball.radius);
+    }
+}

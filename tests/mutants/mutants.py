@@ -400,8 +400,7 @@ class Reader:
         if token.kind == "number":
             if not (i > 0 and tokens[i - 1].text == "."):
                 # How many units of roundoff a bound allows is a choice; none is an error.
-                bound = re.search(r"epsilon|rounding_bound", self.source_of(region))
-                for new in [] if bound else other_numbers(token.text):
+                for new in [] if self.is_bound(region) else other_numbers(token.text):
                     self.edit(region, "constant", token.start, token.end, new)
         elif token.text in ("true", "false"):
             new = "false" if token.text == "true" else "true"
@@ -428,8 +427,15 @@ class Reader:
                 if token.text in ("*", "/"):
                     self.factors(region, i, first, last)
 
-    def source_of(self, region):
-        return self.clean[region.start : region.end]
+    def is_bound(self, region):
+        """Whether a number says how many units of roundoff are allowed."""
+        around = slice(max(0, region.start - 50), region.end + 50)
+        near = self.clean[around].replace("\n", " ")
+        return (
+            re.search(r"epsilon|rounding_bound", self.clean[region.start : region.end])
+            or re.search(r"rounding_bound<\w+>\($", self.clean[: region.start][-40:])
+            or re.search(r"\) \* +(std::numeric_limits<\w+>|Limits)::epsilon", near)
+        )
 
     def calls(self, i, last):
         """Whether a word is the name of a function that is called."""
