@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "ljus/geometry/moving.hpp"
 #include "ljus/path/continue_path.hpp"
 #include "ljus/path/next_vertex.hpp"
 #include "ljus/scene/make_scene.hpp"
@@ -450,4 +451,45 @@ TEST_CASE("vertex: roulette's threshold and its largest probability") {
     CHECK(alive(4, 0.74f, 0.5f, 0.75f) == doctest::Approx(4 / 0.75f));
     CHECK(alive(4, 0.76f, 0.5f, 0.75f) == 0);
     CHECK(alive(0.001f, 0.99f, 0, 1) == 0.001f); // any is safe
+}
+
+TEST_CASE("vertex: what a slanted pane lets through, and what glass hides") {
+    // At 60 degrees, and by Fresnel there: all turns within, T = (1 - r) / (1 + r).
+    const auto scene =
+        make_scene(placed(QuadT<double>{{-9, -9, 1}, {18, 0, 0}, {0, 18, 0}},
+                          ThinGlassT<double>{}),
+                   placed(QuadT<double>{{-9, -9, -1}, {18, 0, 0}, {0, 18, 0}},
+                          LambertianT<double>{}));
+    const double c = 0.5, t = std::sqrt(1 - 0.75 / 2.25);
+    const double s = (c - 1.5 * t) / (c + 1.5 * t), p = (1.5 * c - t) / (1.5 * c + t);
+    const double r = (s * s + p * p) / 2;
+    const auto point = [](double x, double z) {
+        return SurfacePointT<double>{.position{x, 0, z}, .normal{0, 0, 1}};
+    };
+    const D3 seen = visibility(scene, point(0, 0), point(2.5 * std::sqrt(3.0), 2.5));
+    CHECK(glm::distance(seen, D3{(1 - r) / (1 + r)}) < 1e-9);
+    CHECK(visibility(scene, point(0, 0), point(0, -3)) == D3{0});
+    // A scene that lists no thin surface: all or nothing.
+    const auto glass = slab();
+    CHECK(visibility(glass, point(0, 1), point(0, 3)) == D3{1});
+    CHECK(visibility(glass, point(0, 1), point(0, -1)) == D3{0});
+}
+
+TEST_CASE("vertex: a path has a time if something can move, and draws it once") {
+    Scene<Shapes<Moving<Sphere>, Quad>, Materials<Lambertian>> moving;
+    const Room still;
+    double sum = 0;
+    for (std::uint64_t i = 0; i < 1000; ++i) {
+        auto stream = random_stream(5, Pass::user, 0, i), twin = stream, other = stream;
+        const Ray ray{.origin{1, 2, 3}, .time = 0.75f};
+        const PathState path = detail::camera_path(moving, ray, stream);
+        REQUIRE(path.ray.time == next_1d<float>(twin));
+        REQUIRE(path.ray.origin == ray.origin);
+        REQUIRE(next_1d<float>(stream) == next_1d<float>(twin));
+        sum += double(path.ray.time);
+        auto same = other;
+        REQUIRE(detail::camera_path(still, ray, other).ray.time == 0);
+        REQUIRE(next_1d<float>(other) == next_1d<float>(same));
+    }
+    CHECK(std::abs(sum / 1000 - 0.5) < 5 / std::sqrt(12000.0));
 }
