@@ -175,9 +175,29 @@ TEST_CASE("parallel: what a block threw is not forgotten because progress goes o
     CHECK(runs == 2);
 }
 
+TEST_CASE("parallel: of two exceptions the first block's, whichever was thrown first") {
+    for (const long long late : {0LL, 1LL}) {
+        std::atomic<int> here{0};
+        std::atomic<bool> thrown{false};
+        const auto body = [&](long long b) {
+            const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+            ++here; // both have begun before any throws
+            while ((here < 2 || (b == late && !thrown)) &&
+                   std::chrono::steady_clock::now() < end)
+                std::this_thread::yield();
+            if (b == late) // the other one has been caught by then
+                std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            thrown = true;
+            throw std::runtime_error("block " + std::to_string(b));
+        };
+        CHECK_THROWS_WITH_AS(ljus::parallel_blocks(2, body, {.threads = 2}), "block 0",
+                             std::runtime_error);
+    }
+}
+
 TEST_CASE("parallel: as many threads as were asked for, and no more than blocks") {
     // Each block waits for all the others, so that each has a thread of its own.
-    for (const int threads : {2, 3, 5}) {
+    for (const int threads : {1, 2, 3, 5}) {
         std::atomic<int> here{0};
         int most = 0;
         const auto meet = [&](long long) {
