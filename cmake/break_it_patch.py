@@ -271,4 +271,5 @@ def main():
     write(target / test.name, line_of(text, 0, test) + without_other_cases(text, cases))
 
 
-main()
+if __name__ == "__main__":
+    main()

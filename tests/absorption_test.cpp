@@ -56,6 +56,13 @@ TEST_CASE("absorption: what cannot be is refused with a sentence") {
     CHECK(message({1, 0, 1}, 1) ==
           "absorption.color is (1, 0, 1); it must be above 0 in every "
           "channel, because no finite absorption reaches 0.");
+    for (int channel = 0; channel < 3; ++channel) {
+        Rgb color{0.5f};
+        color[channel] = 0;
+        CHECK(message(color, 1).find("above 0 in every") != std::string::npos);
+        color[channel] = 1e-30f;
+        CHECK(message(color, 1).empty());
+    }
     CHECK(message({1, 1.5f, 1}, 1).find("within [0, 1]") != std::string::npos);
     CHECK(message({1, 1, NAN}, 1).find("absorption.color") != std::string::npos);
     CHECK(message({1, 1, 1}, 0) ==

@@ -166,3 +166,37 @@ TEST_CASE("box: NaN is a miss, and so is nothing") {
           Ray{.origin{1e30f, 0, 0}}})
         CHECK_FALSE(detail::box_ray(bad, box));
 }
+
+TEST_CASE("box: the slack is 16 units of roundoff of the farthest side") {
+    const Ray ray{.origin{1, 2, 3}, .direction{1, 2, 3}};
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float side : {-1000.0f, 1000.0f}) {
+            Box box{{0, 0, 0}, {4, 4, 4}};
+            (side < 0 ? box.low : box.high)[axis] = side;
+            const float reach = std::abs(side - ray.origin[axis]);
+            CHECK(detail::box_ray(ray, box)->slack / (16 * 0x1p-24 * reach) ==
+                  doctest::Approx(1).epsilon(1e-5));
+        }
+}
+
+TEST_CASE("box: a range of one point within it is met there, and beyond it is not") {
+    const Box box{{-1, -1, -5}, {1, 1, -3}};
+    const auto ready = detail::box_ray(Ray{}, box);
+    REQUIRE(ready);
+    CHECK(detail::enter(*ready, box, 4.0f, 4.0f).value() == 4);
+    CHECK_FALSE(detail::enter(*ready, box, 2.0f, 2.0f));
+    CHECK_FALSE(detail::enter(*ready, box, 6.0f, 6.0f));
+}
+
+TEST_CASE("box: around a quad it is hardly larger than the quad") {
+    const Quad quad{{1, 2, 3}, {4, 0, -1}, {0, -5, 2}};
+    const Box box = bounds(quad);
+    CHECK(glm::distance(box.low, Vec3{1, -3, 2}) < 1e-5f);
+    CHECK(glm::distance(box.high, Vec3{5, 2, 5}) < 1e-5f);
+}
+
+TEST_CASE("box: around a ball it is hardly larger than the ball") {
+    const Box box = bounds(Sphere{{1, -2, 3}, 4});
+    CHECK(glm::distance(box.low, Vec3{-3, -6, -1}) < 1e-5f);
+    CHECK(glm::distance(box.high, Vec3{5, 2, 7}) < 1e-5f);
+}

@@ -2,7 +2,9 @@
 
 #include <numbers>
 
+#include "ljus/materials/glass.hpp"
 #include "ljus/path/direct_light.hpp"
+#include "ljus/scene/make_scene.hpp"
 #include "support/mean.hpp"
 #include "support/rooms.hpp"
 
@@ -168,4 +170,96 @@ TEST_CASE("direct light: within a medium it is absorbed along the way") {
     const double clear = direct(room, ray, Lambertian{}, 1, counts).mean;
     const double dim = direct(room, ray, Lambertian{}, 1, counts, Rgb{0.7f}).mean;
     CHECK(dim == doctest::Approx(clear * std::exp(-1.4)).epsilon(1e-5));
+}
+
+TEST_CASE("direct light: every factor once, in colours, from both sides") {
+    using D3 = glm::dvec3;
+    const LambertianT<double> matt{.albedo{0.8, 0.5, 0.2}};
+    const D3 fog{0.1, 0.2, 0.3}, intensity{7, 11, 13};
+    for (const double side : {1.0, -1.0}) {
+        auto room = floor_room<double>();
+        room.add(
+            PointLightT<double>{.position{3, 4 * side, 0}, .intensity = intensity});
+        const RayT<double> ray{.origin{0, side, 0}, .direction{0, -side, 0}};
+        VertexT<double> at = vertex_at(room, ray, *closest_hit(room, ray));
+        at.medium = fog;
+        Counts counts;
+        int calls = 0;
+        const auto weigh = [&](const LightSampleT<double>& light, const D3& wi) {
+            ++calls;
+            CHECK(glm::distance(light.wi, D3{0.6, 0.8 * side, 0}) < 1e-12);
+            CHECK(std::abs(wi.z - 0.8 * side) < 1e-12); // in the surface's frame
+            return 0.375;
+        };
+        const D3 seen = direct_light(room, room.lights[0], at, matt,
+                                     Vec2T<double>{0.5, 0.5}, weigh, counts);
+        const D3 right =
+            0.375 * matt.albedo / pi * intensity * 0.8 / 25.0 * glm::exp(-5.0 * fog);
+        CHECK(glm::distance(seen, right) < 1e-9 * glm::length(right));
+        CHECK(calls == 1);
+        CHECK(counts.shadow_rays == 1);
+    }
+}
+
+TEST_CASE("direct light: a pane in the way takes its part, a wall all of it") {
+    using D3 = glm::dvec3;
+    const ThinGlassT<double> glass{.index = 1.5};
+    const auto lit = [&](const auto&... between) {
+        auto scene =
+            make_scene(placed(QuadT<double>{{-50, 0, 50}, {100, 0, 0}, {0, 0, -100}},
+                              LambertianT<double>{.albedo = D3{0.5}}),
+                       placed(QuadT<double>{{30, 1, 1}, {2, 0, 0}, {0, 0, -2}}, glass),
+                       between...);
+        scene.add(PointLightT<double>{.position{0, 2, 0}, .intensity = D3{8}});
+        const RayT<double> ray{.origin{0, 0.5, 0}, .direction{0, -1, 0}};
+        Counts counts;
+        return direct_light(
+                   scene, scene.lights[0],
+                   vertex_at(scene, ray, *closest_hit(scene, ray)),
+                   LambertianT<double>{.albedo = D3{0.5}}, Vec2T<double>{0, 0},
+                   [](const auto&, const auto&) { return 1.0; }, counts)
+            .x;
+    };
+    const QuadT<double> across{{-1, 1, 1}, {2, 0, 0}, {0, 0, -2}};
+    const QuadT<double> higher{{-1, 1.5, 1}, {2, 0, 0}, {0, 0, -2}};
+    // Head on R = 0.04 at each boundary; all turns within: T = (1 - R) / (1 + R).
+    const double open = 0.5 / pi * 8 / 4, t = 0.96 / 1.04;
+    CHECK(lit() == doctest::Approx(open).epsilon(1e-9));
+    CHECK(lit(placed(across, glass)) == doctest::Approx(t * open).epsilon(1e-9));
+    CHECK(lit(placed(across, glass), placed(higher, glass)) ==
+          doctest::Approx(t * t * open).epsilon(1e-9));
+    CHECK(lit(placed(across, glass), placed(higher, LambertianT<double>{})) == 0);
+    CHECK(lit(placed(across, LambertianT<double>{})) == 0);
+}
+
+TEST_CASE("direct light: of all lights, by several rays each") {
+    using D3 = glm::dvec3;
+    auto room = floor_room<double>();
+    const auto black = room.add(LambertianT<double>{.albedo = D3{0}});
+    room.add(PointLightT<double>{.position{0, 2, 0}, .intensity{8, 4, 2}});
+    room.add(QuadT<double>{{-1, 3, -1}, {2, 0, 0}, {0, 0, 2}}, black, D3{3, 2, 1});
+    const RayT<double> ray{.origin{0, 0.5, 0}, .direction{0, -1, 0}};
+    const auto at = vertex_at(room, ray, *closest_hit(room, ray));
+    const LambertianT<double> matt{.albedo = D3{0.5}};
+    // A square of side 2, 3 above: four corners (Howell's C-11).
+    const double x = 1.0 / 3, r = std::sqrt(1 + x * x);
+    const double factor = 4 / (2 * pi) * 2 * (x / r * std::atan(x / r));
+    const D3 right = 0.5 * (D3{8, 4, 2} / 4.0 / pi + factor * D3{3, 2, 1});
+    double spread[2] = {};
+    for (const int rays : {1, 4, 16}) {
+        Mean mean[3];
+        for (std::uint64_t path = 0; path < 4000; ++path) {
+            auto stream = random_stream(5, Pass::user, 0, path);
+            Counts counts;
+            const D3 seen =
+                detail::sample_all_lights(room, at, matt, rays, stream, counts);
+            for (int c = 0; c < 3; ++c) mean[c].add(seen[c]);
+            CHECK(counts.shadow_rays == std::uint64_t(2 * rays));
+        }
+        CAPTURE(rays);
+        for (int c = 0; c < 3; ++c) // 5 standard errors: once in 1.7 million
+            CHECK(std::abs(apart(mean[c], right[c], 1e-9)) < 5);
+        if (rays != 4) spread[rays == 16] = mean[0].error();
+    }
+    CHECK(spread[1] < spread[0] / 6); // 16 by chance would give 1/4: they are spread
 }

@@ -438,6 +438,54 @@ TEST_CASE("distributed rays: every path is L D? (S|G)* E") {
     CHECK(one.counts.rejected == 0);
 }
 
+TEST_CASE("distributed rays: the log adds up, ray by ray, in colours") {
+    using Room =
+        Scene<Shapes<QuadT<double>>, Materials<LambertianT<double>, MirrorT<double>>>;
+    Room room;
+    const auto matt = room.add(LambertianT<double>{.albedo{0.6, 0.3, 0.1}});
+    const auto mirror = room.add(MirrorT<double>{.reflectance{0.9, 0.5, 0.2}});
+    room.add(QuadT<double>{{-5, 0, 5}, {10, 0, 0}, {0, 0, -10}}, matt);
+    room.add(QuadT<double>{{-5, 0, -4}, {10, 0, 0}, {0, 6, 0}}, mirror);
+    room.add(QuadT<double>{{-2, 5, -2}, {4, 0, 0}, {0, 0, 4}}, matt, RgbD{4, 5, 6});
+    room.add(PointLightT<double>{.position{2, 4, 3}, .intensity{10, 20, 30}});
+    const auto tracer = make_distributed(room, {.max_depth = 3});
+    int in_the_mirror = 0;
+    for (int i = 0; i < 100; ++i) {
+        auto random = random_stream(7, Pass::user, 0, std::uint64_t(i));
+        const auto way = D3(next_3d<double>(random)) * 2.0 - D3{1, 1, 2};
+        PathLog log;
+        Counts counts;
+        const RayT<double> ray{.origin{0, 2, 3}, .direction = glm::normalize(way)};
+        const D3 seen(radiance(tracer, ray, random, counts, log));
+        D3 told{0};
+        for (const PathLogLine& line : log.lines) {
+            if (line.what == "vertex") continue;
+            told += line.value;
+            in_the_mirror += line.path == "ESDL";
+        }
+        CHECK(glm::length(told - seen) <= 1e-13 * glm::length(seen));
+    }
+    CHECK(in_the_mirror > 2);
+}
+
+TEST_CASE("distributed rays: max_depth turns, and no ray of black light") {
+    // Facing mirrors never let a ray out.
+    using Hall = Scene<Shapes<QuadT<double>>, Materials<MirrorT<double>>>;
+    for (const double share : {1.0, 0.0})
+        for (const int depth : {0, 1, 4}) {
+            Hall hall;
+            const auto mirror = hall.add(MirrorT<double>{.reflectance = RgbD{share}});
+            hall.add(QuadT<double>{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}}, mirror);
+            hall.add(QuadT<double>{{-1, -1, 1}, {0, 2, 0}, {2, 0, 0}}, mirror);
+            Counts counts;
+            StratifiedStream stream;
+            const RayT<double> across{.origin{0, 0, 0.5}, .direction{0, 0, 1}};
+            (void)radiance(make_distributed(hall, {.max_depth = depth}), across, stream,
+                           counts);
+            CHECK(counts.bounce_rays == std::uint64_t(share > 0 ? depth : 0));
+        }
+}
+
 TEST_CASE(
     "distributed rays: a matt surface sends no ray on, and gloss no ray to lamps") {
     const auto scene = edge_scene();

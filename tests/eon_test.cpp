@@ -200,3 +200,38 @@ TEST_CASE("eon: what is no albedo and no roughness is refused") {
     CHECK(refusal(Eon{.roughness = 1.5f}).find("eon.roughness") == 0);
     CHECK_FALSE(refusal(Eon{.roughness = NAN}).empty());
 }
+
+TEST_CASE("eon: the back is the front's mirror image, in value, density and sample") {
+    Draws draws;
+    for (int i = 0; i < 4000; ++i) {
+        const EonT<double> surface{.albedo{0.9, 0.5, 0.1},
+                                   .roughness = draws.between(0.0, 1.0)};
+        const auto way = [&] {
+            const double z = draws.between(0.01, 1.0), phi = draws.between(0.0, 6.28);
+            const double r = std::sqrt(1 - z * z);
+            return Vec3T<double>{r * std::cos(phi), r * std::sin(phi), z};
+        };
+        const auto below = [](Vec3T<double> v) {
+            v.z = -v.z;
+            return v;
+        };
+        const auto wo = way(), wi = way();
+        const auto transport = ljus::Transport::radiance;
+        CHECK(evaluate(surface, below(wo), below(wi)) == evaluate(surface, wo, wi));
+        CHECK(pdf(surface, below(wo), below(wi)) == pdf(surface, wo, wi));
+        CHECK(pdf(surface, wo, wi) > 0);
+        CHECK(pdf(surface, below(wo), wi) == 0);
+        CHECK(evaluate(surface, below(wo), wi) == ljus::RgbT<double>{0});
+        const Vec3T<double> u{draws.between(0.0, 1.0), draws.between(0.0, 1.0),
+                              draws.between(0.0, 1.0)};
+        const auto front = sample(surface, wo, u, transport);
+        const auto back = sample(surface, below(wo), u, transport);
+        REQUIRE(bool(front) == bool(back));
+        if (!front) continue;
+        CHECK(front->wi.z > 0); // no light goes through
+        CHECK(back->wi == below(front->wi));
+        CHECK(back->weight == front->weight);
+        CHECK(back->pdf == front->pdf);
+        CHECK(pdf(surface, below(wo), back->wi) == doctest::Approx(back->pdf));
+    }
+}

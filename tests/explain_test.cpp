@@ -171,3 +171,28 @@ TEST_CASE("explain: a pixel outside of the picture is refused") {
                                   {.width = 4, .height = 4, .samples = 0}, 1, 1),
                     std::invalid_argument);
 }
+
+TEST_CASE("explain: each line as it is printed, column by column") {
+    ExplainedPixelT<float> apart{.radiance{1, 2, 3}, .samples = 2, .rejected = 1};
+    PathLog log;
+    log.begin();
+    log.vertex('D', Vec3{1, -2, 3.5f}, Rgb{0.5f, 0.25f, 0.125f}, 0.75f);
+    log.vertex('S', Vec3{4, 5, 6}, Rgb{0.5f, 0.25f, 0.125f}, 0.0f);
+    log.term("emission", "L", Rgb{8, 4, 2});
+    apart.first_rays = {log, {}};
+    apart.sums = {{"EDSL", "emission", {1, 2, 3}, 1}, {"E.+L", "map", {0, 0.5, 0}, 1}};
+    CHECK(detail::describe(apart) ==
+          "ray 1\n"
+          "  E D                        throughput          0.5      0.25     0.125"
+          "   at (1, -2, 3.5), pdf 0.75\n"
+          "  E D S                      throughput          0.5      0.25     0.125"
+          "   at (4, 5, 6), delta\n"
+          "  E D S L                    emission              8         4         2\n"
+          "ray 2\n"
+          "  no light\n"
+          "sums over 2 rays\n"
+          "  E D S L                    emission              1         2         3\n"
+          "  E.+ L                      map                   0       0.5         0\n"
+          "                             the pixel             1         2         3\n"
+          "1 rays were not finite and are left out\n");
+}

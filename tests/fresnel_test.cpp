@@ -81,3 +81,31 @@ TEST_CASE("fresnel: the model that a material names is the one that is used") {
     CHECK(fresnel(FresnelModel::schlick, 0.1, 1.0, 1.5) ==
           ljus::schlick_dielectric(0.1, 1.0, 1.5));
 }
+
+TEST_CASE("fresnel: Schlick's curve takes the cosine of the thinner side, by Snell") {
+    // (1 - R0) m^5 + R0 with m = 1 - cosine, the cosine by angles.
+    for (const double n : {1.1, 1.5, 2.4})
+        for (const double degrees : {0.0, 10.0, 20.0, 24.0, 35.0, 41.0, 60.0, 89.0}) {
+            const double angle = degrees * 3.14159265358979323846 / 180;
+            const double r0 = (n - 1) * (n - 1) / ((n + 1) * (n + 1));
+            const double m = 1 - std::cos(angle);
+            CAPTURE(n);
+            CAPTURE(degrees);
+            CHECK(ljus::schlick_dielectric(std::cos(angle), 1.0, n) ==
+                  doctest::Approx(r0 + (1 - r0) * std::pow(m, 5)));
+            const double sine = n * std::sin(angle);
+            const double thin = sine < 1 ? 1 - std::cos(std::asin(sine)) : 1;
+            CHECK(ljus::schlick_dielectric(std::cos(angle), n, 1.0) ==
+                  doctest::Approx(r0 + (1 - r0) * std::pow(thin, 5)));
+        }
+}
+
+TEST_CASE("fresnel: Schlick's curve depends on the ratio of the indices alone") {
+    for (const double scale : {0.7, 1.3, 2.0})
+        for (const double c : {0.0, 0.2, 0.7, 0.8, 0.95, 1.0}) {
+            CHECK(ljus::schlick_dielectric(c, 1.5 * scale, scale) ==
+                  doctest::Approx(ljus::schlick_dielectric(c, 1.5, 1.0)));
+            CHECK(ljus::schlick_dielectric(c, scale, 1.5 * scale) ==
+                  doctest::Approx(ljus::schlick_dielectric(c, 1.0, 1.5)));
+        }
+}

@@ -63,3 +63,41 @@ TEST_CASE("image: one whose pixels do not fit its size is refused") {
                          std::invalid_argument);
     CHECK_THROWS_AS(ljus::check(ljus::Image{}), std::invalid_argument);
 }
+
+TEST_CASE("image: neither side alone may be beyond what both allow") {
+    const long long most = ljus::detail::max_pixels;
+    CHECK_NOTHROW(ljus::detail::require_image_size(most, 1));
+    CHECK_NOTHROW(ljus::detail::require_image_size(1, most));
+    CHECK_NOTHROW(ljus::detail::require_image_size(most / 2, 2));
+    CHECK_THROWS_AS(ljus::detail::require_image_size(most / 2 + 1, 2),
+                    std::invalid_argument);
+    CHECK_THROWS_AS(ljus::detail::require_image_size(2, most / 2 + 1),
+                    std::invalid_argument);
+    CHECK_THROWS_AS(ljus::detail::require_image_size(most, most),
+                    std::invalid_argument);
+    // The sentence names the width first.
+    ljus::Image image;
+    image.width = 3;
+    image.height = -4;
+    CHECK_THROWS_WITH_AS(ljus::check(image),
+                         doctest::Contains("The image's size is 3 x -4;"),
+                         std::invalid_argument);
+}
+
+TEST_CASE("image: two are compared only if both sides fit, and both are whole") {
+    const ljus::Image image = ljus::make_image(3, 2);
+    CHECK_NOTHROW(
+        ljus::detail::require_same_size(image, ljus::make_image<double>(3, 2)));
+    CHECK_THROWS_WITH_AS(ljus::detail::require_same_size(image, ljus::make_image(3, 5)),
+                         "The image's size is 3 x 2; the reference has 3 x 5.",
+                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(ljus::detail::require_same_size(image, ljus::make_image(4, 2)),
+                         "The image's size is 3 x 2; the reference has 4 x 2.",
+                         std::invalid_argument);
+    ljus::Image torn = image;
+    torn.pixels.pop_back();
+    CHECK_THROWS_AS(ljus::detail::require_same_size(torn, image),
+                    std::invalid_argument);
+    CHECK_THROWS_AS(ljus::detail::require_same_size(image, torn),
+                    std::invalid_argument);
+}

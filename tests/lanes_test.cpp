@@ -62,6 +62,7 @@ TEST_CASE("lanes: the smallest of those that count, but for its last three bits"
             }
         const std::uint32_t found = smallest_lane(a, among, bound);
         REQUIRE((found < 8) == any);
+        REQUIRE(found <= 8);
         if (!any) continue;
         REQUIRE((among >> found & 1u) != 0);
         const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x) >> 3; };

@@ -250,3 +250,153 @@ TEST_CASE("light: a spot or a sun that makes no sense is refused in a sentence")
     scene.add(SpotLight{.direction{0, 1e-30f, 0}});
     CHECK(scene.lights[0].direction == Vec3{0, 1, 0});
 }
+
+TEST_CASE("light: a spot's flux is the integral of what it sends, at any angle") {
+    // By the midpoint rule over 1 - cos, from what sample_light() says at distance 1.
+    using Room = Scene<Shapes<SphereT<double>>, Materials<LambertianT<double>>>;
+    for (const double inner : {0.0, 10.0, 40.0, 90.0, 180.0})
+        for (const double outer : {40.0, 120.0, 180.0}) {
+            if (inner > outer) continue;
+            Room room;
+            // 3 -4 0 is 5 long, and a direction of any length will do.
+            room.add(SpotLightT<double>{.position{1, 2, 3},
+                                        .direction{30, -40, 0},
+                                        .intensity{2, 3, 4},
+                                        .inner_degrees = inner,
+                                        .outer_degrees = outer});
+            const Vec3T<double> axis{0.6, -0.8, 0}, across{0.8, 0.6, 0};
+            double integral = 0;
+            const int n = 20000;
+            for (int i = 0; i < n; ++i) {
+                const double z = 1 - 2 * (i + 0.5) / n;
+                const Vec3T<double> way = z * axis + std::sqrt(1 - z * z) * across;
+                const auto seen =
+                    sample_light(room, room.lights[0], Vec3T<double>{1, 2, 3} + way,
+                                 Vec2T<double>{0.5, 0.5});
+                if (seen) integral += 2 * std::numbers::pi * seen->weight.y * 2 / n;
+            }
+            CAPTURE(inner);
+            CAPTURE(outer);
+            for (int c = 0; c < 3; ++c)
+                CHECK(room.lights[0].flux[c] ==
+                      doctest::Approx(integral * (2 + c) / 3).epsilon(1e-3));
+            CHECK(glm::distance(room.lights[0].direction, axis) < 1e-12);
+        }
+}
+
+TEST_CASE("light: a sun has the flux of a disc as wide as the scene, from anywhere") {
+    // A box from (-1, 2, 3) to (3, 8, 15), by balls in its corners: half of its
+    // diagonal is sqrt(4 + 9 + 36) = 7, and a thousandth for rounding.
+    using Room = Scene<Shapes<SphereT<double>>, Materials<LambertianT<double>>>;
+    const Vec3T<double> low{-1, 2, 3}, high{3, 8, 15}, middle{1, 5, 9};
+    const auto check_sun = [&](const Room& room, const Vec3T<double>& way) {
+        const LightT<double>& sun = room.lights[0];
+        CHECK(glm::distance(sun.position, middle) < 1e-9);
+        CHECK(sun.radius == doctest::Approx(7.007));
+        for (int c = 0; c < 3; ++c)
+            CHECK(sun.flux[c] ==
+                  doctest::Approx(std::numbers::pi * 7.007 * 7.007 * (c + 1)));
+        CHECK(glm::distance(sun.direction, way) < 1e-12);
+        // A shadow ray ends on a plane beside the scene, its way along the sun's.
+        for (const Vec3T<double>& from : {low, high, middle, Vec3T<double>{3, 2, 15}}) {
+            const auto seen = sample_light(room, sun, from, Vec2T<double>{0.25, 0.75});
+            REQUIRE(seen);
+            CHECK(glm::distance(seen->wi, -way) < 1e-12);
+            CHECK(seen->weight == Vec3T<double>{1, 2, 3});
+            CHECK(seen->pdf == 0);
+            CHECK(glm::dot(seen->point.position - middle, way) ==
+                  doctest::Approx(-7.007));
+            CHECK(glm::length(glm::cross(seen->point.position - from, way)) < 1e-9);
+        }
+        // From beyond that plane it ends where it begins, not behind.
+        const Vec3T<double> outside = middle - 20.0 * way;
+        CHECK(glm::distance(
+                  sample_light(room, sun, outside, Vec2T<double>{0, 0})->point.position,
+                  outside) < 1e-9);
+    };
+    for (const Vec3T<double>& way :
+         {Vec3T<double>{0.6, -0.8, 0}, Vec3T<double>{0, 0, 1},
+          Vec3T<double>{0, 0.8, -0.6}})
+        for (const bool sun_first : {true, false}) {
+            Room room;
+            const auto grey = room.add(LambertianT<double>{});
+            const SunLightT<double> sun{.direction = 1e-30 * way, .irradiance{1, 2, 3}};
+            if (sun_first) room.add(sun);
+            room.add(SphereT<double>{low + 0.5, 0.5}, grey);
+            room.add(SphereT<double>{high - 0.25, 0.25}, grey);
+            room.add(SphereT<double>{middle, 1}, grey);
+            if (!sun_first) room.add(sun);
+            check_sun(room, way);
+        }
+}
+
+TEST_CASE("light: the ends of what a spot may be, and a direction along each axis") {
+    const auto spot = [](float inner, float outer) {
+        check(SpotLight{
+            .intensity = Rgb{1}, .inner_degrees = inner, .outer_degrees = outer});
+    };
+    CHECK_NOTHROW(spot(0, 180));
+    CHECK_NOTHROW(spot(180, 180));
+    CHECK_NOTHROW(spot(20, 20));
+    CHECK_THROWS_AS(spot(0, 180.1f), std::invalid_argument);
+    CHECK_THROWS_AS(spot(20.1f, 20), std::invalid_argument);
+    CHECK_THROWS_AS(spot(-0.1f, 20), std::invalid_argument);
+    CHECK_THROWS_AS(spot(0, 0), std::invalid_argument);
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float length : {1e-30f, -1.0f, 3e38f}) {
+            Vec3 way{0}, unit{0};
+            way[axis] = length;
+            unit[axis] = length > 0 ? 1.0f : -1.0f;
+            CHECK(detail::unit_along("way", way) == unit);
+            CHECK_NOTHROW(check(SpotLight{.direction = way, .intensity = Rgb{1}}));
+        }
+    CHECK_THROWS_AS(check(SpotLight{.direction = Vec3{0}, .intensity = Rgb{1}}),
+                    std::invalid_argument);
+}
+
+TEST_CASE("light: a spot's photons go where its intensity is, angle by angle") {
+    // With w = 1 - cos the share of the flux below w is the area below the curve: w up
+    // to the inner cone, and w - (w - i)^2 / (2 (o - i)) in the part that fades.
+    for (const double inner : {0.0, 0.1, 0.6})
+        for (const double outer : {0.6, 1.0, 2.0}) {
+            const LightT<double> spot{
+                .kind = LightKind::spot, .inner = inner, .outer = outer};
+            double last = 0;
+            for (int k = 0; k < 200; ++k) {
+                const double u = k / 200.0, w = detail::sample_spot(spot, u);
+                REQUIRE(w >= last);
+                REQUIRE(w <= outer);
+                const double fades =
+                    w > inner ? (w - inner) * (w - inner) / (2 * (outer - inner)) : 0;
+                REQUIRE((w - fades) / ((inner + outer) / 2) ==
+                        doctest::Approx(u).epsilon(1e-9));
+                last = w;
+            }
+        }
+}
+
+TEST_CASE("light: what no picture can be made with is refused, and a sample faces it") {
+    using Room = Scene<Shapes<Sphere>, Materials<Lambertian>>;
+    const float nan = std::nanf(""), huge = 3e38f;
+    Room room;
+    room.add(Sphere{.radius = 1e10f}, room.add(Lambertian{}));
+    CHECK_THROWS_AS(room.add(PointLight{.position{0, nan, 0}, .intensity = Rgb{1}}),
+                    std::invalid_argument);
+    CHECK_THROWS_AS(room.add(PointLight{.intensity{1, -1, 1}}), std::invalid_argument);
+    CHECK_THROWS_AS(room.add(PointLight{.intensity{1, nan, 1}}), std::invalid_argument);
+    // Each part is finite, the flux is not.
+    CHECK_THROWS_WITH_AS(room.add(PointLight{.intensity = Rgb{huge}}),
+                         doctest::Contains("the flux of a light"),
+                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(room.add(SunLight{.irradiance = Rgb{1e30f}}),
+                         doctest::Contains("the flux of a light"),
+                         std::invalid_argument);
+    CHECK_THROWS_AS(room.add(SunLight{.direction{0, nan, 0}, .irradiance = Rgb{1}}),
+                    std::invalid_argument);
+    CHECK_NOTHROW(room.add(
+        SpotLight{.intensity = Rgb{1}, .inner_degrees = 0, .outer_degrees = 0.5f}));
+    room.add(PointLight{.position{0, 3, 4}, .intensity = Rgb{1}});
+    const auto seen = sample_light(room, room.lights.back(), Vec3{0}, Vec2{0.5f, 0.5f});
+    REQUIRE(seen);
+    CHECK(glm::distance(seen->point.normal, Vec3{0, -0.6f, -0.8f}) < 1e-6f);
+}

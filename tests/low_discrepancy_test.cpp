@@ -110,6 +110,52 @@ TEST_CASE("low_discrepancy: the first points, by hand") {
     CHECK(detail::reversed_bits(0x12345678u) == 0x1e6a2c48u);
 }
 
+TEST_CASE("low_discrepancy: the direction numbers are those of Joe and Kuo") {
+    // Their file new-joe-kuo-6.21201: degree s, coefficients a, and m_1 to m_s; and the
+    // recurrence as they print it, on the odd integers m_k.
+    struct Line {
+        unsigned s, a;
+        std::vector<std::uint32_t> m;
+    };
+    const std::vector<Line> lines = {
+        {1, 0, {1}},
+        {2, 1, {1, 3}},
+        {3, 1, {1, 3, 1}},
+        {3, 2, {1, 1, 1}},
+        {4, 1, {1, 1, 3, 3}},
+        {4, 4, {1, 3, 5, 13}},
+        {5, 2, {1, 1, 5, 5, 17}},
+        {5, 4, {1, 1, 5, 5, 5}},
+        {5, 7, {1, 1, 7, 11, 19}},
+        {5, 11, {1, 1, 5, 1, 1}},
+        {5, 13, {1, 1, 1, 3, 11}},
+        {5, 14, {1, 3, 5, 5, 31}},
+        {6, 1, {1, 3, 3, 9, 7, 49}},
+        {6, 13, {1, 1, 1, 15, 21, 21}},
+        {6, 16, {1, 3, 1, 13, 27, 49}},
+    };
+    REQUIRE(lines.size() + 1 == detail::sobol_dimensions);
+    for (std::size_t d = 0; d < lines.size(); ++d) {
+        std::vector<std::uint32_t> m = lines[d].m;
+        const unsigned s = lines[d].s;
+        REQUIRE(m.size() == s);
+        while (m.size() < 32) {
+            const std::size_t k = m.size();
+            std::uint32_t next = m[k - s] ^ (m[k - s] << s);
+            for (unsigned j = 1; j < s; ++j)
+                if ((lines[d].a >> (s - 1 - j) & 1u) != 0) next ^= m[k - j] << j;
+            m.push_back(next);
+        }
+        for (std::uint32_t k = 0; k < 32; ++k) {
+            CAPTURE(d);
+            CAPTURE(k);
+            const auto dimension = static_cast<std::uint32_t>(d + 1);
+            CHECK(detail::sobol(1u << k, dimension) == m[k] << (31 - k));
+            CHECK(detail::sobol(1u << k, 0) == 1u << (31 - k));
+        }
+    }
+}
+
 TEST_CASE("low_discrepancy: in each dimension the first 2^m points lie one in a cell") {
     for (const std::uint64_t seed : {0u, 1u, 77u})
         for (std::uint32_t d = 0; d < detail::sobol_dimensions; ++d)
@@ -210,6 +256,24 @@ TEST_CASE("low_discrepancy: after its dimensions a stream goes on at random; nev
         CHECK(stream.dimension == detail::sobol_dimensions);
     }
     CHECK(seen.size() > 3700); // of 3800; a few of 24 bits may be equal
+    // Past the dimensions, in each bounce, the numbers are those of the path itself.
+    for (std::uint64_t bounce = 0; bounce < 3; ++bounce) {
+        auto stream = sobol_stream(1, Pass::user, 0, 5);
+        auto random = random_stream(1, Pass::user, 0, 5);
+        for (std::uint32_t d = 0; d < detail::sobol_dimensions; ++d)
+            (void)next_1d<double>(stream);
+        start_bounce(stream, bounce);
+        start_bounce(random, bounce);
+        for (int i = 0; i < 4; ++i)
+            CHECK(next_1d<double>(stream) == next_1d<double>(random));
+    }
+    // A scrambling that takes the first point to the last place of all: still below 1.
+    const std::uint64_t far_seed = 4988170;
+    REQUIRE(detail::owen_scrambled(0, far_seed) >= 0xffffff80u);
+    SobolStream single{.seed = far_seed}, twice{.seed = far_seed};
+    CHECK(next_1d<float>(single) < 1.0f);
+    CHECK(next_1d<double>(twice) < 1.0);
+    CHECK(next_1d<double>(twice) < 1.0);
     // Another seed, pass, iteration or 2^32 paths on: another scrambling.
     const auto first = [](SobolStream s) { return next_1d<double>(s); };
     const double u = first(sobol_stream(1, Pass::user, 0, 5));

@@ -189,3 +189,26 @@ TEST_CASE_TEMPLATE("microfacet: at the corners of the square and of the angles",
                     REQUIRE(std::isfinite(ljus::detail::ggx_distribution(alpha, h)));
                 }
 }
+
+TEST_CASE("microfacet: no direction along the surface is better than another") {
+    // Turned about the normal, r(w) stays, and sampled facets are turned with it.
+    Draws draws;
+    for (int i = 0; i < 2000; ++i) {
+        const double alpha = draws.between(0.05, 1.0), turn = draws.between(0.0, 6.28);
+        const double c = std::cos(turn), s = std::sin(turn);
+        const auto turned = [&](const Vec3T<double>& v) {
+            return Vec3T<double>{c * v.x - s * v.y, s * v.x + c * v.y, v.z};
+        };
+        const double angle = draws.between(0.0, 1.5);
+        const Vec3T<double> wo{std::sin(angle), 0, std::cos(angle)};
+        CHECK(ljus::detail::ggx_lambda(alpha, turned(wo)) ==
+              doctest::Approx(std::hypot(std::cos(angle), alpha * std::sin(angle))));
+        // Facets in the middle of the cap lie in the plane of wo and the normal.
+        const ljus::Vec2T<double> middle{0.0, 0.0};
+        const auto facet =
+            ljus::detail::sample_visible_normal(alpha, turned(wo), middle);
+        const auto straight = ljus::detail::sample_visible_normal(alpha, wo, middle);
+        CHECK(glm::distance(facet, turned(straight)) < 1e-12);
+        CHECK(glm::length(facet) == doctest::Approx(1));
+    }
+}

@@ -127,6 +127,110 @@ TEST_CASE("parallel: progress is told by one thread at a time, ascending, to the
     }
 }
 
+#ifdef _OPENMP
+TEST_CASE("parallel: while one thread tells, the others work and do not tell") {
+    // The first to tell stays in progress() until nine more blocks are done: whoever
+    // finishes one meanwhile has something to tell, and must not.
+    std::atomic<int> inside{0}, overlaps{0}, done_blocks{0};
+    auto progress = [&](long long done, long long) {
+        if (++inside != 1) ++overlaps;
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+        while (done < 3 && done_blocks < 10 && std::chrono::steady_clock::now() < end)
+            std::this_thread::yield();
+        --inside;
+        return true;
+    };
+    CHECK(ljus::parallel_blocks(12, [&](long long) { ++done_blocks; },
+                                {.threads = 2, .progress = progress}));
+    CHECK(overlaps == 0);
+    CHECK(done_blocks == 12);
+}
+
+TEST_CASE("parallel: what a block threw is not forgotten because progress goes on") {
+    // Block 0 is told of while block 1 throws; then progress says "go on".
+    std::atomic<int> runs{0};
+    std::atomic<bool> thrown{false};
+    const auto wait_for = [](const std::atomic<bool>& flag) {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+        while (!flag && std::chrono::steady_clock::now() < end)
+            std::this_thread::yield();
+    };
+    std::atomic<bool> telling{false};
+    auto progress = [&](long long, long long) {
+        telling = true;
+        wait_for(thrown);
+        std::this_thread::sleep_for(std::chrono::milliseconds(30));
+        return true;
+    };
+    CHECK_THROWS_AS(ljus::parallel_blocks(1000,
+                                          [&](long long b) {
+                                              ++runs;
+                                              if (b != 1) return;
+                                              wait_for(telling);
+                                              thrown = true;
+                                              throw std::runtime_error("block 1");
+                                          },
+                                          {.threads = 2, .progress = progress}),
+                    std::runtime_error);
+    CHECK(runs == 2);
+}
+
+TEST_CASE("parallel: of two exceptions the first block's, whichever was thrown first") {
+    for (const long long late : {0LL, 1LL}) {
+        std::atomic<int> here{0};
+        std::atomic<bool> thrown{false};
+        const auto body = [&](long long b) {
+            const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+            ++here; // both have begun before any throws
+            while ((here < 2 || (b == late && !thrown)) &&
+                   std::chrono::steady_clock::now() < end)
+                std::this_thread::yield();
+            if (b == late) // the other one has been caught by then
+                std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            thrown = true;
+            throw std::runtime_error("block " + std::to_string(b));
+        };
+        CHECK_THROWS_WITH_AS(ljus::parallel_blocks(2, body, {.threads = 2}), "block 0",
+                             std::runtime_error);
+    }
+}
+
+TEST_CASE("parallel: as many threads as were asked for, and no more than blocks") {
+    // Each block waits for all the others, so that each has a thread of its own.
+    for (const int threads : {1, 2, 3, 5}) {
+        std::atomic<int> here{0};
+        int most = 0;
+        const auto meet = [&](long long) {
+            const int now = ++here;
+            const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+            while (here < threads && std::chrono::steady_clock::now() < end)
+                std::this_thread::yield();
+            if (now == threads) most = here;
+        };
+        CHECK(ljus::parallel_blocks(threads, meet, {.threads = threads}));
+        CHECK(most == threads);
+
+        std::atomic<int> inside{0}, crowd{0};
+        const auto count = [&](long long) {
+            const int now = ++inside;
+            if (now > crowd) crowd = now;
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            --inside;
+        };
+        CHECK(ljus::parallel_blocks(10 * threads, count, {.threads = threads}));
+        CHECK(crowd <= threads);
+    }
+}
+#endif
+
+TEST_CASE("parallel: false at the very last block: all blocks ran all the same") {
+    for (const int threads : {1, 2}) {
+        auto progress = [](long long done, long long total) { return done < total; };
+        CHECK(ljus::parallel_blocks(20, [](long long) {},
+                                    {.threads = threads, .progress = progress}));
+    }
+}
+
 TEST_CASE("parallel: false from progress stops the loop") {
     for (const int threads : {1, 2, 4}) {
         std::atomic<int> runs{0};
@@ -222,6 +326,8 @@ TEST_CASE("parallel: a number of threads without sense is refused with its value
                          std::invalid_argument);
     CHECK_THROWS_AS(ljus::parallel_blocks(1, [](long long) {}, {.threads = 1025}),
                     std::invalid_argument);
+    CHECK(ljus::max_threads_allowed == 1024);
+    CHECK(ljus::parallel_blocks(1, [](long long) {}, {.threads = 1024}));
     CHECK(ljus::detail::max_threads() >= 1);
 }
 

@@ -388,9 +388,8 @@ TEST_CASE_TEMPLATE("path tracing: two lamps give the sum of what each gives", T,
     }
 }
 
-TEST_CASE_TEMPLATE(
-    "path tracing: roulette and shadow rays leave the mean as it is", T,
-    float, double) {
+TEST_CASE_TEMPLATE("path tracing: roulette and shadow rays leave the mean as it is", T,
+                   float, double) {
     const auto scene = room<T>(true, true);
     const long long paths = 60000;
     for (const int depth : {1, 2, 1000}) {
@@ -411,6 +410,154 @@ TEST_CASE_TEMPLATE(
         CHECK(std::abs(apart(usual, blind)) < 3);
         CHECK(usual.error() < 0.02 * usual.mean);
         CHECK(blind.error() < 0.05 * usual.mean);
+    }
+}
+
+TEST_CASE("path tracing: the plain one, path by path, in closed form") {
+    using Hall =
+        Scene<Shapes<QuadT<double>>, Materials<LambertianT<double>, MirrorT<double>>>;
+    using D3 = glm::dvec3;
+    const QuadT<double> floor{{-9, 0, 9}, {18, 0, 0}, {0, 0, -18}}; // its normal is up
+    const QuadT<double> ceiling{{-9, 4, -9}, {18, 0, 0}, {0, 0, 18}}; // is down
+    const RayT<double> down{.origin{0, 2, 0}, .direction{0, -1, 0}};
+    const RayT<double> up{.origin{0, 2, 0}, .direction{0, 1, 0}};
+    const auto seen = [](const Hall& hall, const RayT<double>& ray, int depth,
+                         std::uint64_t path, Counts& counts) {
+        auto stream = random_stream(9, Pass::user, 0, path);
+        return D3(radiance(make_plain_path_tracer(hall, depth), ray, stream, counts));
+    };
+    // A lamp seen straight, from its front, and in a mirror: once each.
+    Hall lit;
+    const auto black = lit.add(LambertianT<double>{.albedo = D3{0}});
+    lit.add(floor, lit.add(MirrorT<double>{.reflectance{0.9, 0.5, 0.2}}));
+    lit.add(ceiling, black, D3{3, 4, 5});
+    for (const int depth : {1, 2, 7})
+        for (std::uint64_t path = 0; path < 20; ++path) {
+            Counts counts;
+            CHECK(seen(lit, up, depth, path, counts) == D3{3, 4, 5});
+            CHECK(counts.bounce_rays == 0);
+            CHECK(counts.shadow_rays == 0);
+            const D3 mirrored = seen(lit, down, depth, path, counts);
+            CHECK(glm::distance(mirrored, depth == 1 ? D3{0} : D3{2.7, 2, 1}) < 1e-12);
+            CHECK(counts.bounce_rays == 1);
+        }
+    // Between plates that reflect all and emit all: one more L from each bounce, half of
+    // it by a shadow ray. A lamp of its own is met only where no shadow ray could go, so
+    // from outside, on the back of the ceiling, nothing is seen.
+    Counts counts;
+    CHECK(seen(lit, {.origin{0, 5, 0}, .direction{0, -1, 0}}, 5, 1, counts) == D3{0});
+    CHECK(seen(lit, {.origin{0, 2, 0}, .direction{1, 0, 0}}, 5, 1, counts) == D3{0});
+
+    // A point light over a plane, twice; each is asked half of the times, for both.
+    Hall two;
+    two.add(floor, two.add(LambertianT<double>{.albedo{0.8, 0.4, 0.2}}));
+    two.add(PointLightT<double>{.position{0, 2, 0}, .intensity{8, 4, 2}});
+    two.add(PointLightT<double>{.position{0, 1, 0}, .intensity{1, 2, 3}});
+    D3 mean{0};
+    int first = 0;
+    for (std::uint64_t path = 0; path < 1000; ++path) {
+        counts = {};
+        const D3 one = seen(two, down, 1, path, counts);
+        CHECK(counts.shadow_rays == 1);
+        CHECK(counts.bounce_rays == 1);
+        const D3 by_first = 2.0 * D3{0.8, 0.4, 0.2} / pi * D3{8, 4, 2} / 4.0;
+        const D3 by_second = 2.0 * D3{0.8, 0.4, 0.2} / pi * D3{1, 2, 3};
+        const bool is_first = glm::distance(one, by_first) < 1e-9;
+        CHECK((is_first || glm::distance(one, by_second) < 1e-9));
+        first += is_first;
+        mean += one / 1000.0;
+    }
+    CHECK(std::abs(first - 500) < 5 * std::sqrt(250.0)); // once in 1.7 million
+
+    // Without a light nobody is asked, on a matt floor and in a mirror.
+    Hall dark;
+    dark.add(floor, dark.add(LambertianT<double>{.albedo = D3{1}}));
+    dark.add(ceiling, dark.add(MirrorT<double>{}));
+    counts = {};
+    CHECK(seen(dark, down, 9, 1, counts) == D3{0});
+    CHECK(seen(dark, up, 9, 1, counts) == D3{0});
+    CHECK(counts.shadow_rays == 0);
+
+    // Facing mirrors end at the depth; nothing else would end a path of throughput 1.
+    Hall mirrors;
+    const auto mirror = mirrors.add(MirrorT<double>{.reflectance = D3{1}});
+    mirrors.add(floor, mirror);
+    mirrors.add(ceiling, mirror);
+    for (const int depth : {1, 4, 5, 6, 50}) {
+        counts = {};
+        CHECK(seen(mirrors, up, depth, 3, counts) == D3{0});
+        CHECK(counts.bounce_rays == std::uint64_t(depth));
+    }
+    // Where a mirror takes half, roulette keeps a path with its throughput, from the
+    // fifth surface on: 2^-5 of them live to the sixth.
+    Hall grey;
+    const auto half = grey.add(MirrorT<double>{.reflectance = D3{0.5}});
+    grey.add(floor, half);
+    grey.add(ceiling, half);
+    int sixth = 0;
+    const int games = 8192;
+    for (std::uint64_t path = 0; path < games; ++path) {
+        counts = {};
+        (void)seen(grey, up, 6, path, counts);
+        CHECK(counts.bounce_rays >= 4);
+        sixth += counts.bounce_rays > 4;
+    }
+    CHECK(std::abs(sixth - games / 32.0) < 5 * std::sqrt(games / 32.0));
+    CHECK_NOTHROW((void)make_plain_path_tracer(grey, 1));
+}
+
+TEST_CASE("path tracing: the log adds up, path by path, and names who carried what") {
+    using Hall =
+        Scene<Shapes<QuadT<double>>, Materials<LambertianT<double>, MirrorT<double>>>;
+    using D3 = glm::dvec3;
+    Hall hall;
+    const auto matt = hall.add(LambertianT<double>{.albedo{0.8, 0.4, 0.2}});
+    const auto mirror = hall.add(MirrorT<double>{.reflectance{0.9, 0.5, 0.2}});
+    hall.add(QuadT<double>{{-9, 0, 9}, {18, 0, 0}, {0, 0, -18}}, matt);
+    hall.add(QuadT<double>{{-9, 0, -9}, {18, 0, 0}, {0, 9, 0}}, mirror);
+    hall.add(QuadT<double>{{-2, 4, -2}, {4, 0, 0}, {0, 0, 4}}, matt, D3{3, 4, 5});
+    hall.add(PointLightT<double>{.position{3, 2, 1}, .intensity{8, 4, 2}});
+    const auto tracer = make_path_tracer(hall, {.max_depth = 6});
+    PathLog log; // one for all: each path begins anew
+    int emissions = 0, shadows = 0;
+    for (std::uint64_t path = 0; path < 300; ++path) {
+        auto stream = random_stream(4, Pass::user, 0, path);
+        const auto way = D3(next_3d<double>(stream)) * 2.0 - D3{1, 1, 2};
+        const RayT<double> ray{.origin{0, 2, 3}, .direction = glm::normalize(way)};
+        Counts counts;
+        log.lines.clear();
+        const D3 seen(radiance(tracer, ray, stream, counts, log));
+        D3 told{0};
+        for (const PathLogLine& line : log.lines) {
+            CHECK(line.path.size() <= 8); // E, six turns, L
+            if (line.what == "vertex") continue;
+            told += line.value;
+            const bool emission = line.what == "emission";
+            CHECK((emission || line.what == "shadow ray"));
+            CHECK(line.path.ends_with(emission ? "L" : "DL"));
+            ++(emission ? emissions : shadows);
+        }
+        CHECK(glm::distance(told, seen) <= 1e-12 * glm::length(seen));
+    }
+    CHECK(emissions > 20);
+    CHECK(shadows > 200);
+}
+
+TEST_CASE("path tracing: each heuristic has the weight that its formula says") {
+    // Of densities 3 and 1: balance 3/4, power 9/10; and 1/4, 1/10 the other way.
+    const auto weight = [](MisHeuristic heuristic, double a, double b) {
+        return detail::mis_weight(heuristic, a, b);
+    };
+    const double infinite = std::numeric_limits<double>::infinity();
+    for (const double scale : {1e-150, 1.0, 1e150}) {
+        CHECK(weight(MisHeuristic::balance, 3 * scale, scale) == doctest::Approx(0.75));
+        CHECK(weight(MisHeuristic::balance, scale, 3 * scale) == doctest::Approx(0.25));
+        CHECK(weight(MisHeuristic::power, 3 * scale, scale) == doctest::Approx(0.9));
+        CHECK(weight(MisHeuristic::power, scale, 3 * scale) == doctest::Approx(0.1));
+        CHECK(weight(MisHeuristic::power, scale, scale) == 0.5);
+        CHECK(weight(MisHeuristic::balance, scale, scale) == 0.5);
+        CHECK(weight(MisHeuristic::power, scale, 0) == 1);
+        CHECK(weight(MisHeuristic::balance, scale, infinite) == 0);
     }
 }
 

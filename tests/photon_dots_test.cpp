@@ -170,3 +170,52 @@ TEST_CASE("photon dots: the drawing shows each surface in its colour, lamps brig
     CHECK(pixel(image, 2, 2) == Rgb{0}); // nothing there
     CHECK_THROWS_AS((void)scene_drawing(room, front(), 0, 5), std::invalid_argument);
 }
+
+TEST_CASE("photon dots: in the corners of a picture too, and just outside of none") {
+    // A wall as large as the picture: its corners are those of the picture.
+    Room room;
+    room.add(Quad{.corner{-50, -50, 0}, .edge_u{100, 0, 0}, .edge_v{0, 100, 0}},
+             room.add(Lambertian{.albedo = Rgb{0.5f}}));
+    const Image drawn = scene_drawing(room, front(), 40, 30);
+    for (const Rgb& color : drawn.pixels) CHECK(max_component(color) > 0);
+    const auto seen = [&](float x, float y) {
+        const auto ray = primary_ray(front(), Vec2{x, y}, 100, 100);
+        const auto hit = closest_hit(room, ray);
+        REQUIRE(hit);
+        const Vec3 place = ray.origin + hit->at.t * ray.direction;
+        return photon_in_sight(room, front(), photon_at(place, {0, 0, -1}), 100, 100)
+            .has_value();
+    };
+    for (const float near : {0.1f, 50.0f, 99.9f})
+        for (const float also : {0.1f, 50.0f, 99.9f}) CHECK(seen(near, also));
+    for (const float out : {-0.1f, 100.1f}) {
+        CHECK_FALSE(seen(out, 50));
+        CHECK_FALSE(seen(50, out));
+    }
+    // A dot in each corner reaches the corner's pixel.
+    for (const float x : {0.5f, 7.5f})
+        for (const float y : {0.5f, 5.5f}) {
+            Image image = make_image(8, 6);
+            detail::add_dot(image, Vec2{x, y}, Rgb{1}, {.radius = 2});
+            CHECK(pixel(image, int(x), int(y)).x > 0);
+            int lit = 0;
+            for (const Rgb& color : image.pixels) lit += color.x > 0;
+            CHECK(lit == 4); // itself and its three neighbours
+        }
+}
+
+TEST_CASE("photon dots: the drawing darkens by the cosine, as it says") {
+    // 0.16 (0.3 + 0.7 cos) times the albedo, away from the middle of the picture.
+    const Room room = wall(true);
+    const Image image = scene_drawing(room, front(), 100, 100);
+    for (const int x : {50, 60, 68}) {
+        const auto ray = primary_ray(front(), Vec2{float(x) + 0.5f, 50.5f}, 100, 100);
+        const double cosine = -double(ray.direction.z);
+        CHECK(pixel(image, x, 50).x ==
+              doctest::Approx(0.16 * (0.3 + 0.7 * cosine) * 0.5).epsilon(1e-4));
+    }
+    // A faint photon is as bright as a strong one.
+    Photon faint = photon_at({}, {0, 0, 1});
+    faint.flux *= 1e-6f;
+    CHECK(glm::distance(dot_color(faint), Rgb{0.25f, 0.5f, 1}) < 1e-6f);
+}

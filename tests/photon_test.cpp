@@ -153,3 +153,31 @@ TEST_CASE("photon: a pass that cannot be made is refused with a sentence") {
     scene.add(ljus::PointLight{});
     CHECK_THROWS_AS((void)trace({.photons = 10}), std::invalid_argument);
 }
+
+TEST_CASE("photon: an account is scaled part by part") {
+    FluxAudit audit{RgbD{1, 2, 3}, RgbD{4}, RgbD{5}, RgbD{6}, RgbD{-7, 8, 9}};
+    audit *= 0.5;
+    CHECK(audit.emitted == RgbD{0.5, 1, 1.5});
+    CHECK(audit.absorbed == RgbD{2});
+    CHECK(audit.escaped == RgbD{2.5});
+    CHECK(audit.cut == RgbD{3});
+    CHECK(audit.roulette == RgbD{-3.5, 4, 4.5});
+}
+
+TEST_CASE("photon: kinds are a bit each, and a side is where it came from") {
+    using ljus::PhotonKind, ljus::PhotonKinds;
+    const PhotonKind kinds[] = {PhotonKind::direct, PhotonKind::caustic,
+                                PhotonKind::indirect, PhotonKind::shadow};
+    for (int i = 0; i < 4; ++i) {
+        CHECK(ljus::one_kind(kinds[i]).bits == (1 << i));
+        CHECK(ljus::all_kinds.has(kinds[i]));
+        CHECK(ljus::light_kinds.has(kinds[i]) == (i != 3));
+        CHECK_FALSE(PhotonKinds{}.has(kinds[i]));
+        for (int k = 0; k < 4; ++k)
+            CHECK(ljus::one_kind(kinds[i]).has(kinds[k]) == (i == k));
+    }
+    const ljus::Vec3 up{0, 1, 0};
+    CHECK(ljus::photon_side(ljus::Vec3{1, -1, 0}, up) == 1);
+    CHECK(ljus::photon_side(ljus::Vec3{1, 1, 0}, up) == -1);
+    CHECK(ljus::photon_side(ljus::Vec3{1, 0, 0}, up) == -1); // along it: from behind
+}

@@ -295,3 +295,12 @@ TEST_CASE("polynomial: the first change of sign") {
         std::array{-0.1 * 0.5 * 0.8, 0.05 + 0.08 + 0.4, -1.4, 1.0}, 0.0, 1.0);
     CHECK(*detail::first_change(three) == doctest::Approx(0.1).epsilon(1e-12));
 }
+
+TEST_CASE("polynomial: the bound of rounding is that of the largest coefficient") {
+    const double eps = std::numeric_limits<double>::epsilon();
+    using P = detail::BernsteinT<double, 3>;
+    CHECK(detail::noise(P{{1, -5, 2, 0}}) == 8 * eps * 5);
+    CHECK(detail::noise(P{{-7, 5, -2, 1}}) == 8 * eps * 7);
+    CHECK(detail::noise(P{{1, 2, 3, 4}}) == 8 * eps * 4);
+    CHECK(detail::noise(P{{0, 0, 0, 0}}) == 0);
+}

@@ -122,3 +122,45 @@ TEST_CASE("quad: sampled points cover its area evenly") {
     // A false alarm once in a million.
     CHECK(ljus_test::chi_square(cells) < ljus_test::chi_square_limit(63));
 }
+
+TEST_CASE("quad: the point at u, v, and how far rounding may have moved it") {
+    Numbers n;
+    double largest = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const double size = n.power(-2, 2);
+        const Quad quad{Vec3(n.power(-2, 2) * n.direction()), Vec3(size * n.point(1)),
+                        Vec3(size * n.point(1))};
+        const auto u = n.square<float>();
+        const SurfacePoint p = sample_area(quad, u);
+        REQUIRE(p.position == point_at(quad, u.x, u.y).position);
+        const glm::dvec3 b = double(u.x) * glm::dvec3(quad.edge_u);
+        const glm::dvec3 c = double(u.y) * glm::dvec3(quad.edge_v);
+        const glm::dvec3 off =
+            glm::abs(glm::dvec3(p.position) - (glm::dvec3(quad.corner) + b + c));
+        const glm::dvec3 all =
+            glm::abs(glm::dvec3(quad.corner)) + glm::abs(b) + glm::abs(c);
+        for (int axis = 0; axis < 3; ++axis) {
+            REQUIRE(off[axis] <= double(p.error[axis]));
+            // Five roundings of half a unit in 2^23 each.
+            REQUIRE(double(p.error[axis]) <= 1.01 * 5 * 0x1p-24 * all[axis]);
+            largest = std::max(largest, off[axis] / double(p.error[axis]));
+        }
+    }
+    CHECK(largest > 0.2);
+}
+
+TEST_CASE("quad: without an area in exact arithmetic it is never hit") {
+    // The edges are the same line; rounding their cross product, in float, is not 0.
+    Numbers n;
+    for (int i = 0; i < 20000; ++i) {
+        const Vec3 edge(n.point(1));
+        const Quad quad{Vec3(n.point(1)), edge, edge * 0.5f};
+        const Vec3 origin(n.point(4));
+        const Ray ray{.origin = origin,
+                      .direction =
+                          point_at(quad, float(n.next()), float(n.next())).position -
+                          origin};
+        REQUIRE_FALSE(intersect<float>(ray, quad));
+        REQUIRE_FALSE(intersect(ray, quad));
+    }
+}

@@ -285,3 +285,22 @@ TEST_CASE("radiosity: the same light as path tracing, as patches shrink") {
             "; halved patches: ", first / second, " times nearer");
     CHECK(first > 2 * second);
 }
+
+TEST_CASE(
+    "radiosity: shooting begins with the patch that has most flux, of any colour") {
+    using RgbD = RgbT<double>;
+    FormFactors factors;
+    factors.area = {1, 10, 1, 1};
+    const auto first = [&](std::vector<RgbD> unsent) {
+        return detail::brightest(factors, unsent);
+    };
+    const RgbD dark{0}, some{1, 1, 1};
+    for (int channel = 0; channel < 3; ++channel) {
+        RgbD lamp{0};
+        lamp[channel] = 40;
+        CHECK(first({some, some, lamp, some}) == 2);
+    }
+    CHECK(first({some, some, some, some}) == 1); // ten times as large
+    CHECK(first({some, dark, some, some}) == 0); // the first of equals
+    CHECK(first({dark, dark, dark, dark}) == 0);
+}

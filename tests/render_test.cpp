@@ -1,7 +1,10 @@
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <set>
 
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/render.hpp"
@@ -26,7 +29,37 @@ RgbT<T> radiance(const Probe& probe, const RayT<T>& ray, RandomStream& stream, C
             T(1)};
 }
 
+/// A renderer that answers with the numbers it was given.
+struct Echo {
+    using Stream = RandomStream;
+};
+template <std::floating_point T, typename Log = NoLog>
+RgbT<T> radiance(const Echo&, const RayT<T>&, RandomStream& stream, Counts&,
+                 Log&& = {}) {
+    return next_3d<T>(stream);
+}
+
 } // namespace
+
+TEST_CASE("render: no ray of a picture has the numbers of another one") {
+    // Of 24 bits each: that two of 3200 triples agree by chance is as good as impossible.
+    std::set<std::array<double, 3>> seen;
+    for (const std::uint64_t seed : {1u, 2u}) {
+        const RenderSettings picture{
+            .width = 20, .height = 20, .samples = 4, .seed = seed};
+        const Pattern pattern = make_pattern(picture.sampling, 4);
+        for (int y = 0; y < 20; ++y)
+            for (int x = 0; x < 20; ++x)
+                for (int i = 0; i < 4; ++i) {
+                    Counts counts;
+                    const auto numbers = detail::sample_pixel(
+                        Echo{}, CameraT<double>{}, picture, pattern, x, y, i, counts);
+                    seen.insert({numbers.x, numbers.y, numbers.z});
+                    CHECK(counts.camera_rays == 1);
+                }
+    }
+    CHECK(seen.size() == 3200);
+}
 
 TEST_CASE("render: as many rays are traced as were asked for, from 1 to 1000") {
     const Camera camera;

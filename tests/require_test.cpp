@@ -54,7 +54,10 @@ TEST_CASE("require: the unit interval has both its ends") {
 
 TEST_CASE("require: a colour is checked in every channel") {
     CHECK_NOTHROW(require_unit("albedo", Rgb{0, 0.5f, 1}));
+    CHECK_NOTHROW(require_unit("albedo", Rgb{0.0f}));
+    CHECK_NOTHROW(require_unit("albedo", Rgb{1.0f}));
     CHECK_NOTHROW(require_radiance("light", Rgb{0, 15, 1e6f}));
+    CHECK_NOTHROW(require_radiance("light", Rgb{0.0f}));
     for (int channel = 0; channel < 3; ++channel) {
         for (const float bad : {-0.1f, 1.1f, nan_value, infinite}) {
             Rgb albedo{0.5f};
@@ -91,6 +94,11 @@ TEST_CASE("require: a number reads as a person writes it") {
     CHECK(to_text(-infinite) == "-infinity");
     CHECK(to_text(Vec3{-0.25f, 1e9f, nan_value}) == "(-0.25, 1e+9, NaN)");
     CHECK(to_text(-17LL) == "-17");
+    CHECK(to_text(std::numeric_limits<long long>::min()) == "-9223372036854775808");
+    CHECK(to_text(-2.2250738585072014e-308) == "-2.2250738585072014e-308");
+    CHECK(to_text(1.5e-10f) == "1.5e-10");
+    CHECK(to_text(123457.0) == "123457");
+    CHECK(to_text(100000.0f) == "100000");
 }
 
 TEST_CASE("require: a number just outside its range is not shown as the range's end") {

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "ljus/geometry/metaballs.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
@@ -210,4 +211,53 @@ TEST_CASE("scene: every bad input is one sentence with its name and value") {
     CHECK(room.lights.empty());
     CHECK(std::get<0>(room.materials).size() == 1);
     for (const auto& objects : room.objects) CHECK(objects.empty());
+}
+
+TEST_CASE("scene: a sun shines on all that there is, whenever it was added") {
+    // Balls in two corners of a box from (-1, 2, 3) to (3, 8, 15), one of them beyond
+    // the other in each coordinate, and one within: half its diagonal is 7.
+    using Sky = Scene<Shapes<SphereT<double>>, Materials<LambertianT<double>>>;
+    const Vec3T<double> low{-1, 2, 3}, high{3, 8, 15};
+    for (int turn = 0; turn < 4; ++turn)
+        for (const bool low_first : {true, false}) {
+            Sky sky;
+            const auto grey = sky.add(LambertianT<double>{});
+            const SphereT<double> below{low + 0.5, 0.5}, above{high - 0.25, 0.25};
+            const auto sun = [&](int when) {
+                if (turn == when) sky.add(SunLightT<double>{.direction{0, -1, 0}});
+            };
+            sun(0);
+            sky.add(low_first ? below : above, grey);
+            sun(1);
+            sky.add(low_first ? above : below, grey);
+            sun(2);
+            sky.add(SphereT<double>{{1, 5, 9}, 1}, grey);
+            sun(3);
+            REQUIRE(sky.lights.size() == 1);
+            CHECK(glm::distance(sky.lights[0].position, Vec3T<double>{1, 5, 9}) < 1e-9);
+            CHECK(sky.lights[0].radius == doctest::Approx(7.007));
+        }
+}
+
+TEST_CASE("scene: what cannot be a light is refused as one, and shines on nobody") {
+    Scene<Shapes<Sphere, Metaballs>, Materials<Lambertian, ThinGlass>> scene;
+    const auto pane = scene.add(ThinGlass{});
+    const auto grey = scene.add(Lambertian{});
+    CHECK(refusal([&] {
+              scene.add(Sphere{}, pane, Rgb{1});
+          }).find("the radiance of a thin surface is (1, 1, 1)") == 0);
+    Metaballs shape;
+    shape.blobs.push_back({});
+    CHECK(refusal([&] {
+              scene.add(shape, grey, Rgb{1});
+          }).find("the radiance of a shape of unknown area is (1, 1, 1)") == 0);
+    CHECK(scene.lights.empty());
+    CHECK(scene.size() == 0);
+    // One past the last type, and one past the last material.
+    CHECK(refusal([&] {
+              scene.add(Sphere{}, MaterialId{2, 0});
+          }).find("the material's type is 2") == 0);
+    CHECK(refusal([&] {
+              scene.add(Sphere{}, MaterialId{1, 1});
+          }).find("the material's number is 1") == 0);
 }

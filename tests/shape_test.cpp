@@ -10,7 +10,10 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <type_traits>
+#include <vector>
 
+#include "ljus/geometry/moving.hpp"
 #include "support/numbers.hpp"
 
 using namespace ljus;
@@ -173,4 +176,169 @@ TEST_CASE("shape: what no picture can be made of is refused by name") {
                 CHECK_THROWS_AS(check(q), std::invalid_argument);
             }
         }
+}
+
+namespace {
+
+/// What rounding has done to a position, in parts of the bound that comes with it: at
+/// most 1 in each coordinate.
+float part_of_bound(const SurfacePoint& point, const glm::dvec3& truth) {
+    const glm::dvec3 off = glm::abs(glm::dvec3(point.position) - truth);
+    return max_component(Vec3(off / glm::dvec3(point.error)));
+}
+
+} // namespace
+
+TEST_CASE("shape: the error of a sphere's point holds its rounding, and little more") {
+    Numbers n;
+    float largest = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const double radius = n.power(-2, 2);
+        const Sphere ball{Vec3(n.power(-2, 3) * n.direction()), float(radius)};
+        const Vec3 origin = ball.center + Vec3(3 * radius * n.direction());
+        const Ray ray{.origin = origin,
+                      .direction = glm::normalize(ball.center - origin)};
+        const auto t = intersect<double>(ray, ball);
+        REQUIRE(t);
+        for (const SurfacePoint& p : {surface_point(ball, ray, as_hit(*t)),
+                                      sample_area(ball, n.square<float>())}) {
+            const glm::dvec3 truth =
+                glm::dvec3(ball.center) + double(ball.radius) * glm::dvec3(p.normal);
+            largest = std::max(largest, part_of_bound(p, truth));
+            // Nine tenths of a millionth of the coordinates, not nine tenths of them.
+            const glm::vec3 size = glm::abs(ball.center) + ball.radius;
+            for (int axis = 0; axis < 3; ++axis) {
+                REQUIRE(p.error[axis] > 0);
+                REQUIRE(p.error[axis] < 1e-6f * size[axis]);
+            }
+        }
+    }
+    CHECK(largest <= 1);
+    CHECK(largest > 0.1);
+}
+
+TEST_CASE("shape: the sphere around a triangle stands at its middle") {
+    Numbers n;
+    for (int i = 0; i < 2000; ++i) {
+        const auto middle = n.point(100);
+        const auto corner = [&] { return Vec3(middle + n.point(1)); };
+        const Triangle t{corner(), corner(), corner()};
+        const Sphere ball = bounding_sphere(t);
+        const glm::dvec3 mean =
+            (glm::dvec3(t.v1) + glm::dvec3(t.v2) + glm::dvec3(t.v3)) / 3.0;
+        REQUIRE(glm::distance(glm::dvec3(ball.center), mean) < 1e-4);
+        double farthest = 0;
+        for (const Vec3& v : {t.v1, t.v2, t.v3})
+            farthest = std::max(farthest, glm::distance(glm::dvec3(v), mean));
+        REQUIRE(std::abs(double(ball.radius) - farthest) < 1e-4);
+    }
+}
+
+TEST_CASE_TEMPLATE("shape: a moving one is where its time says, and in its bounds", S,
+                   SphereT<float>, QuadT<float>, TriangleT<float>) {
+    Numbers n;
+    const auto vec = [&](double size) { return Vec3(n.point(size)); };
+    const auto any = [&]() -> S {
+        if constexpr (std::is_same_v<S, Sphere>)
+            return {vec(20), float(n.power(-1, 1))};
+        else if constexpr (std::is_same_v<S, Quad>)
+            return {vec(20), vec(3), vec(3)};
+        else
+            return {vec(20), vec(20), vec(20)};
+    };
+    // A shape moved by hand: the places of its points, in double.
+    const auto points = [](const S& shape) -> std::vector<glm::dvec3> {
+        if constexpr (std::is_same_v<S, Sphere>) {
+            const glm::dvec3 c(shape.center);
+            const double r = shape.radius;
+            return {c + glm::dvec3{r, 0, 0}, c - glm::dvec3{r, 0, 0},
+                    c + glm::dvec3{0, r, 0}, c - glm::dvec3{0, r, 0},
+                    c + glm::dvec3{0, 0, r}, c - glm::dvec3{0, 0, r}};
+        } else if constexpr (std::is_same_v<S, Quad>) {
+            const glm::dvec3 c(shape.corner), u(shape.edge_u), v(shape.edge_v);
+            return {c, c + u, c + v, c + u + v};
+        } else {
+            return {glm::dvec3(shape.v1), glm::dvec3(shape.v2), glm::dvec3(shape.v3)};
+        }
+    };
+    int hits = 0;
+    for (int i = 0; i < 500; ++i) {
+        const Moving<S> moving{any(), vec(30)};
+        const glm::dvec3 way(moving.way);
+        const Sphere ball = bounding_sphere(moving),
+                     still = bounding_sphere(moving.shape);
+        const Box box = bounds(moving), first = bounds(moving.shape);
+        for (const float time : {0.0f, 0.25f, 1.0f}) {
+            const S then = at_time(moving, time);
+            const auto before = points(moving.shape), after = points(then);
+            for (std::size_t k = 0; k < before.size(); ++k) {
+                const glm::dvec3 there = before[k] + double(time) * way;
+                REQUIRE(glm::distance(after[k], there) < 1e-4);
+                // Both bounds hold it; the box in spite of the rounding, exactly.
+                REQUIRE(glm::distance(glm::dvec3(ball.center), there) <
+                        double(ball.radius) * (1 + 1e-5));
+                for (int axis = 0; axis < 3; ++axis) {
+                    REQUIRE(double(box.low[axis]) <= there[axis]);
+                    REQUIRE(double(box.high[axis]) >= there[axis]);
+                    REQUIRE(double(box.low[axis]) <= after[k][axis]);
+                    REQUIRE(double(box.high[axis]) >= after[k][axis]);
+                }
+            }
+            const Vec3 aim = Vec3(after[0] + after[1]) / 2.0f, origin = vec(60);
+            const Ray ray{.origin = origin,
+                          .direction = glm::normalize(aim - origin),
+                          .time = time};
+            const auto hit = intersect<float>(ray, moving);
+            const auto by_hand = intersect<float>(ray, then);
+            REQUIRE(bool(hit) == bool(by_hand));
+            if (!hit) continue;
+            ++hits;
+            REQUIRE(as_hit(*hit).t == as_hit(*by_hand).t);
+            REQUIRE(surface_point(moving, ray, as_hit(*hit)).position ==
+                    surface_point(then, ray, as_hit(*by_hand)).position);
+        }
+        // No larger than they have to be.
+        REQUIRE(ball.radius ==
+                doctest::Approx(still.radius + glm::length(moving.way) / 2));
+        for (int axis = 0; axis < 3; ++axis)
+            REQUIRE(box.high[axis] - box.low[axis] ==
+                    doctest::Approx(first.high[axis] - first.low[axis] +
+                                    std::abs(moving.way[axis]))
+                        .epsilon(1e-4));
+        REQUIRE(area(moving) == area(moving.shape));
+        const auto u = n.square<float>();
+        REQUIRE(sample_area(moving, u).position ==
+                sample_area(moving.shape, u).position);
+    }
+    CHECK(hits > 800);
+
+    Moving<S> bad{any(), {1, 2, 3}};
+    CHECK_NOTHROW(check(bad));
+    for (int axis = 0; axis < 3; ++axis) {
+        bad.way = {1, 2, 3};
+        bad.way[axis] = infinity;
+        CHECK_THROWS_AS(check(bad), std::invalid_argument);
+    }
+    CHECK_THROWS_WITH_AS(check(Moving<S>{any(), {0, not_a_number, 0}}),
+                         "moving.way is (0, NaN, 0); it must be finite in every "
+                         "component.",
+                         std::invalid_argument);
+    CHECK(detail::is_moving<Moving<S>>);
+    CHECK_FALSE(detail::is_moving<S>);
+    CHECK(detail::is_flat<S> == !std::is_same_v<S, Sphere>);
+    CHECK(std::is_same_v<decltype(at_time(any(), 0.5f)), const S&>);
+}
+
+TEST_CASE("shape: a ball that no picture can be made of is refused by name") {
+    CHECK_NOTHROW(check(Sphere{{1, 2, 3}, 1e-30f}));
+    for (const float bad : {0.0f, -1.0f, infinity, not_a_number})
+        CHECK_THROWS_AS(check(Sphere{{1, 2, 3}, bad}), std::invalid_argument);
+    for (int axis = 0; axis < 3; ++axis) {
+        Sphere ball;
+        ball.center[axis] = not_a_number;
+        CHECK_THROWS_AS(check(ball), std::invalid_argument);
+    }
+    CHECK_THROWS_WITH_AS(check(Sphere{.radius = 0}),
+                         "sphere.radius is 0; it must be finite and above 0.",
+                         std::invalid_argument);
 }

@@ -246,3 +246,43 @@ TEST_CASE("solid angle: a surface seen edge-on gives no light, not a wrong one")
     const auto on_it = sample_towards(lamp, Vec3{0.5f, 0.5f, 0}, Vec2{0.5f, 0.5f});
     CHECK_FALSE(std::isfinite(on_it.pdf));
 }
+
+TEST_CASE("solid angle: what stands for a lamp is its middle, or its nearest point") {
+    const QuadT<double> quad{{-1, 4, -2}, {2, 0, 0}, {0, 0, 6}};
+    const Vec3T<double> eye{3, 1, 2};
+    CHECK(sample_towards(quad, eye, center_sample(quad)).point.position ==
+          Vec3T<double>{0, 4, 1});
+    const SphereT<double> ball{{3, 1, -4}, 2};
+    CHECK(glm::distance(sample_towards(ball, eye, center_sample(ball)).point.position,
+                        Vec3T<double>{3, 1, -2}) < 1e-12);
+}
+
+TEST_CASE("solid angle: on a far sphere, whichever way it lies, nobody is outside") {
+    for (const float far : {-1000.0f, 1000.0f}) {
+        const Sphere ball{Vec3{far}, 1};
+        for (const Vec3& way : {Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}}) {
+            // A point of it, and one farther out than the rounding reaches.
+            CHECK_FALSE(detail::sees_cone(ball, ball.center + 1.0002f * way));
+            CHECK(detail::sees_cone(ball, ball.center + 1.01f * way));
+        }
+    }
+}
+
+TEST_CASE("solid angle: a sampled point is where the observer's ray meets the ball") {
+    Numbers n;
+    for (int i = 0; i < 5000; ++i) {
+        const SphereT<double> ball{n.point(5), n.power(-1, 1)};
+        const auto from = ball.center + ball.radius * n.between(1.1, 9) * n.direction();
+        auto u = n.square<double>();
+        if (i % 10 == 0) u.x = u.y = 1 - 0x1p-53; // the rim
+        const auto seen = sample_towards(ball, from, u);
+        REQUIRE(is_finite(seen.point.position));
+        const auto way = glm::normalize(seen.point.position - from);
+        REQUIRE(glm::dot(way, seen.point.normal) < 1e-6);
+        const auto t = intersect(RayT<double>{.origin = from, .direction = way}, ball);
+        if (i % 10 == 0) continue; // beside the rim there may be no hit
+        REQUIRE(t);
+        REQUIRE(std::abs(*t - glm::distance(seen.point.position, from)) <
+                1e-6 * ball.radius);
+    }
+}

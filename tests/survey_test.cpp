@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <string>
@@ -173,6 +175,58 @@ TEST_CASE("survey: each pass is on or off for a reason that is printed") {
     }
 }
 
+TEST_CASE("survey: without a diffuse surface nothing is lit, whatever shines") {
+    Room hall;
+    hall.add(Sphere{}, hall.add(Mirror{}));
+    hall.add(PointLight{.position{0, 5, 0}, .intensity = Rgb{1}});
+    PhotonMappingSettings settings{.indirect = IndirectLight::photons,
+                                   .keep_general_map = true};
+    const SceneNeeds found = needs(hall);
+    CHECK(found.diffuse == 0);
+    CHECK(found.specular == 1);
+    CHECK(found.lights == 1);
+    const Plan plan = survey(hall, settings);
+    for (const PlanItem* item :
+         {&plan.shadow_rays, &plan.indirect_rays, &plan.caustics_map, &plan.general_map,
+          &plan.shadow_photons, &plan.thin_film, &plan.tree}) {
+        CAPTURE(item->pass);
+        CHECK_FALSE(item->on);
+    }
+    CHECK(plan.shadow_rays.why ==
+          "0 of 1 objects reflect diffusely, lit by 1 light(s)");
+    CHECK(plan.indirect_rays.why == "nothing is lit");
+    CHECK(plan.caustics_map.why == "nothing is lit");
+    CHECK(plan.shadow_photons.why == "no map keeps them");
+    CHECK(plan.thin_film.why == "no material is one");
+    CHECK(plan.tree.why == "1 object(s), a loop asks each");
+}
+
+TEST_CASE("survey: the lines as they are printed, and one photon is enough") {
+    PhotonMappingSettings settings{.indirect = IndirectLight::map};
+    settings.caustics.photons = 1;
+    settings.general.photons = 1;
+    const Plan plan = survey(make_room<float>(Ball::glass, Lamp::sphere, 1), settings);
+    CHECK(plan.caustics_map.on);
+    CHECK(plan.general_map.on);
+    CHECK(plan.shadow_photons.why == "the general map keeps them");
+    CHECK(plan.general_map.why == "indirect light is asked of it");
+    CHECK(plan.indirect_rays.why == "7 of 8 objects light each other");
+    CHECK(to_text(plan.tree) ==
+          "tree            on   8 objects, a tree finds the first on a ray\n");
+    CHECK(to_text(plan.thin_film) == "thin film       off  no material is one\n");
+    std::string all;
+    for (const PlanItem* item : plan.items()) all += to_text(*item);
+    for (const std::string& type : plan.types) all += type + "\n";
+    CHECK(to_text(plan) == all);
+    CHECK(all.starts_with("shadow rays     on   7 of 8 objects reflect diffusely"));
+    CHECK(std::count(all.begin(), all.end(), '\n') ==
+          std::ptrdiff_t(7 + plan.types.size()));
+    for (const std::string& type : plan.types) { // the names stand in a column
+        CHECK(type.substr(0, 16).find_last_not_of(' ') < 15);
+        CHECK(type[16] != ' ');
+    }
+}
+
 TEST_CASE("survey: what the plan leaves out is not done") {
     Room dark;
     add_walls(dark); // nothing is lit, so no ray looks for light
@@ -200,7 +254,7 @@ TEST_CASE("survey: settings that give no picture are refused") {
     refused([](PhotonMappingSettings& s) { s.max_depth = 0; });
     refused([](PhotonMappingSettings& s) { s.caustics.photons = -1; });
     refused([](PhotonMappingSettings& s) { s.general.photons = -1; });
-    refused([](PhotonMappingSettings& s) { s.caustics_estimate.radius = 0; });
+    refused([](PhotonMappingSettings& s) { s.caustics_estimate.radius = -0.1f; });
     refused([](PhotonMappingSettings& s) {
         s.general_estimate.radius = std::numeric_limits<float>::quiet_NaN();
     });

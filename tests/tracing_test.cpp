@@ -3,6 +3,7 @@
 // in 13 %.
 #include <doctest/doctest.h>
 
+#include <cstdio>
 #include <numbers>
 #include <string>
 
@@ -721,4 +722,250 @@ TEST_CASE("tracing: one photon, and numbers that make no sense") {
     CHECK_THROWS_WITH_AS((void)trace_photons(empty, MapType::general, {}),
                          doctest::Contains("power of all lights"),
                          std::invalid_argument);
+}
+
+TEST_CASE("tracing: the memory by hand, and what the sentences say") {
+    CHECK(detail::photon_block == 512);
+    const double block = sizeof(detail::PhotonBlockT<float>);
+    CHECK(detail::expected_bytes<float>(1024, 1.5) ==
+          doctest::Approx(2 * 1024 * 1.5 * 44 + 2 * block));
+    CHECK(detail::expected_bytes<float>(1025, 0) == doctest::Approx(3 * block));
+    CHECK(detail::expected_bytes<double>(100, 3) ==
+          doctest::Approx(2 * 100 * 3 * 80 +
+                          double(sizeof(detail::PhotonBlockT<double>))));
+    // 2 x 10^9 x 2 x 44 bytes, and 10^9 / 512 blocks besides, some hundred bytes each.
+    const PhotonPassSettings pass{.photons = 1000000000, .max_memory = 3e9};
+    const double gigabytes = (176e9 + 1953125 * block) * 1e-9;
+    char right[40];
+    std::snprintf(right, sizeof right, "take %.3g GB at 2 stored", gigabytes);
+    CHECK_THROWS_WITH_AS(detail::require_memory<float>(pass, 2),
+                         doctest::Contains(right), std::invalid_argument);
+    CHECK_THROWS_WITH_AS(detail::require_memory<float>(pass, 2),
+                         doctest::Contains("photons is 1000000000, which"),
+                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(detail::require_memory<float>(pass, 2),
+                         doctest::Contains("max_memory allows 3 GB."),
+                         std::invalid_argument);
+    const PhotonPassSettings exact{
+        .photons = 1024, .max_memory = detail::expected_bytes<float>(1024, 1)};
+    CHECK_NOTHROW(detail::require_memory<float>(exact, 1)); // all of it may be taken
+
+    // Of 800 paths 200 could not be sent; the others' 8 W went by tenths.
+    const FluxAudit audit{.emitted{1, 2, 5},
+                          .absorbed{0.8, 0.8, 0.6},
+                          .escaped{0.6, 0.5, 0.5},
+                          .cut{1.2, 1, 1},
+                          .roulette{0.4, 0.4, 0.2}};
+    const std::string why =
+        detail::why_nothing({.photons = 1000}, MapType::caustics, 800, 200, audit);
+    CHECK(why ==
+          "gave up after 800 of 1000 photons, none of which was stored: 25 % "
+          "could not be sent (mirrors and glass lie behind the lights), 30 % met "
+          "something else before the mirror or glass, 15 % left the scene, 30 % "
+          "was absorbed");
+    const std::string general =
+        detail::why_nothing({.photons = 1000}, MapType::general, 800, 200, audit);
+    CHECK(general.find("(no light), 30 % met the limit of bounces,") !=
+          std::string::npos);
+}
+
+TEST_CASE("tracing: in a disc below a point light lies the flux of its cone") {
+    // A point light over a black floor.
+    Room room;
+    room.add(Quad{{-9, 0, 9}, {18, 0, 0}, {0, 0, -18}},
+             room.add(Lambertian{.albedo = Rgb{0}}));
+    room.add(PointLight{.position{0, 3, 0}, .intensity{2, 4, 8}});
+    PhotonPassSettings pass{.photons = 20000, .max_bounces = 1};
+    const auto traced = trace_photons(room, MapType::general, pass);
+    glm::dvec3 in_disc{0}, sum{0};
+    for (const auto& photon : traced.photons) {
+        if (photon.kind != PhotonKind::direct) continue;
+        sum += glm::dvec3(photon.flux);
+        const double r = std::hypot(photon.position.x, photon.position.z);
+        if (r < 3) in_disc += glm::dvec3(photon.flux);
+    }
+    // The disc of radius 3 at distance 3 is a cone of 45 degrees: 2 pi (1 - cos 45) I.
+    const double cone = 2 * pi * (1 - std::sqrt(0.5));
+    // Of 20000 paths in all directions 0.146 meet it: 5 standard errors are 8.5 %.
+    for (int c = 0; c < 3; ++c) {
+        CHECK(in_disc[c] / (2 << c) == doctest::Approx(cone).epsilon(0.085));
+        CHECK(traced.audit.emitted[c] ==
+              doctest::Approx(4 * pi * (2 << c)).epsilon(1e-5));
+        // What landed was absorbed, the rest escaped.
+        CHECK(traced.audit.absorbed[c] == doctest::Approx(sum[c]).epsilon(1e-5));
+        CHECK(traced.audit.escaped[c] ==
+              doctest::Approx(traced.audit.emitted[c] - sum[c]).epsilon(1e-5));
+    }
+    CHECK(traced.emitted == 20000);
+}
+
+TEST_CASE("tracing: roulette by hand, below its probability and above") {
+    using D3 = glm::dvec3;
+    const D3 flux{4, 2, 1};
+    const auto play = [&](const D3& weight, double u, FluxAudit& audit) {
+        return play_roulette(flux, weight, u, audit);
+    };
+    { // 0.5 of the largest channel is left: it lives up to 0.5, and is worth twice
+        FluxAudit lives, dies;
+        const auto survivor = play({0.5, 0.25, 1}, 0.499, lives);
+        REQUIRE(survivor);
+        CHECK(glm::distance(*survivor, D3{4, 1, 2}) < 1e-15);
+        CHECK(lives.absorbed == D3{2, 1.5, 0});
+        CHECK(lives.roulette == D3{-2, -0.5, -1});
+        CHECK_FALSE(play({0.5, 0.25, 1}, 0.501, dies));
+        CHECK(dies.absorbed == D3{2, 1.5, 0});
+        CHECK(dies.roulette == D3{2, 0.5, 1});
+    }
+    { // shading normals may make more of it: then it surely lives, and is not divided
+        FluxAudit audit;
+        const auto survivor = play(D3{1.5}, 0.999, audit);
+        REQUIRE(survivor);
+        CHECK(*survivor == D3{6, 3, 1.5});
+        CHECK(audit.roulette == D3{0});
+        CHECK(audit.absorbed == D3{-2, -1, -0.5});
+    }
+    FluxAudit audit;
+    CHECK_FALSE(play(D3{0}, 0, audit)); // nothing is left
+    CHECK(audit.absorbed == flux);
+}
+
+TEST_CASE("tracing: what is stored where, by both normals, for its own map") {
+    using D3 = glm::dvec3;
+    const LambertianT<double> matt{.albedo = D3{0.5}};
+    PathStateT<double> path{.ray{.direction = glm::normalize(D3{0.5, -1, 0})},
+                            .throughput{4, 2, 1}};
+    VertexT<double> vertex;
+    vertex.point.position = {1, 2, 3};
+    vertex.point.normal = {0, 1, 0};
+    vertex.frame = frame_around(glm::normalize(D3{-0.4, 1, 0}));
+    vertex.wo = to_local(vertex.frame, -path.ray.direction);
+    const auto stored = [&](MapType map, const auto& material) {
+        std::vector<PhotonT<double>> out;
+        detail::store_photon(path, vertex, material, 7, map, out);
+        return out;
+    };
+    const auto flat = stored(MapType::general, matt);
+    REQUIRE(flat.size() == 1);
+    CHECK(flat[0].position == D3{1, 2, 3});
+    CHECK(flat[0].direction == path.ray.direction);
+    CHECK(flat[0].flux == D3{4, 2, 1});
+    CHECK(flat[0].light == 7);
+    CHECK(flat[0].kind == PhotonKind::direct);
+    CHECK(flat[0].normal == detail::SmallNormal{0, 127, 0});
+    // |w Ns| / |w Ng|, of w = (1, -2) / sqrt(5), Ns = (-2, 5) / sqrt(29), Ng = (0, 1).
+    vertex.smooth = true;
+    const auto smooth = stored(MapType::general, matt);
+    REQUIRE(smooth.size() == 1);
+    const double factor = 12 / (2 * std::sqrt(29.0));
+    CHECK(glm::distance(smooth[0].flux, factor * D3{4, 2, 1}) < 1e-12);
+    vertex.smooth = false;
+    vertex.turned = true; // the two normals disagree about its side: it is lost
+    CHECK(stored(MapType::general, matt).empty());
+    vertex.turned = false;
+    CHECK(stored(MapType::caustics, matt).empty());
+    CHECK(stored(MapType::general, MirrorT<double>{}).empty());
+    path.met_specular = true;
+    CHECK(stored(MapType::general, matt).empty());
+    REQUIRE(stored(MapType::caustics, matt).size() == 1);
+    CHECK(stored(MapType::caustics, matt)[0].kind == PhotonKind::caustic);
+    path.met_diffuse = true;
+    CHECK(stored(MapType::caustics, matt).empty());
+    CHECK(stored(MapType::general, matt)[0].kind == PhotonKind::indirect);
+
+    // Scattered: caustic photons, and those the normals disagree on, by mirrors only.
+    for (const bool turned : {false, true})
+        for (const MapType map : {MapType::general, MapType::caustics}) {
+            vertex.turned = turned;
+            int on = 0;
+            const int games = 4000;
+            for (int i = 0; i < games; ++i) {
+                auto stream = random_stream(6, Pass::user, 0, std::uint64_t(i));
+                PathStateT<double> one = path;
+                FluxAudit audit;
+                const bool lives =
+                    detail::scatter_photon(one, vertex, matt, map, stream, audit);
+                on += lives;
+                if (lives) CHECK(glm::distance(one.throughput, D3{4, 2, 1}) < 1e-12);
+                // All of it is somewhere: 0.5 in the wall, the rest played for.
+                const D3 left = lives ? one.throughput : D3{0};
+                CHECK(glm::distance(audit.absorbed + audit.roulette + left,
+                                    D3{4, 2, 1}) < 1e-12);
+            }
+            if (turned || map == MapType::caustics)
+                CHECK(on == 0);
+            else // half of them, within 5 standard errors
+                CHECK(std::abs(on - games / 2) < 5 * std::sqrt(games / 4.0));
+        }
+}
+
+TEST_CASE("tracing: one photon's way, step by step") {
+    using D3 = glm::dvec3;
+    // A slab of tinted glass lies on a black floor; straight down, 0.96 goes in.
+    RoomT<double> room;
+    const auto glass =
+        room.add(GlassT<double>{.index = 1.5, .absorption{0.1, 0.2, 0.3}});
+    const auto black = room.add(LambertianT<double>{.albedo = D3{0}});
+    const auto top =
+        room.add(QuadT<double>{{-9, 2, 9}, {18, 0, 0}, {0, 0, -18}}, glass);
+    const auto floor =
+        room.add(QuadT<double>{{-9, 0, 9}, {18, 0, 0}, {0, 0, -18}}, black);
+    const EmittedPhotonT<double> photon{
+        .ray{.origin{0, 5, 0}, .direction{0, -1, 0}, .time = 0.5},
+        .flux{4, 2, 1},
+        .light = 3};
+    const D3 inside = D3{4, 2, 1} * glm::exp(-2.0 * D3{0.1, 0.2, 0.3});
+    int landed = 0;
+    for (std::uint64_t i = 0; i < 400; ++i) {
+        auto stream = random_stream(6, Pass::user, 0, i);
+        std::vector<PhotonT<double>> out;
+        FluxAudit audit;
+        detail::trace_photon(room, MapType::caustics, photon, top, {.max_bounces = 10},
+                             stream, out, audit);
+        CHECK(audit.emitted == D3{4, 2, 1});
+        CHECK(audit.cut == D3{0});
+        CHECK(out.size() <= 1);
+        if (out.empty()) { // reflected by the glass
+            CHECK(audit.escaped == D3{4, 2, 1});
+            continue;
+        }
+        ++landed;
+        CHECK(out[0].kind == PhotonKind::caustic);
+        CHECK(out[0].light == 3);
+        CHECK(glm::distance(out[0].flux, inside) < 1e-9); // it spawns a bit off
+        CHECK(out[0].position.y == doctest::Approx(0));
+        CHECK(glm::distance(audit.absorbed, D3{4, 2, 1}) < 1e-12);
+        CHECK(audit.escaped == D3{0});
+    }
+    CHECK(std::abs(landed - 384) < 5 * std::sqrt(400 * 0.96 * 0.04));
+    // The limit cuts it within the glass; another target than the one it met, at once.
+    auto stream = random_stream(6, Pass::user, 0, 0);
+    std::vector<PhotonT<double>> out;
+    FluxAudit limited, missed;
+    detail::trace_photon(room, MapType::caustics, photon, top, {.max_bounces = 1},
+                         stream, out, limited);
+    CHECK(glm::distance(limited.cut, D3{4, 2, 1}) < 1e-12);
+    detail::trace_photon(room, MapType::caustics, photon, floor, {.max_bounces = 10},
+                         stream, out, missed);
+    CHECK(missed.cut == D3{4, 2, 1});
+    CHECK(out.empty());
+    // Shadow photons: one for each matt surface behind the first, at the photon's time.
+    RoomT<double> stack;
+    for (const double y : {3.0, 2.0, 1.0, 0.0})
+        stack.add(QuadT<double>{{-9, y, 9}, {18, 0, 0}, {0, 0, -18}},
+                  y == 2 ? stack.add(MirrorT<double>{})
+                         : stack.add(LambertianT<double>{.albedo = D3{0}}));
+    FluxAudit audit;
+    detail::trace_photon(stack, MapType::general, photon, {},
+                         {.max_bounces = 10, .shadow_photons = true}, stream, out,
+                         audit);
+    REQUIRE(out.size() == 3);
+    int shadows = 0;
+    for (const auto& one : out) {
+        CHECK(one.flux == D3{4, 2, 1});
+        CHECK(one.light == 3);
+        const bool direct = std::abs(one.position.y - 3) < 1e-6;
+        CHECK(one.kind == (direct ? PhotonKind::direct : PhotonKind::shadow));
+        shadows += !direct;
+    }
+    CHECK(shadows == 2);
 }

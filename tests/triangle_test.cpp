@@ -326,3 +326,35 @@ TEST_CASE("triangle: sampled points cover its area evenly") {
     CHECK(ljus_test::chi_square(parts) < ljus_test::chi_square_limit(15));
     CHECK(x.agrees_with(5.0 / 3.0)); // the centroid
 }
+
+TEST_CASE("triangle: the point at u, v, and how far rounding may have moved it") {
+    Numbers n;
+    double largest = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const auto place = n.power(-2, 2) * n.direction();
+        const double size = n.power(-2, 2);
+        const auto corner = [&] { return Vec3(place + size * n.point(1)); };
+        const Triangle t{corner(), corner(), corner()};
+        auto u = n.square<float>();
+        if (u.x + u.y > 1) u = 1.0f - u;
+        const SurfacePoint p = point_at(t, u.x, u.y);
+        const glm::dvec3 a = (1 - double(u.x) - double(u.y)) * glm::dvec3(t.v1);
+        const glm::dvec3 b = double(u.x) * glm::dvec3(t.v2);
+        const glm::dvec3 c = double(u.y) * glm::dvec3(t.v3);
+        const glm::dvec3 off = glm::abs(glm::dvec3(p.position) - (a + b + c));
+        const glm::dvec3 all = glm::abs(a) + glm::abs(b) + glm::abs(c);
+        for (int axis = 0; axis < 3; ++axis) {
+            // 1 - u - v has an error of its own: of a weight, by the size of v1.
+            const double weight = 0x1p-23 * std::abs(double(t.v1[axis]));
+            REQUIRE(off[axis] <= double(p.error[axis]) + weight);
+            REQUIRE(double(p.error[axis]) <= 1.01 * 7 * 0x1p-24 * all[axis] + weight);
+            largest = std::max(largest, off[axis] / double(p.error[axis]));
+        }
+        CHECK(glm::distance(p.normal, normal(t)) == 0);
+    }
+    CHECK(largest > 0.1);
+}
+
+TEST_CASE("triangle: a hit names no triangle of a mesh") {
+    CHECK(intersect(down_at(0.25f, 0.25f), half_square)->part == 0);
+}

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <initializer_list>
 #include <limits>
 #include <type_traits>
@@ -52,4 +53,11 @@ TEST_CASE("vector: the largest component, wherever it stands") {
     CHECK(max_component(Vec3{-3, -2, -1}) == -1.0f);
     CHECK(max_component(Vec3{-1, -2, -3}) == -1.0f);
     CHECK(max_component(Vec3{2, 2, 2}) == 2.0f);
+}
+
+TEST_CASE_TEMPLATE("vector: the size of each component", T, float, double) {
+    const Vec3T<T> v{T(-1), T(2), T(-3)};
+    CHECK(detail::sizes(v) == Vec3T<T>{T(1), T(2), T(3)});
+    CHECK(detail::sizes(-v) == Vec3T<T>{T(1), T(2), T(3)});
+    CHECK_FALSE(std::signbit(detail::sizes(Vec3T<T>{T(-0.0)}).x));
 }

@@ -1,6 +1,11 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <numbers>
+
+#include "ljus/geometry/moving.hpp"
 #include "ljus/path/continue_path.hpp"
+#include "ljus/path/next_vertex.hpp"
 #include "ljus/scene/make_scene.hpp"
 #include "support/mean.hpp"
 #include "support/rooms.hpp"
@@ -99,4 +104,392 @@ TEST_CASE("vertex: the surface at a hit, seen from its outer side") {
     CHECK(std::abs(glm::dot(room.frame.tangent, room.frame.normal)) < 1e-6f);
     // Leaving is on the inside, whichever way the normal points.
     CHECK(offset_ray_origin(room.point, Vec3{0, 0, -1}).z < 45);
+}
+
+namespace {
+
+using D3 = glm::dvec3;
+const D3 fog{0.1, 0.2, 0.3}; ///< What the glass of the tests below absorbs.
+
+/// A slab of glass between z = -2 and z = 0, its normals outwards.
+RoomT<double> slab() {
+    RoomT<double> room;
+    const auto glass = room.add(GlassT<double>{.index = 1.5, .absorption = fog});
+    room.add(QuadT<double>{{-1e5, -1e5, 0}, {2e5, 0, 0}, {0, 2e5, 0}}, glass);
+    room.add(QuadT<double>{{-1e5, -1e5, -2}, {0, 2e5, 0}, {2e5, 0, 0}}, glass);
+    return room;
+}
+
+/// A vertex at the origin whose shading normal leans by 0.3 to +x from the surface's
+/// own, which is +y; seen from a direction.
+VertexT<double> leaning(const D3& back) {
+    VertexT<double> vertex;
+    vertex.point.normal = {0, 1, 0};
+    vertex.frame = frame_around(glm::normalize(D3{0.3, 1, 0}));
+    vertex.wo = to_local(vertex.frame, back);
+    vertex.smooth = true;
+    return vertex;
+}
+
+} // namespace
+
+TEST_CASE("vertex: a path through glass carries what its ways and Snell say") {
+    // A path knows by its turns where it is; the test by the place. Camera paths gain
+    // and lose n^2, photons do not.
+    const auto scene = slab();
+    int inside_reflections = 0, left = 0;
+    for (const Transport transport : {Transport::radiance, Transport::flux})
+        for (std::uint64_t seed = 0; seed < 400; ++seed) {
+            auto stream = random_stream(seed, Pass::user, 0, 0);
+            const RayT<double> ray{.origin{0, 0, 1},
+                                   .direction = glm::normalize(D3{0.6, 0.2, -0.8}),
+                                   .time = 0.25};
+            PathStateT<double> path{.ray = ray, .throughput{2, 3, 4}};
+            D3 from = ray.origin, way{0};
+            bool was_inside = false;
+            while (path.depth < 12) {
+                const auto vertex = next_vertex(scene, path, stream);
+                if (!vertex) break;
+                const D3 place = vertex->point.position;
+                const bool inside =
+                    (from.z + place.z) / 2 < 0 && (from.z + place.z) / 2 > -2;
+                const double length = glm::distance(from, place);
+                REQUIRE(vertex->distance == doctest::Approx(length).epsilon(1e-9));
+                REQUIRE(vertex->medium == (inside ? fog : D3{0}));
+                REQUIRE(vertex->time == 0.25);
+                if (inside) way += length * fog;
+                inside_reflections += inside && was_inside;
+                was_inside = inside;
+                const double scale =
+                    inside && transport == Transport::radiance ? 1 / 2.25 : 1;
+                for (int c = 0; c < 3; ++c)
+                    REQUIRE(path.throughput[c] ==
+                            doctest::Approx((2 + c) * scale * std::exp(-way[c]))
+                                .epsilon(1e-9));
+                const int depth = path.depth;
+                REQUIRE(scene.visit_material(
+                    vertex->object.material, [&](const auto& material) {
+                        return continue_path(path, *vertex, material, transport,
+                                             Lobes::all, stream);
+                    }));
+                REQUIRE(path.depth == depth);
+                REQUIRE(path.previous == place);
+                REQUIRE(path.specular);
+                REQUIRE(path.met_specular);
+                REQUIRE_FALSE(path.met_diffuse);
+                REQUIRE(path.pdf == 0);
+                REQUIRE(path.ray.time == 0.25);
+                REQUIRE(glm::length(path.ray.direction) ==
+                        doctest::Approx(1).epsilon(1e-12));
+                // Across: sine 0.632 outside, 0.632 / 1.5 inside.
+                const bool goes_inside =
+                    path.ray.direction.z < 0 ? place.z > -1 : place.z < -1;
+                const double sine =
+                    std::hypot(path.ray.direction.x, path.ray.direction.y);
+                REQUIRE(sine ==
+                        doctest::Approx(std::sqrt(0.4 / 1.04) / (goes_inside ? 1.5 : 1))
+                            .epsilon(1e-9));
+                REQUIRE(path.medium == (goes_inside ? fog : D3{0}));
+                if (transport == Transport::radiance)
+                    REQUIRE(path.eta_scale ==
+                            doctest::Approx(goes_inside ? 1 / 2.25 : 1).epsilon(1e-9));
+                from = place;
+            }
+            left += path.depth < 12;
+        }
+    CHECK(inside_reflections > 5);
+    CHECK(left == 800);
+}
+
+TEST_CASE("vertex: a path that begins in glass is in it, and outside it is not") {
+    const auto scene = slab();
+    auto stream = random_stream(1, Pass::user, 0, 0);
+    for (const double z : {-0.5, 0.5, -2.5}) {
+        const double up = z < -2 ? 1 : z > 0 ? -1 : 1; // towards the slab
+        PathStateT<double> path{.ray{.origin{0, 0, z}, .direction{0, 0, up}}};
+        const auto vertex = next_vertex(scene, path, stream);
+        REQUIRE(vertex);
+        const bool inside = z == -0.5;
+        CHECK(vertex->medium == (inside ? fog : D3{0}));
+        for (int c = 0; c < 3; ++c)
+            CHECK(path.throughput[c] ==
+                  doctest::Approx(inside ? std::exp(-0.5 * fog[c]) : 1));
+        CHECK(path.depth == 1);
+    }
+    // Later a surface met from behind says nothing: a matt sheet within the glass.
+    PathStateT<double> path{
+        .ray{.origin{0, 0, -1}, .direction{0, 0, 1}}, .medium = fog, .depth = 1};
+    RoomT<double> room;
+    room.add(QuadT<double>{{-9, -9, 0}, {0, 18, 0}, {18, 0, 0}},
+             room.add(LambertianT<double>{}));
+    CHECK(next_vertex(room, path, stream)->medium == fog);
+    CHECK(path.throughput.y == doctest::Approx(std::exp(-0.2)));
+}
+
+TEST_CASE("vertex: a matt surface sends a path on by the cosine, times its albedo") {
+    RoomT<double> room;
+    const LambertianT<double> matt{.albedo{0.8, 0.5, 0.2}};
+    room.add(QuadT<double>{{-9, -9, 0}, {18, 0, 0}, {0, 18, 0}}, room.add(matt));
+    for (const double side : {1.0, -1.0})
+        for (const double stop : {1.0, 0.25}) {
+            D3 mean{0};
+            const int count = 4000;
+            for (int i = 0; i < count; ++i) {
+                auto stream = random_stream(2, Pass::user, 0, std::uint64_t(i));
+                PathStateT<double> path{
+                    .ray{.origin{0, 0, side}, .direction{0, 0, -side}, .time = 0.5}};
+                auto vertex = next_vertex(room, path, stream);
+                REQUIRE(vertex);
+                vertex->stop_probability = stop;
+                REQUIRE(continue_path(path, *vertex, matt, Transport::radiance,
+                                      Lobes::all, stream));
+                const D3 d = path.ray.direction;
+                REQUIRE(d.z * side > 0);
+                REQUIRE(path.ray.origin.z * side > 0);
+                REQUIRE(path.pdf == doctest::Approx(std::abs(d.z) / std::numbers::pi));
+                for (int c = 0; c < 3; ++c)
+                    REQUIRE(path.throughput[c] ==
+                            doctest::Approx(matt.albedo[c] / stop));
+                REQUIRE_FALSE(path.specular);
+                REQUIRE(path.met_diffuse);
+                REQUIRE_FALSE(path.met_specular);
+                REQUIRE(path.eta_scale == 1);
+                REQUIRE(path.ray.time == 0.5);
+                REQUIRE(path.ray.t_max == std::numeric_limits<double>::infinity());
+                mean += d / double(count);
+            }
+            // E[d] = (0, 0, 2/3); the components scatter by 1/2, 1/2 and 0.24.
+            const double error = 5 / std::sqrt(double(count));
+            CHECK(std::abs(mean.x) < 0.5 * error);
+            CHECK(std::abs(mean.y) < 0.5 * error);
+            CHECK(std::abs(mean.z - side * 2 / 3) < 0.24 * error);
+        }
+    // A black lobe, or one that is not asked for, ends it.
+    auto stream = random_stream(2, Pass::user, 0, 0);
+    PathStateT<double> path{.ray{.origin{0, 0, 1}, .direction{0, 0, -1}}};
+    const auto vertex = next_vertex(room, path, stream);
+    CHECK_FALSE(continue_path(path, *vertex, matt, Transport::radiance, Lobes::specular,
+                              stream));
+}
+
+TEST_CASE("vertex: at a boundary a path splits by Fresnel's share") {
+    const auto scene = slab();
+    const GlassT<double> glass{.index = 1.5, .absorption = fog};
+    for (const int depth : {0, 3, 40}) {
+        auto stream = random_stream(1, Pass::user, 0, 0);
+        PathStateT<double> path{.ray{.origin{0, 0, 1}, .direction{0.6, 0, -0.8}},
+                                .throughput{2, 3, 4},
+                                .depth = depth,
+                                .branch = 5};
+        const auto vertex = next_vertex(scene, path, stream);
+        REQUIRE(vertex);
+        const auto other = split_path(path, *vertex, glass);
+        REQUIRE(other);
+        const double cos_t = std::sqrt(1 - 0.36 / 2.25);
+        const double s = (0.8 - 1.5 * cos_t) / (0.8 + 1.5 * cos_t);
+        const double p = (1.5 * 0.8 - cos_t) / (1.5 * 0.8 + cos_t);
+        const double share = (s * s + p * p) / 2;
+        for (int c = 0; c < 3; ++c) {
+            CHECK(path.throughput[c] == doctest::Approx((2 + c) * share));
+            CHECK(other->throughput[c] ==
+                  doctest::Approx((2 + c) * (1 - share) / 2.25));
+        }
+        CHECK(glm::distance(path.ray.direction, D3{0.6, 0, 0.8}) < 1e-12);
+        CHECK(glm::distance(other->ray.direction, D3{0.4, 0, -cos_t}) < 1e-12);
+        CHECK(path.ray.origin.z > 0);
+        CHECK(other->ray.origin.z < 0);
+        CHECK(path.medium == D3{0});
+        CHECK(other->medium == fog);
+        CHECK(path.eta_scale == 1);
+        CHECK(other->eta_scale == doctest::Approx(1 / 2.25));
+        CHECK(path.branch == 5);
+        // Numbers of its own: beyond all depths of its sister, and of another split.
+        CHECK(other->branch == 5 + (std::uint64_t(1) << (16 + (depth + 1) % 32)));
+        CHECK(path.depth == depth + 1);
+        CHECK(other->depth == depth + 1);
+    }
+    auto stream = random_stream(1, Pass::user, 0, 0);
+    // From within, beyond the critical angle, and at a matt surface, there is one way.
+    PathStateT<double> steep{.ray{.origin{0, 0, -1}, .direction{0.8, 0, 0.6}}};
+    const auto total = next_vertex(scene, steep, stream);
+    REQUIRE(total);
+    CHECK_FALSE(split_path(steep, *total, glass));
+    CHECK(steep.ray.direction.z == 0.6);
+    CHECK_FALSE(split_path(steep, *total, LambertianT<double>{}));
+    auto smooth = leaning({0, 1, 0});
+    CHECK_FALSE(split_path(steep, smooth, glass));
+    smooth.smooth = false;
+    CHECK(split_path(steep, smooth, glass));
+}
+
+TEST_CASE("vertex: with two normals, radiance by the one and flux by both") {
+    const D3 lean = glm::normalize(D3{0.3, 1, 0}), up{0, 1, 0};
+    const LambertianT<double> matt{.albedo{0.8, 0.5, 0.2}};
+    int ended = 0, went_on = 0;
+    for (const double x : {-0.9, -0.3, 0.4, 0.9})
+        for (std::uint64_t i = 0; i < 500; ++i) {
+            auto stream = random_stream(3, Pass::user, 0, i);
+            const D3 back = glm::normalize(D3{x, 0.6, 0.2});
+            const auto vertex = leaning(back);
+            const auto u = next_3d<double>(stream);
+            const auto radiance = scatter(vertex, matt, u, Transport::radiance);
+            const auto flux = scatter(vertex, matt, u, Transport::flux);
+            const D3 local = sample(matt, vertex.wo, u, Transport::radiance)->wi;
+            const D3 wi = to_world(vertex.frame, local);
+            REQUIRE(glm::dot(wi, lean) > 0);
+            REQUIRE(bool(radiance) == (wi.y > 0)); // through the surface: it ends
+            REQUIRE(bool(flux) == (wi.y > 0));
+            (wi.y > 0 ? went_on : ended) += 1;
+            if (!radiance) continue;
+            CHECK(glm::distance(radiance->wi, wi) < 1e-14);
+            CHECK(glm::distance(radiance->sample.weight, matt.albedo) < 1e-14);
+            // Veach's equation 5.19.
+            const double factor = glm::dot(back, lean) * glm::dot(wi, up) /
+                                  (glm::dot(back, up) * glm::dot(wi, lean));
+            CHECK(glm::distance(flux->sample.weight, matt.albedo * factor) <
+                  1e-12 * factor);
+        }
+    CHECK(ended > 20);
+    CHECK(went_on > 1000);
+
+    // A mirror: about the leaning normal, where that stays above the surface; else
+    // about the surface's own.
+    const MirrorT<double> mirror{.reflectance = D3{0.9}};
+    for (const double x : {-0.9, -0.3, 0.0, 0.9}) {
+        const D3 back = glm::normalize(D3{x, 0.5, 0.1});
+        const auto seen = scatter(leaning(back), mirror, D3{0.5}, Transport::radiance);
+        REQUIRE(seen);
+        const D3 by_lean = 2 * glm::dot(back, lean) * lean - back;
+        const D3 by_own{-back.x, back.y, -back.z};
+        CAPTURE(x);
+        CHECK(glm::distance(seen->wi, by_lean.y > 0 ? by_lean : by_own) < 1e-12);
+    }
+    // Seen along the surface itself nothing is known: no infinite flux.
+    VertexT<double> edge;
+    edge.frame = {.tangent{1, 0, 0}, .bitangent{0, 1, 0}, .normal{0, 0, 1}};
+    edge.point.normal = {1, 0, 0};
+    edge.wo = {0, 0.6, 0.8};
+    edge.smooth = true;
+    int refused = 0;
+    for (const double u : {0.1, 0.4, 0.6, 0.9}) {
+        const D3 three{u, u, u};
+        const auto radiance = scatter(edge, matt, three, Transport::radiance);
+        CHECK_FALSE(scatter(edge, matt, three, Transport::flux));
+        refused += bool(radiance);
+    }
+    CHECK(refused > 0);
+}
+
+TEST_CASE("vertex: panes in the way let a path pass, or stop it by what they reflect") {
+    // Head on, r = 0.04 at each side and a tint a on each way through: all turns within
+    // together let (1 - r)^2 a / (1 - r^2 a^2) pass.
+    const D3 tint{1, 0.5, 0.25};
+    D3 passed;
+    for (int c = 0; c < 3; ++c)
+        passed[c] = 0.96 * 0.96 * tint[c] / (1 - 0.0016 * tint[c] * tint[c]);
+    const double stop = 1 - (passed.x + passed.y + passed.z) / 3;
+    const ThinGlassT<double> pane{1.5, tint};
+    const auto at_height = [](double z) {
+        return QuadT<double>{{-9, -9, z}, {18, 0, 0}, {0, 18, 0}};
+    };
+    const auto scene =
+        make_scene(placed(at_height(0), LambertianT<double>{}),
+                   placed(at_height(1), pane), placed(at_height(2), pane));
+    int stopped[3] = {};
+    const int paths = 20000;
+    for (int i = 0; i < paths; ++i) {
+        auto stream = random_stream(8, Pass::user, 0, std::uint64_t(i));
+        PathStateT<double> path{
+            .ray{.origin{0, 0, 4}, .direction{0, 0, -1}, .time = 0.75},
+            .throughput{2, 3, 4},
+            .medium = fog,
+            .depth = 1};
+        const auto vertex = next_vertex(scene, path, stream);
+        REQUIRE(vertex);
+        const double z = std::round(vertex->point.position.z);
+        const int panes = 2 - int(z); // that it has passed
+        ++stopped[panes];
+        REQUIRE(vertex->point.position.z == doctest::Approx(z).epsilon(1e-9));
+        REQUIRE(vertex->distance == doctest::Approx(4 - z).epsilon(1e-9));
+        REQUIRE(vertex->stop_probability == doctest::Approx(z > 0 ? stop : 1));
+        REQUIRE(vertex->time == 0.75);
+        REQUIRE(path.depth == 2);
+        for (int c = 0; c < 3; ++c)
+            REQUIRE(path.throughput[c] ==
+                    doctest::Approx((2 + c) * std::pow(passed[c] / (1 - stop), panes) *
+                                    std::exp(-fog[c] * (4 - z)))
+                        .epsilon(1e-9));
+    }
+    const double on = 1 - stop, share[3] = {stop, on * stop, on * on};
+    for (int k = 0; k < 3; ++k) // once in 1.7 million each
+        CHECK(std::abs(stopped[k] - paths * share[k]) <
+              5 * std::sqrt(paths * share[k] * (1 - share[k])));
+    // Out of the scene through both panes: no vertex. And how much of a lamp is seen.
+    bool left = false;
+    for (std::uint64_t i = 0; i < 50; ++i) {
+        auto stream = random_stream(9, Pass::user, 0, i);
+        PathStateT<double> path{.ray{.origin{0, 0, 0.5}, .direction{0, 0, 1}}};
+        left = left || !next_vertex(scene, path, stream);
+    }
+    CHECK(left);
+    const auto point = [](double z) {
+        return SurfacePointT<double>{.position{0, 0, z}, .normal{0, 0, 1}};
+    };
+    const D3 through = visibility(scene, point(0.5), point(3));
+    CHECK(glm::distance(through, passed * passed) < 1e-9);
+    CHECK(visibility(scene, point(2.5), point(3)) == D3{1});
+    CHECK(visibility(scene, point(-1), point(3)) == D3{0});
+}
+
+TEST_CASE("vertex: roulette's threshold and its largest probability") {
+    const auto alive = [](float carried, float u, float threshold, float most) {
+        Rgb throughput{carried};
+        return survives(throughput, 1.0f, u, threshold, most) ? throughput.x : 0.0f;
+    };
+    CHECK(alive(0.25f, 0.49f, 0.5f, 1) == 0.5f); // with probability 0.25 / 0.5
+    CHECK(alive(0.25f, 0.51f, 0.5f, 1) == 0);
+    CHECK(alive(4, 0.74f, 0.5f, 0.75f) == doctest::Approx(4 / 0.75f));
+    CHECK(alive(4, 0.76f, 0.5f, 0.75f) == 0);
+    CHECK(alive(0.001f, 0.99f, 0, 1) == 0.001f); // any is safe
+}
+
+TEST_CASE("vertex: what a slanted pane lets through, and what glass hides") {
+    // At 60 degrees, and by Fresnel there: all turns within, T = (1 - r) / (1 + r).
+    const auto scene =
+        make_scene(placed(QuadT<double>{{-9, -9, 1}, {18, 0, 0}, {0, 18, 0}},
+                          ThinGlassT<double>{}),
+                   placed(QuadT<double>{{-9, -9, -1}, {18, 0, 0}, {0, 18, 0}},
+                          LambertianT<double>{}));
+    const double c = 0.5, t = std::sqrt(1 - 0.75 / 2.25);
+    const double s = (c - 1.5 * t) / (c + 1.5 * t), p = (1.5 * c - t) / (1.5 * c + t);
+    const double r = (s * s + p * p) / 2;
+    const auto point = [](double x, double z) {
+        return SurfacePointT<double>{.position{x, 0, z}, .normal{0, 0, 1}};
+    };
+    const D3 seen = visibility(scene, point(0, 0), point(2.5 * std::sqrt(3.0), 2.5));
+    CHECK(glm::distance(seen, D3{(1 - r) / (1 + r)}) < 1e-9);
+    CHECK(visibility(scene, point(0, 0), point(0, -3)) == D3{0});
+    // A scene that lists no thin surface: all or nothing.
+    const auto glass = slab();
+    CHECK(visibility(glass, point(0, 1), point(0, 3)) == D3{1});
+    CHECK(visibility(glass, point(0, 1), point(0, -1)) == D3{0});
+}
+
+TEST_CASE("vertex: a path has a time if something can move, and draws it once") {
+    Scene<Shapes<Moving<Sphere>, Quad>, Materials<Lambertian>> moving;
+    const Room still;
+    double sum = 0;
+    for (std::uint64_t i = 0; i < 1000; ++i) {
+        auto stream = random_stream(5, Pass::user, 0, i), twin = stream, other = stream;
+        const Ray ray{.origin{1, 2, 3}, .time = 0.75f};
+        const PathState path = detail::camera_path(moving, ray, stream);
+        REQUIRE(path.ray.time == next_1d<float>(twin));
+        REQUIRE(path.ray.origin == ray.origin);
+        REQUIRE(next_1d<float>(stream) == next_1d<float>(twin));
+        sum += double(path.ray.time);
+        auto same = other;
+        REQUIRE(detail::camera_path(still, ray, other).ray.time == 0);
+        REQUIRE(next_1d<float>(other) == next_1d<float>(same));
+    }
+    CHECK(std::abs(sum / 1000 - 0.5) < 5 / std::sqrt(12000.0));
 }

@@ -14,6 +14,7 @@
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
+#include "ljus/materials/oren_nayar.hpp"
 #include "ljus/materials/textured.hpp"
 #include "ljus/render/render.hpp"
 #include "ljus/render/whitted.hpp"
@@ -386,6 +387,130 @@ TEST_CASE("whitted: a lamp with a size lights from its middle, or is only seen")
           doctest::Approx(0.125));
     CHECK(seen(ball, {.ambient = Rgb{0.25f}}) - seen(ball, {}) ==
           doctest::Approx(0.125));
+}
+
+TEST_CASE("whitted: a point light lights where lamps with a size do not, both sides") {
+    // I cos / d^2 times albedo / pi, from above and, by a light below, from below.
+    using Room = Scene<Shapes<QuadT<double>>, Materials<LambertianT<double>>>;
+    Room room;
+    const auto matt = room.add(LambertianT<double>{.albedo = RgbT<double>{0.5}});
+    room.add(QuadT<double>{{-9, 0, 9}, {18, 0, 0}, {0, 0, -18}}, matt);
+    room.add(PointLightT<double>{.position{3, 4, 0}, .intensity = RgbT<double>{50}});
+    room.add(PointLightT<double>{.position{0, -2, 0}, .intensity = RgbT<double>{8}});
+    for (const bool lamps : {true, false}) {
+        RandomStream stream;
+        Counts counts;
+        const auto seen = [&](double side) {
+            const RayT<double> ray{.origin{0, side, 0}, .direction{0, -side, 0}};
+            return radiance(make_whitted(room, {.lamps = lamps}), ray, stream, counts)
+                .x;
+        };
+        CHECK(seen(1) == doctest::Approx(0.5 / pi * 50 / 25 * 0.8).epsilon(1e-12));
+        CHECK(seen(-1) == doctest::Approx(0.5 / pi * 8 / 4).epsilon(1e-12));
+        CHECK(counts.shadow_rays == 2); // the other light is behind the surface
+    }
+}
+
+TEST_CASE("whitted: ambient light comes along the normal, on both sides") {
+    // Lambert: albedo. Oren and Nayar's lobe has A of that where light comes straight.
+    const double sigma = 0.6, s2 = sigma * sigma, a = 1 - s2 / (2 * (s2 + 0.33));
+    using Room = Scene<Shapes<QuadT<double>>,
+                       Materials<LambertianT<double>, OrenNayarT<double>>>;
+    for (const bool rough : {false, true}) {
+        Room room;
+        const RgbT<double> albedo{0.5, 0.25, 1};
+        const QuadT<double> floor{{-9, 0, 9}, {18, 0, 0}, {0, 0, -18}};
+        if (rough)
+            room.add(floor, room.add(OrenNayarT<double>{albedo, sigma}));
+        else
+            room.add(floor, room.add(LambertianT<double>{.albedo = albedo}));
+        for (const D3& from :
+             {D3{-1, 1, 0.5}, D3{1, 1, 1}, D3{1, -1, -0.5}, D3{-1, -1, -1}})
+            for (const float ambient : {0.25f, 1.0f}) {
+                RandomStream stream;
+                Counts counts;
+                PathLog log;
+                const RayT<double> ray{.origin = from,
+                                       .direction = -glm::normalize(from)};
+                const auto seen =
+                    radiance(make_whitted(room, {.ambient = Rgb{ambient}}), ray, stream,
+                             counts, log);
+                for (int i = 0; i < 3; ++i)
+                    CHECK(seen[i] ==
+                          doctest::Approx(double(ambient) * albedo[i] * (rough ? a : 1))
+                              .epsilon(1e-12));
+                REQUIRE(log.lines.size() == 1);
+                CHECK(log.lines[0].what == "ambient");
+                CHECK(log.lines[0].path == "ED");
+            }
+    }
+}
+
+TEST_CASE("whitted: straight through a ball of glass, the log says ESSD") {
+    // Head on each boundary reflects 0.04; what has turned back within leaves later.
+    auto scene = ball_scene<double>(GlassT<double>{glass_index});
+    const auto tracer = make_whitted(scene, {.max_depth = 4, .ambient = Rgb{0.5f}});
+    const RayT<double> ray{.origin = ball_center + D3{0, 3, 0}, .direction{0, -1, 0}};
+    RandomStream stream;
+    Counts counts;
+    PathLog log;
+    (void)radiance(tracer, ray, stream, counts, log);
+    std::vector<std::string> ambient;
+    for (const PathLogLine& line : log.lines)
+        if (line.what == "ambient") {
+            ambient.push_back(line.path);
+            const double albedo = 0.96 * 0.96 * (ambient.size() == 1 ? 0.04 * 0.04 : 1);
+            CHECK((line.value.x / albedo == doctest::Approx(0.5 * even) ||
+                   line.value.x / albedo == doctest::Approx(0.5 * odd)));
+        }
+    // The branch that was reflected twice within is followed first.
+    CHECK(ambient == std::vector<std::string>{"ESSSSD", "ESSD"});
+}
+
+TEST_CASE("whitted: the log names both branches of glass, and adds up ray by ray") {
+    // Lambert's floor under a ball of glass, all of it lit: the tree's leaves.
+    auto scene = ball_scene<double>(GlassT<double>{glass_index});
+    scene.add(PointLightT<double>{.position{2, 3, 1}, .intensity = RgbT<double>{30}});
+    const auto tracer = make_whitted(scene, {.max_depth = 4, .ambient = Rgb{0.1f}});
+    RandomStream stream;
+    Counts counts;
+    for (int y = 0; y < 12; ++y)
+        for (int x = 0; x < 12; ++x) {
+            PathLog log;
+            const auto ray =
+                primary_ray(camera<double>(), Vec2T<double>{x + 0.5, y + 0.5}, 12, 12);
+            const auto seen = radiance(tracer, ray, stream, counts, log);
+            D3 told{0};
+            std::size_t depth = 0;
+            for (const PathLogLine& line : log.lines) {
+                if (line.what == "vertex") {
+                    depth = line.path.size() - 1; // "ES" is at depth 1
+                    continue;
+                }
+                told += line.value;
+                // A term's letters are those of the vertices before it, and its own.
+                CHECK(line.path.substr(0, depth + 1) == "E" + std::string(depth, 'S'));
+                CHECK(line.path.size() == depth + 1 + (line.what == "ambient" ? 1 : 2));
+            }
+            CHECK(glm::length(told - D3(seen)) <= 1e-12 * glm::length(told));
+        }
+}
+
+TEST_CASE("whitted: a black mirror and a mirror among lights cost nothing") {
+    using Hall = Scene<Shapes<QuadT<double>>, Materials<MirrorT<double>>>;
+    for (const double share : {0.0, 0.5}) {
+        Hall hall;
+        hall.add(QuadT<double>{{-9, 0, 9}, {18, 0, 0}, {0, 0, -18}},
+                 hall.add(MirrorT<double>{.reflectance = RgbT<double>{share}}));
+        hall.add(
+            PointLightT<double>{.position{0, 4, 0}, .intensity = RgbT<double>{50}});
+        Counts counts;
+        RandomStream stream;
+        const RayT<double> ray{.origin{1, 1, 0}, .direction{0, -1, 0}};
+        CHECK(is_black(radiance(make_whitted(hall), ray, stream, counts)));
+        CHECK(counts.bounce_rays == (share > 0 ? 1 : 0));
+        CHECK(counts.shadow_rays == 0);
+    }
 }
 
 TEST_CASE("whitted: what two lamps send is the sum of each") {

@@ -9,3 +9,15 @@ ljus_break_it(NAME light-inverse-square HEADER scene/light.hpp TEST light
     FROM "light.emission / distance2"
     TO   "light.emission"
     CASES "light: a point light*")
+
+# A spot has the flux of its inner cone.
+ljus_break_it(NAME light-spot-flux HEADER scene/make_light.hpp TEST light
+    FROM "(made.inner + made.outer)"
+    TO   "(made.inner + made.inner)"
+    CASES "light: a spot's flux*")
+
+# The corners of the scene are dark in a caustic of the sun.
+ljus_break_it(NAME light-sun-disc HEADER scene/make_light.hpp TEST light
+    FROM "T(1.001) * glm::length(half)"
+    TO   "T(0.9) * glm::length(half)"
+    CASES "light: a sun has the flux*")

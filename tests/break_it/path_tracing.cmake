@@ -58,3 +58,10 @@ ljus_break_it(NAME path-tracing-roulette-most HEADER path/path_state.hpp
     FROM "throughput /= probability;"
     TO   "throughput /= std::min(T(1), carried / threshold);"
     CASES "roulette: a hundred seeds*")
+
+# The plain tracer counts a lamp twice: by a shadow ray and by the next one on.
+ljus_break_it(NAME path-tracing-plain-twice HEADER render/plain_path_tracing.hpp
+    TEST path_tracing
+    FROM "lamps_count = next->specular;"
+    TO   ""
+    CASES "path tracing: the plain one*")

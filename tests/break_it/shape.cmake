@@ -8,3 +8,9 @@ ljus_break_it(NAME shape-grain HEADER geometry/shape.hpp TEST shape
     FROM "way == Vec3T<WideT<T>>{0}"
     TO   "false"
     CASES "shape: a sphere too small*")
+
+# Of a moving shape only the middle of its way is bounded.
+ljus_break_it(NAME shape-moving-bound HEADER geometry/moving.hpp TEST shape
+    FROM "sphere.radius += glm::length(moving.way) / T(2);"
+    TO   ""
+    CASES "shape: a moving one*")

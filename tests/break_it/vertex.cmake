@@ -15,3 +15,15 @@ ljus_break_it(NAME vertex-medium HEADER path/continue_path.hpp TEST vertex
     FROM "wi.z < T(0) ? absorption(material) : RgbT<T>{T(0)}"
     TO   "absorption(material)"
     CASES "vertex: what a path is in*")
+
+# Photons and camera paths do not see the same scene.
+ljus_break_it(NAME vertex-adjoint HEADER path/continue_path.hpp TEST vertex
+    FROM "scattered.sample.weight *= std::abs(factor);"
+    TO   ""
+    CASES "vertex: with two normals*")
+
+# A lamp in glass shines as if there were none.
+ljus_break_it(NAME vertex-begins-inside HEADER path/next_vertex.hpp TEST vertex
+    FROM "path.depth == 1 && from_behind"
+    TO   "false"
+    CASES "vertex: a path that begins in glass*")
