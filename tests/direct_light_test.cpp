@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "ljus/materials/glass.hpp"
-#include "ljus/path/direct_light.hpp"
+#include "ljus/path/all_lights.hpp"
 #include "ljus/scene/make_scene.hpp"
 #include "support/mean.hpp"
 #include "support/rooms.hpp"
@@ -251,8 +251,8 @@ TEST_CASE("direct light: of all lights, by several rays each") {
         for (std::uint64_t path = 0; path < 4000; ++path) {
             auto stream = random_stream(5, Pass::user, 0, path);
             Counts counts;
-            const D3 seen =
-                detail::sample_all_lights(room, at, matt, rays, stream, counts);
+            const D3 seen = detail::sample_all_lights(
+                room, at, matt, DirectLight::sampled, rays, stream, counts);
             for (int c = 0; c < 3; ++c) mean[c].add(seen[c]);
             CHECK(counts.shadow_rays == std::uint64_t(2 * rays));
         }

@@ -123,11 +123,11 @@ template <std::floating_point T>
 template <std::floating_point T>
 void fill_from(VerdictBitsT<T>& fine, const VerdictBitsT<T>& coarse, int times) {
     for (std::size_t b = 0; b < fine.table.size(); ++b) {
-        const CellPlace first = first_cell(fine.table.keys()[b]);
+        const VerdictCell first = first_cell(fine.table.keys()[b]);
         for (int cell = 0; cell < 64; ++cell) {
-            const CellPlace at{(first.x + (cell & 3)) / times,
-                               (first.y + (cell >> 2 & 3)) / times,
-                               (first.z + (cell >> 4)) / times, first.way};
+            const VerdictCell at{(first.x + (cell & 3)) / times,
+                                 (first.y + (cell >> 2 & 3)) / times,
+                                 (first.z + (cell >> 4)) / times, first.way};
             const std::uint32_t from = coarse.table.find(brick_key(at));
             if (from == BrickTable::none) continue;
             for (std::size_t light = 0; light < fine.lights; ++light) {

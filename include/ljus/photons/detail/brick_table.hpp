@@ -15,7 +15,7 @@ namespace ljus::detail {
 /// \{
 
 /// A cell of the grid, and a way that a surface in it may face.
-struct CellPlace {
+struct VerdictCell {
     std::int32_t x = 0;   ///< Along the first axis; at least 0.
     std::int32_t y = 0;   ///< Along the second.
     std::int32_t z = 0;   ///< Along the third.
@@ -31,13 +31,13 @@ struct CellPlace {
 inline constexpr std::int32_t most_cells = 1 << 20;
 
 /// The brick of a cell as a number, never 0: 18 bits a coordinate, and the way.
-[[nodiscard]] constexpr std::uint64_t brick_key(const CellPlace& cell) noexcept {
+[[nodiscard]] constexpr std::uint64_t brick_key(const VerdictCell& cell) noexcept {
     return std::uint64_t(cell.x >> 2) | std::uint64_t(cell.y >> 2) << 18 |
            std::uint64_t(cell.z >> 2) << 36 | std::uint64_t(cell.way + 1) << 54;
 }
 
 /// The first cell of a brick.
-[[nodiscard]] constexpr CellPlace first_cell(std::uint64_t key) noexcept {
+[[nodiscard]] constexpr VerdictCell first_cell(std::uint64_t key) noexcept {
     const auto axis = [&](int shift) {
         return static_cast<std::int32_t>(key >> shift & 0x3ffff) * 4;
     };
@@ -52,14 +52,15 @@ struct CellsT {
 
     /// The cell of a point; nothing outside of the grid.
     // [cell_of]
-    [[nodiscard]] std::optional<CellPlace> cell_of(const Vec3T<T>& point,
-                                                   int way) const noexcept {
+    [[nodiscard]] std::optional<VerdictCell> cell_of(const Vec3T<T>& point,
+                                                     int way) const noexcept {
         const Vec3T<T> c = (point - corner) * (T(1) / length);
         const auto within = [](T x) { // false for NaN
             return x >= T(4) && x < T(most_cells - 4);
         };
         if (!within(c.x) || !within(c.y) || !within(c.z)) return std::nullopt;
-        return CellPlace{std::int32_t(c.x), std::int32_t(c.y), std::int32_t(c.z), way};
+        return VerdictCell{std::int32_t(c.x), std::int32_t(c.y), std::int32_t(c.z),
+                           way};
     }
     // [cell_of]
 };

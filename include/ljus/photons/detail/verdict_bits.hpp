@@ -137,7 +137,7 @@ counts_around(const BrickTable& table, std::uint32_t brick,
     // Of a brick before, beside or behind, these of the six layers along an axis.
     constexpr std::array<int, 4> layer{0, 1, 5, 6};
     CountsAround around{};
-    const CellPlace first = first_cell(table.keys()[brick]);
+    const VerdictCell first = first_cell(table.keys()[brick]);
     for (std::size_t n = 0; n < 27; ++n) {
         const std::size_t i = n % 3, j = n / 3 % 3, k = n / 9;
         const auto moved = [](std::int32_t x, std::size_t by) {
@@ -151,7 +151,7 @@ counts_around(const BrickTable& table, std::uint32_t brick,
                 for (int x = layer[i]; x < layer[i + 1]; ++x)
                     around[std::size_t(x + 6 * y + 36 * z)] =
                         counts[64 * std::size_t(other) +
-                               CellPlace{x + 3, y + 3, z + 3}.in_brick()];
+                               VerdictCell{x + 3, y + 3, z + 3}.in_brick()];
     }
     return around;
 }
