@@ -134,8 +134,8 @@ void borders(const examples::Options& options) {
     }
     examples::Plot plot{
         .name = "final-gathering-edge",
-        .columns = {"distance from the edge, in radii", "part of the kernel",
-                    "photons, not corrected", "photons, corrected"},
+        .columns = {"distance from the edge over the radius", "part of the kernel",
+                    "photons as they are", "divided by the part"},
         .y_label = "estimate over the truth",
         .more = "set yrange [0:1.3]\nset key inside bottom right vertical\n"};
     for (int i = 0; i <= steps; ++i) {
