@@ -481,7 +481,6 @@ void trade(const examples::Options& options, const Sizes& sizes) {
         row[point.way + 1] = point.error;
         plot.rows.push_back(row);
     }
-    plot.more = "set datafile missing NaN\n";
     save_plot(options.out, plot);
     save_plot(options.out, split_plot);
     save_table(options.out, table);
@@ -494,7 +493,7 @@ void ratio(const examples::Options& options, const Sizes& sizes) {
     const auto oracle = examples::find_oracle("matt-cornell", room, options.width,
                                               sizes.truth, options);
     const int rays = options.pick(16, 100, 100);
-    const int seeds = std::min(sizes.seeds, options.pick(2, 5, 16));
+    const int seeds = std::min(sizes.seeds, options.pick(2, 3, 16));
     examples::Table table{.name = "final-gathering-ratio",
                           .columns = {"photons of an estimate", "map, s", "gather, s",
                                       "ratio", "points, s", "of the time saved",
