@@ -405,23 +405,43 @@ void print(const examples::Table& table, const examples::Options& options) {
     }
 }
 
+/// What one way does with so many photons and rays.
+struct Setting {
+    std::size_t way;             ///< 0: photons, 1: map, 2: gather.
+    double seconds, error, seen; ///< Processor seconds, relMSE, FLIP.
+};
+
+/// For each way the settings that no faster one of the same way beats, or comes near.
+template <typename Error>
+examples::Plot frontier(const std::string& name, const std::string& label,
+                        const std::vector<Setting>& by_time, const Error& error) {
+    examples::Plot plot{.name = name,
+                        .columns = {"processor seconds", "photons", "map", "gather"},
+                        .y_label = label,
+                        .log_x = true,
+                        .log_y = true};
+    std::array best{1e300, 1e300, 1e300};
+    for (const Setting& setting : by_time) {
+        if (error(setting) > 0.95 * best[setting.way]) continue;
+        best[setting.way] = error(setting);
+        examples::Row row{setting.seconds, std::nan(""), std::nan(""), std::nan("")};
+        row[setting.way + 1] = error(setting);
+        plot.rows.push_back(row);
+    }
+    return plot;
+}
+
 /// Error against time: three ways, photons and rays.
 void trade(const examples::Options& options, const Sizes& sizes) {
     const auto room = matt_cornell_box();
     const auto oracle = examples::find_oracle("matt-cornell", room, options.width,
                                               sizes.truth, options);
-    examples::Plot plot{.name = "final-gathering-trade",
-                        .columns = {"processor seconds", "photons", "map", "gather"},
-                        .y_label = "relMSE",
-                        .log_x = true,
-                        .log_y = true};
-    const std::string most = std::to_string(sizes.photons);
     examples::Plot split_plot{.name = "final-gathering-split",
-                              .columns = {"rays a pixel", "photons: squared bias",
+                              .columns = {"photons", "photons: squared bias",
                                           "photons: variance", "map: squared bias",
                                           "map: variance", "gather: squared bias",
                                           "gather: variance"},
-                              .y_label = "part of relMSE, " + most + " photons",
+                              .y_label = "part of relMSE, most rays",
                               .log_x = true,
                               .log_y = true};
     examples::Table table{.name = "final-gathering-table",
@@ -432,22 +452,19 @@ void trade(const examples::Options& options, const Sizes& sizes) {
     constexpr std::array kinds{IndirectLight::photons, IndirectLight::map,
                                IndirectLight::gather};
     const double nan = std::nan("");
-    const std::array counts{std::max(1000LL, sizes.photons / 100),
-                            std::max(1000LL, sizes.photons / 10), sizes.photons};
+    std::vector<long long> counts;
+    for (const long long part : {100, 32, 10, 3, 1})
+        counts.push_back(std::max(1000LL, sizes.photons / part));
     std::vector<int> rays;
     for (int n = 1; n <= options.samples; n *= 4) rays.push_back(n);
-    struct Point {
-        std::size_t way;
-        double seconds, error;
-    };
-    std::vector<Point> points;
+    std::vector<Setting> tried;
     for (const long long photons : counts)
         for (const int samples : rays) {
             std::vector<PhotonMappingSettings> ways;
             for (const IndirectLight kind : kinds)
                 ways.push_back(gather_settings(kind, photons, 1, options));
             const auto runs = compare(room, ways, samples, sizes.seeds, options);
-            examples::Row row{double(samples)};
+            examples::Row row{double(photons)};
             for (std::size_t w = 0; w < kinds.size(); ++w) {
                 const auto split = examples::relative_split(runs[w].images,
                                                             oracle.truth, oracle.noise);
@@ -457,7 +474,7 @@ void trade(const examples::Options& options, const Sizes& sizes) {
                 const double first = median(runs[w].first);
                 const double second = median(runs[w].second);
                 const double error = split.bias_squared + split.variance;
-                points.push_back({w, first + second, error});
+                tried.push_back({w, first + second, error, seen});
                 row.push_back(split.bias_squared > 0 ? split.bias_squared : nan);
                 row.push_back(split.variance);
                 table.rows.push_back({std::to_string(photons), std::to_string(samples),
@@ -468,20 +485,14 @@ void trade(const examples::Options& options, const Sizes& sizes) {
                                       examples::text(split.variance, "%.2g"),
                                       examples::text(seen, "%.3f")});
             }
-            if (photons == counts.back()) split_plot.rows.push_back(row);
+            if (samples == rays.back()) split_plot.rows.push_back(row);
         }
-    // For each way the settings that no other beat in both time and error.
-    std::sort(points.begin(), points.end(),
-              [](const Point& a, const Point& b) { return a.seconds < b.seconds; });
-    std::array best{1e300, 1e300, 1e300};
-    for (const Point& point : points) {
-        if (point.error >= best[point.way]) continue;
-        best[point.way] = point.error;
-        examples::Row row{point.seconds, nan, nan, nan};
-        row[point.way + 1] = point.error;
-        plot.rows.push_back(row);
-    }
-    save_plot(options.out, plot);
+    std::sort(tried.begin(), tried.end(),
+              [](const Setting& a, const Setting& b) { return a.seconds < b.seconds; });
+    save_plot(options.out, frontier("final-gathering-trade", "relMSE", tried,
+                                    [](const Setting& s) { return s.error; }));
+    save_plot(options.out, frontier("final-gathering-flip", "FLIP", tried,
+                                    [](const Setting& s) { return s.seen; }));
     save_plot(options.out, split_plot);
     save_table(options.out, table);
     print(table, options);
@@ -498,27 +509,31 @@ void ratio(const examples::Options& options, const Sizes& sizes) {
                           .columns = {"photons of an estimate", "map, s", "gather, s",
                                       "ratio", "points, s", "of the time saved",
                                       "relMSE: map", "gather"}};
-    for (const std::size_t k : {32u, 64u, 128u, 256u}) {
+    for (const std::size_t k : {0u, 32u, 64u, 128u, 256u}) {
         auto map = gather_settings(IndirectLight::map, sizes.photons, 1, options);
-        map.general_estimate.nearest = k;
-        map.general_estimate.radius = 1; // the k nearest decide
+        if (k > 0) map.general_estimate = {.radius = 1, .nearest = k};
         auto gather = map;
         gather.indirect = IndirectLight::gather;
-        gather.irradiance.nearest = k;
+        gather.irradiance.nearest = k > 0 ? k : 64;
         const auto runs = compare(room, {map, gather}, rays, seeds, options);
         const double slow = median(runs[0].second), fast = median(runs[1].second);
-        const double extra = median(runs[1].first) - median(runs[0].first);
+        const auto maps = make_photon_maps(room.scene, gather);
+        const auto scene = index_scene(room.scene);
+        const double begin = examples::processor_seconds();
+        (void)make_irradiance_points(scene, maps.general, maps.caustics,
+                                     gather.irradiance, 1, options.threads);
+        const double extra = examples::processor_seconds() - begin;
         const auto error = [&](const Runs& r) {
             const auto split =
                 examples::relative_split(r.images, oracle.truth, oracle.noise);
             return examples::text(split.bias_squared + split.variance, "%.2g");
         };
-        table.rows.push_back({std::to_string(k), examples::text(slow, "%.2f"),
-                              examples::text(fast, "%.2f"),
-                              examples::text(slow / fast, "%.1f"),
-                              examples::text(extra, "%.2f"),
-                              examples::text(100 * extra / (slow - fast), "%.0f %%"),
-                              error(runs[0]), error(runs[1])});
+        table.rows.push_back(
+            {k > 0 ? "the nearest " + std::to_string(k) : "64 typically",
+             examples::text(slow, "%.2f"), examples::text(fast, "%.2f"),
+             examples::text(slow / fast, "%.1f"), examples::text(extra, "%.2f"),
+             examples::text(100 * extra / (slow - fast), "%.0f %%"), error(runs[0]),
+             error(runs[1])});
     }
     save_table(options.out, table);
     print(table, options);
