@@ -77,6 +77,7 @@ estimate_irradiance(const S& scene, const PhotonMapT<T>& map, const VertexT<T>& 
     const double radius2 =
         full ? found[0].distance2 : double(settings.radius) * double(settings.radius);
     if (!(radius2 > 0)) return RgbT<T>{T(0)};
+    // [estimate_irradiance]
     RgbT<double> sum{0};
     for (std::size_t k = full ? 1 : 0; k < count; ++k) {
         const PhotonRecordT<T> photon = map.records[found[k].index];
@@ -90,6 +91,7 @@ estimate_irradiance(const S& scene, const PhotonMapT<T>& map, const VertexT<T>& 
                        ? part_on_surface(scene, vertex, normal, T(std::sqrt(radius2)))
                        : T(1);
     return RgbT<T>(sum / (std::numbers::pi * radius2)) / part;
+    // [estimate_irradiance]
 }
 
 } // namespace detail
@@ -134,6 +136,7 @@ template <SceneLike S, std::floating_point T>
         const VertexT<T> vertex = vertex_at(scene, down, *hit);
         const Vec3T<T> side =
             vertex.wo.z < T(0) ? -vertex.point.normal : vertex.point.normal;
+        // [at_point]
         auto stream = random_stream(seed, Pass::irradiance, 0, i);
         Counts counts;
         const LambertianT<T> white{.albedo = RgbT<T>{T(1)}};
@@ -148,6 +151,7 @@ template <SceneLike S, std::floating_point T>
             sum += detail::estimate_irradiance(scene, caustics, vertex, side, settings,
                                                radius, one_kind(PhotonKind::caustic));
         records[i].irradiance = sum;
+        // [at_point]
     };
     constexpr long long block = 64;
     const auto body = [&](long long b) {
@@ -172,6 +176,7 @@ template <SceneLike S, std::floating_point T>
 /// \param position  Where it is asked for.
 /// \param normal    Unit, on the side that is asked about.
 /// \return W/m^2; 0 if there is none: where no photon came, it is dark.
+// [irradiance_at]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> irradiance_at(const IrradiancePointsT<T>& points,
                                     const Vec3T<T>& position, const Vec3T<T>& normal) {
@@ -186,6 +191,7 @@ template <std::floating_point T>
         return RgbT<T>{T(0)};
     return points.records[found[0].index].irradiance;
 }
+// [irradiance_at]
 
 /// \}
 

@@ -69,11 +69,11 @@ struct GatherRayT {
 /// \param stream     The numbers of the ray.
 /// \param counts     Counts rays and lookups.
 /// \return Radiance and distance.
-// [gather_ray]
 template <SceneLike S, std::floating_point T, typename Stream>
 [[nodiscard]] GatherRayT<T>
 gather_ray(const S& scene, const IrradiancePointsT<T>& points, PathStateT<T> path,
            int max_depth, Stream& stream, Counts& counts) {
+    // [gather_ray]
     GatherRayT<T> found;
     for (bool first = true; path.depth < max_depth; first = false) {
         ++counts.bounce_rays;
@@ -98,8 +98,8 @@ gather_ray(const S& scene, const IrradiancePointsT<T>& points, PathStateT<T> pat
         if (!survives(path.throughput, path.eta_scale, next_1d<T>(stream))) break;
     }
     return found;
+    // [gather_ray]
 }
-// [gather_ray]
 
 /// Irradiance that was gathered at a point.
 template <std::floating_point T>

@@ -70,11 +70,11 @@ template <SceneLike S, std::floating_point T>
 /// \param normal  Unit, on the side that is asked about.
 /// \param radius  Of the disc.
 /// \return In (0, 1]; 1 for shapes without straight edges.
-// [part_on_surface]
 template <SceneLike S, std::floating_point T>
 [[nodiscard]] T part_on_surface(const S& scene, const VertexT<T>& vertex,
                                 const Vec3T<T>& normal, T radius) {
     const Vec3T<T>& x = vertex.point.position;
+    // [part_on_surface]
     const auto part = [&](const auto& corners) {
         Vec3T<T> middle{T(0)};
         for (const Vec3T<T>& corner : corners) middle += corner / T(corners.size());
@@ -93,6 +93,7 @@ template <SceneLike S, std::floating_point T>
         }
         return product;
     };
+    // [part_on_surface]
     return scene.visit_shape(vertex.id, [&](const auto& shape) {
         if constexpr (requires { corners_of(shape); })
             return part(corners_of(shape));
@@ -100,7 +101,6 @@ template <SceneLike S, std::floating_point T>
             return T(1);
     });
 }
-// [part_on_surface]
 
 /// \}
 
