@@ -275,10 +275,11 @@ void pictures(const examples::Options& options) {
                                  .threads = options.threads};
     auto maps = make_photon_maps(room.scene, settings);
     save_png(gathered_light(room, maps, settings, picture),
-             options.path("irradiance_cache-everywhere.png")); // no cache yet
+             options.path("irradiance_cache-everywhere.png"),
+             {.exposure = 2}); // no cache yet
     add_irradiance_cache(maps, room.scene, room.camera, picture, settings);
     save_png(gathered_light(room, maps, settings, picture),
-             options.path("irradiance_cache-interpolated.png"));
+             options.path("irradiance_cache-interpolated.png"), {.exposure = 2});
 
     // The points as dots: as photons that have come to them from the side that is seen.
     std::vector<Photon> dots;

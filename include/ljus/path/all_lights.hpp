@@ -71,7 +71,7 @@ template <SceneLike S, std::floating_point T>
 /// \param counts    Counts the rays.
 /// \param verdict   What is known of the lamp before a ray is cast.
 /// \return Radiance towards wo.
-/// \cite heitz2018
+/// \cite heitz2018shadows
 // [analytic_light]
 template <SceneLike S, std::floating_point T, typename Place>
 [[nodiscard]] RgbT<T>
