@@ -118,12 +118,12 @@ struct GatheredT {
 /// \param stream    The numbers of this vertex.
 /// \param counts    Counts the rays.
 /// \return Irradiance, normal and harmonic mean distance.
-// [gather_irradiance]
 template <SceneLike S, std::floating_point T, typename Stream>
 [[nodiscard]] GatheredT<T>
 gather_irradiance(const S& scene, const IrradiancePointsT<T>& points,
                   const VertexT<T>& vertex, const GatherSettings& settings,
                   Stream& stream, Counts& counts) {
+    // [gather_irradiance]
     GatheredT<T> gathered{.normal = detail::seen_normal(vertex)};
     const T side = std::copysign(T(1), vertex.wo.z);
     const detail::Strata strata = detail::strata_for(settings.rays);
@@ -148,8 +148,8 @@ gather_irradiance(const S& scene, const IrradiancePointsT<T>& points,
     gathered.irradiance *= std::numbers::pi_v<T> / T(settings.rays);
     gathered.distance = T(settings.rays) / inverse;
     return gathered;
+    // [gather_irradiance]
 }
-// [gather_irradiance]
 
 /// \}
 

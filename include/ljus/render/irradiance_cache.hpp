@@ -138,7 +138,6 @@ void measure_spacing(IrradianceCacheT<T>& cache, const GatherSettings& settings,
 /// \param settings  How.
 /// \return The cache, the same for any number of threads.
 /// \cost settings.rays gather rays per tile, and some microseconds more.
-// [make_irradiance_cache]
 template <SceneLike S, std::floating_point T,
           template <std::floating_point> typename AnyCamera>
 [[nodiscard]] IrradianceCacheT<T>
@@ -146,6 +145,7 @@ make_irradiance_cache(const S& scene, const IrradiancePointsT<T>& points,
                       const AnyCamera<T>& camera, const RenderSettings& picture,
                       const GatherSettings& settings) {
     const detail::IndexedT<S> indexed(scene);
+    // [make_irradiance_cache]
     const int tile = settings.tile;
     const int columns = (picture.width + tile - 1) / tile;
     std::vector<detail::GatheredRowT<T>> rows(
@@ -166,6 +166,7 @@ make_irradiance_cache(const S& scene, const IrradiancePointsT<T>& points,
     cache.complete =
         parallel_blocks(static_cast<long long>(rows.size()), gather_row,
                         {.threads = picture.threads, .progress = picture.progress});
+    // [make_irradiance_cache]
     std::vector<Vec3T<T>> positions;
     std::vector<GatheredT<T>> records;
     for (const auto& row : rows) {
@@ -180,7 +181,6 @@ make_irradiance_cache(const S& scene, const IrradiancePointsT<T>& points,
     detail::measure_spacing(cache, settings, picture.threads);
     return cache;
 }
-// [make_irradiance_cache]
 
 /// \}
 
