@@ -26,6 +26,7 @@
 #include "ljus/io/pfm.hpp"
 #include "ljus/io/png.hpp"
 #include "ljus/ljus.hpp"
+#include "ljus/math/stratified_stream.hpp"
 #include "ljus/scenes/report_rooms.hpp"
 
 namespace {
@@ -112,7 +113,7 @@ void render_room(const S& scene, const Camera& camera, const RenderSettings& pic
     PhotonMapsT<float> maps;
     maps.caustics = make_photon_map(photons_of(scene, settings.caustics, rank));
     const double first = watch.seconds();
-    const auto mapper = make_photon_mapper(scene, maps, settings);
+    const auto mapper = make_photon_mapper<StratifiedStream>(scene, maps, settings);
 
     // [rows]
     const auto rows = rank.part(picture.height, rank.number);

@@ -220,7 +220,7 @@ TEST_CASE("survey: the lines as they are printed, and one photon is enough") {
     CHECK(to_text(plan) == all);
     CHECK(all.starts_with("shadow rays     on   7 of 8 objects reflect diffusely"));
     CHECK(std::count(all.begin(), all.end(), '\n') ==
-          std::ptrdiff_t(7 + plan.types.size()));
+          std::ptrdiff_t(plan.items().size() + plan.types.size()));
     for (const std::string& type : plan.types) { // the names stand in a column
         CHECK(type.substr(0, 16).find_last_not_of(' ') < 15);
         CHECK(type[16] != ' ');

@@ -81,7 +81,7 @@ ljus_break_it(NAME stratified-stream-random HEADER math/stratified_stream.hpp
 
 # The order of the draw taken for the place in the cell, too: twice the same order of two
 # rays is none, and all draws of a ray hang together.
-ljus_break_it(NAME stratified-stream-order HEADER math/stratified_stream.hpp
+ljus_break_it(NAME stratified-stream-twice HEADER math/stratified_stream.hpp
     TEST lens_camera
     FROM "cell, detail::mix_bits(key),"
     TO   "cell, ~key,"
