@@ -74,6 +74,15 @@ ljus_break_it(NAME stratified-stream-order HEADER math/stratified_stream.hpp
 # Cells that are not divided by their number.
 ljus_break_it(NAME stratified-stream-random HEADER math/stratified_stream.hpp
     TEST lens_camera
-    FROM "detail::spread(stream.pattern, cell, ~key, next_2d<T>(stream.rest));"
+    FROM "detail::spread(stream.pattern, cell, detail::mix_bits(key),
+                                      next_2d<T>(stream.rest));"
     TO   "next_2d<T>(stream.rest); (void)cell;"
     CASES "stratified stream: in each*")
+
+# The order of the draw taken for the place in the cell, too: twice the same order of two
+# rays is none, and all draws of a ray hang together.
+ljus_break_it(NAME stratified-stream-twice HEADER math/stratified_stream.hpp
+    TEST lens_camera
+    FROM "cell, detail::mix_bits(key),"
+    TO   "cell, ~key,"
+    CASES "stratified stream: the draws of a ray*")

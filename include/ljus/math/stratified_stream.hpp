@@ -93,8 +93,9 @@ template <std::floating_point T = float>
 [[nodiscard]] constexpr Vec2T<T> next_2d(StratifiedStream& stream) noexcept {
     std::uint64_t key = 0;
     const auto cell = static_cast<int>(detail::next_cell(stream, key));
-    const Vec2T<T> u =
-        detail::spread(stream.pattern, cell, ~key, next_2d<T>(stream.rest));
+    // Another key than next_cell()'s: of two rays, the same order twice would be none.
+    const Vec2T<T> u = detail::spread(stream.pattern, cell, detail::mix_bits(key),
+                                      next_2d<T>(stream.rest));
     return {detail::below_one(u.x), detail::below_one(u.y)};
 }
 // [next 2d]
