@@ -272,8 +272,10 @@ void figure_4(const examples::Options& options, const ljus::FilmTable& table) {
                          .seed = options.seed,
                          .threads = options.threads};
     settings.caustics_estimate.radius = options.pick(0.3f, 0.15f, 0.06f);
-    const ljus::Plan plan = survey(scene, settings);
-    for (const auto* pass : plan.items()) std::printf("%s", to_text(*pass).c_str());
+    if (!options.quiet) {
+        const ljus::Plan plan = survey(scene, settings);
+        for (const auto* pass : plan.items()) std::printf("%s", to_text(*pass).c_str());
+    }
     const auto maps = make_photon_maps(scene, settings);
     examples::ProgressBar bar("figure 4", options.quiet);
     const auto result =

@@ -164,9 +164,11 @@ int main(int argc, char** argv) {
         settings.caustics.threads = options.threads;
 
         const auto room = ljus::final_room();
-        const ljus::Plan plan = survey(room.scene, settings);
-        for (const auto* pass : plan.items())
-            if (!options.quiet) std::printf("%s", to_text(*pass).c_str());
+        if (!options.quiet) {
+            const ljus::Plan plan = survey(room.scene, settings);
+            for (const auto* pass : plan.items())
+                std::printf("%s", to_text(*pass).c_str());
+        }
         if (only != "fig-15") figure("fig-1", room, settings, options);
         if (only != "fig-1")
             figure("fig-15", ljus::all_materials_room(), settings, options);

@@ -127,6 +127,7 @@ private:
 
 LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
                                  const ParallelSettings& options) {
+    static_assert(max_threads_allowed == 1024, "the sentence below says so");
     require(options.threads >= 0 && options.threads <= max_threads_allowed,
             "the number of threads", static_cast<long long>(options.threads),
             "within [0, 1024]");

@@ -6,7 +6,7 @@ include=$LJUS_ROOT/include
 # A folder of its own for each check that runs: CTest runs several at once, and one of them
 # runs another.
 mkdir -p "$LJUS_SCRATCH"
-scratch=$(mktemp -d "$LJUS_SCRATCH/XXXXXX")
+scratch=$(mktemp -d -p "$LJUS_SCRATCH")
 trap 'rm -rf "$scratch"' EXIT
 
 skip() { echo "skipped: $*"; exit 77; }
