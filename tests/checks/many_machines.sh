@@ -56,8 +56,8 @@ job=$!
 victim=
 for _ in 1 2 3 4 5 6 7 8 9 10; do
     sleep 0.5
-    child=$(pgrep -P "$job" -f mpirun || true)
-    victim=$(pgrep -P "${child:-$job}" -f -- '--out never.pfm' | tail -1 || true)
+    child=$(pgrep -P "$job" || true) # mpirun, or whatever MPI calls it, below timeout
+    victim=$([ -z "$child" ] || pgrep -P "$child" -f -- '--out never.pfm' | tail -1)
     [ -z "$victim" ] || break
 done
 sleep 1
