@@ -237,7 +237,7 @@ void figure_4(const examples::Options& options) {
     examples::Table table{.name = "fig-4-furnace",
                           .columns = {"white sky"},
                           .rows = {{"as above"}, {"white"}}};
-    const int rays = options.pick(36, 256, 1024);
+    const int rays = options.pick(16, 256, 1024);
     for_each(colored_row(), [&](int place, const char* name, auto material) {
         table.columns.push_back(name);
         if constexpr (requires { material.texture.map.center; })
@@ -556,7 +556,7 @@ int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         line.about("Chapter 15, materials: figure 4, and what each material costs.");
         const examples::Options options =
-            line.parse({.draft{.width = 600, .height = 150, .samples = 49},
+            line.parse({.draft{.width = 600, .height = 150, .samples = 25},
                         .report{.width = 1200, .height = 300, .samples = 256},
                         .reference{.width = 1600, .height = 400, .samples = 2048}});
         figure_4(options);

@@ -660,7 +660,7 @@ int main(int argc, char** argv) {
             line.parse({.draft{.width = 48, .height = 48, .samples = 4},
                         .report{.width = 400, .height = 400, .samples = 64},
                         .reference{.width = 400, .height = 400, .samples = 64}});
-        if (!line.given("--most")) sizes.most = 1000;
+        if (!line.given("--most")) sizes.most = options.pick(100, 1000, 1000);
         if (!line.given("--repeats")) sizes.repeats = options.pick(3, 3, 5);
         if (!line.given("--truth")) sizes.truth = options.pick(512, 32768, 262144);
         const int threads =

@@ -16,8 +16,8 @@
 namespace ljus {
 
 /// \defgroup irradiance_points Precomputed irradiance
-/// \brief Christensen's shortcut for final gathering \cite christensen1999: a gather
-/// ray looks up one number in place of a density estimate. Chapter:
+/// \brief Christensen's shortcut for final gathering: a gather ray looks up one number
+/// in place of a density estimate \cite christensen1999. Chapter:
 /// \ref ch_final_gathering.
 /// \{
 

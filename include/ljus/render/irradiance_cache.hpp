@@ -14,8 +14,8 @@
 namespace ljus {
 
 /// \defgroup irradiance_cache The irradiance cache
-/// \brief Indirect light on matt surfaces changes slowly \cite ward1988: it is gathered
-/// at few points and interpolated at all others. Chapter: \ref ch_irradiance_cache.
+/// \brief Indirect light on matt surfaces changes slowly: it is gathered at few points
+/// and interpolated at all others \cite ward1988. Chapter: \ref ch_irradiance_cache.
 /// \{
 
 /// Points where irradiance was gathered, ordered for searching.
