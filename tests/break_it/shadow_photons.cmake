@@ -55,7 +55,7 @@ ljus_break_it(NAME shadow-photons-coarse HEADER photons/verdict_grid.hpp TEST sh
 # A ray that is skipped skips the light, too.
 ljus_break_it(NAME shadow-photons-dark HEADER path/direct_light.hpp TEST shadow_photons
     FROM "++counts.skipped_rays;"
-    TO   "++counts.skipped_rays; return RgbT<T>{T(0)};"
+    TO   "++counts.skipped_rays; return share;"
     CASES "shadow photons: what is known*")
 
 # What is in shadow is taken to be lit.

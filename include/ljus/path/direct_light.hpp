@@ -92,9 +92,8 @@ template <SceneLike S, std::floating_point T, Material M, typename Weigh>
 /// \param vertex    The surface.
 /// \param material  What it is made of.
 /// \param u         Point of the unit square: which point of the light.
-/// \param weigh     Called with the sample, the direction in the surface's frame, and
-///                  its cosine; returns the factor of multiple importance sampling, or
-///                  1.
+/// \param weigh     Called with the sample and the direction in the surface's frame;
+///                  returns the factor of multiple importance sampling, or 1.
 /// \param counts    Counts the ray; none is cast where the surface cannot reflect.
 /// \param verdict   With Verdict::lit no ray is cast, and V = 1.
 /// \return Radiance towards wo.
