@@ -11,7 +11,8 @@ namespace ljus {
 /// \{
 
 /// The fast twin of verdict_at(): a verdict for each cell of a grid, each of the six
-/// ways that a surface may face in it, and each light.
+/// ways that a surface may face in it, and each light. Shadow photons are from
+/// \cite jensen1995.
 ///
 /// A cell's verdict is that of all photons in the cell and its 26 neighbours, which
 /// hold every photon within one cell's length of any point in it. If they are too few,

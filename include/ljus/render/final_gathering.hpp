@@ -15,8 +15,8 @@
 namespace ljus {
 
 /// \defgroup final_gathering Final gathering
-/// \brief The report's discussion: indirect photons, used well. Chapter:
-/// \ref ch_final_gathering.
+/// \brief The report's discussion: indirect photons, used well \cite jensen1996.
+/// Chapter: \ref ch_final_gathering.
 /// \{
 
 namespace detail {

@@ -14,7 +14,8 @@ namespace ljus {
 /// \addtogroup photon_mapping
 /// \{
 
-/// What the first pass made. Plain data: it may be made in any other way.
+/// What the first pass made (the report, Section 3.2.2). Plain data: it may be made in
+/// any other way.
 template <std::floating_point T>
 struct PhotonMapsT {
     PhotonMapT<T> caustics; ///< L S+ D; empty if the scene has no mirror and no glass.

@@ -39,6 +39,7 @@ struct Passes {
 
 /// Decides which passes run; make_photon_maps() and make_photon_mapper() obey it, and
 /// make_plan() says why.
+/// \report{Section 3.2.2}
 /// \param found     What the scene is made of.
 /// \param settings  What the user asks for.
 /// \return The decisions.

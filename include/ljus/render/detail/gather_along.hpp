@@ -20,8 +20,8 @@ struct GatheredRowT {
     Counts counts{};                   ///< What it cost.
 };
 
-/// Gathers at the first diffuse surfaces of a camera ray: behind mirrors, and both ways
-/// at glass.
+/// Gathers at the first diffuse surfaces of a camera ray, the points of an irradiance
+/// cache \cite ward1988 ; behind mirrors, and both ways at glass.
 /// \param scene     The scene.
 /// \param points    What gather rays look up.
 /// \param ray       A primary ray.
