@@ -264,7 +264,6 @@ TEST_CASE("light: a spot's flux is the integral of what it sends, at any angle")
                                         .intensity{2, 3, 4},
                                         .inner_degrees = inner,
                                         .outer_degrees = outer});
-            REQUIRE(room.lights.size() == 1); // one without flux would be left out
             const Vec3T<double> axis{0.6, -0.8, 0}, across{0.8, 0.6, 0};
             double integral = 0;
             const int n = 20000;

@@ -13,7 +13,7 @@ ljus_break_it(NAME light-inverse-square HEADER scene/light.hpp TEST light
 # A spot has the flux of its inner cone.
 ljus_break_it(NAME light-spot-flux HEADER scene/make_light.hpp TEST light
     FROM "(made.inner + made.outer)"
-    TO   "(made.inner + made.inner)"
+    TO   "(made.outer + made.outer)"
     CASES "light: a spot's flux*")
 
 # The corners of the scene are dark in a caustic of the sun.
