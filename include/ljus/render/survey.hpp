@@ -134,9 +134,9 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
         item("caustics map", run.caustics_map,
              found.specular == 0              ? "no object mirrors or refracts"
              : settings.caustics.photons == 0 ? "0 photons were asked for"
-             : run.shadow_rays
-                 ? of_all(found.specular, "mirror or refract") + budget_clause(settings)
-                 : "nothing is lit");
+             : run.shadow_rays ? of_all(found.specular, "mirror or refract") +
+                                     caustics_clause(settings)
+                               : "nothing is lit");
     plan.general_map =
         item("general map", run.general_map,
              run.general_map ? "indirect light is asked of it" : "no ray asks it");

@@ -81,22 +81,30 @@ struct Passes {
     return skip;
 }
 
-/// How a plan says what the caustics' photons are shared out by.
+/// How a plan says what is chosen for the caustics: by what their photons are shared
+/// out, and where their radius comes from.
 /// \param settings  What the user asks for.
-/// \return The end of a clause; nothing for CausticBudget::as_seen.
-[[nodiscard]] inline std::string budget_clause(const PhotonMappingSettings& settings) {
-    if (!settings.caustics.shares.empty()) return ", photons in given shares";
+/// \return The end of a clause; nothing where nothing is chosen.
+[[nodiscard]] inline std::string
+caustics_clause(const PhotonMappingSettings& settings) {
+    const char* const radius = settings.caustics_estimate.radius == 0
+                                   ? ", the radius comes from the photons"
+                                   : "";
+    const auto clause = [&](const char* shares) {
+        return std::string(shares).append(radius);
+    };
+    if (!settings.caustics.shares.empty()) return clause(", photons in given shares");
     switch (settings.caustic_budget) {
     case CausticBudget::equal:
-        return ", each gets as many photons";
+        return clause(", each gets as many photons");
     case CausticBudget::flux:
-        return ", photons are shared out by flux";
+        return clause(", photons are shared out by flux");
     case CausticBudget::area:
-        return ", photons are shared out by caustic area";
+        return clause(", photons are shared out by caustic area");
     case CausticBudget::brightness:
-        return ", photons are shared out by flux over brightness";
+        return clause(", photons are shared out by flux over brightness");
     default:
-        return "";
+        return clause("");
     }
 }
 
