@@ -193,7 +193,8 @@ std::string passes_line(const Request& request, const PhotonMappingSettings& set
     if (passes == 0) return to_text(PlanItem{"passes", false, "one map for all rays"});
     char why[160];
     std::snprintf(why, sizeof why,
-                  "%lld, each with %lld caustic photons and other radii, alpha %.3g",
+                  "%lld, each with %lld caustic photons of its own and a smaller "
+                  "radius, alpha %.3g",
                   passes, settings.caustics.photons, request.passes.alpha);
     return to_text(PlanItem{"passes", true, why});
 }

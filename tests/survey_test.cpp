@@ -212,8 +212,8 @@ TEST_CASE("survey: the lines as they are printed, and one photon is enough") {
     CHECK(plan.general_map.why == "indirect light is asked of it");
     CHECK(plan.indirect_rays.why == "7 of 8 objects light each other");
     CHECK(to_text(plan.tree) ==
-          "tree            on   8 objects, a tree finds the first on a ray\n");
-    CHECK(to_text(plan.thin_film) == "thin film       off  no material is one\n");
+          "tree             on   8 objects, a tree finds the first on a ray\n");
+    CHECK(to_text(plan.thin_film) == "thin film        off  no material is one\n");
     std::string all;
     for (const PlanItem* item : plan.items()) all += to_text(*item);
     for (const std::string& type : plan.types) all += type + "\n";
@@ -268,17 +268,17 @@ TEST_CASE("survey: a hook that is misspelt shows") {
     const Plan plan = survey(scene, PhotonMappingSettings{});
     REQUIRE(plan.types.size() == 4);
     CHECK(plan.types[0] ==
-          "shape 1         has meets, area; without bounds (its sphere's box), "
+          "shape 1          has meets, area; without bounds (its sphere's box), "
           "shading_normal (the geometric one), sample_area (refused as a light), "
           "sample_towards (points of its area), pdf_towards (points of its area), "
           "center_sample (u = v = 1/2), texture_coordinates (those of the hit), "
           "translated (does not compile), is_flat (at its sphere)");
-    CHECK(plan.types[1].find("shape 2         has bounds, area, ") == 0);
+    CHECK(plan.types[1].find("shape 2          has bounds, area, ") == 0);
     CHECK(plan.types[2] ==
-          "material 1      has emission; without absorption (clear), at_point (the "
+          "material 1       has emission; without absorption (clear), at_point (the "
           "same anywhere), uses_uv (uv is 0), both_ways (one way by chance), "
           "pass_through (opaque), only_specular (write both)");
-    CHECK(plan.types[3].find("material 2      has absorption, both_ways, "
+    CHECK(plan.types[3].find("material 2       has absorption, both_ways, "
                              "only_specular; without emission (black), ") == 0);
     CHECK(to_text(plan).find(plan.types[0] + "\n" + plan.types[1] + "\n") !=
           std::string::npos);

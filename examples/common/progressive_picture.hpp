@@ -54,10 +54,14 @@ inline void require_pass_files(const PassOptions& how, const std::string& pictur
         std::filesystem::path(how.preview).extension() != ".png")
         throw std::invalid_argument("--preview is " + how.preview +
                                     "; its name must end with .png.");
-    if (!how.checkpoint.empty() &&
-        (how.checkpoint == picture || how.checkpoint == how.preview))
-        throw std::invalid_argument("--checkpoint is " + how.checkpoint +
-                                    "; it must be a file of its own.");
+    const auto place = [](const std::string& file) {
+        return std::filesystem::absolute(file).lexically_normal();
+    };
+    if (!how.checkpoint.empty())
+        for (const std::string& file : {picture, how.preview})
+            if (!file.empty() && place(file) == place(how.checkpoint))
+                throw std::invalid_argument("--checkpoint is " + how.checkpoint +
+                                            "; it must be a file of its own.");
     for (const std::string& file : {how.checkpoint, how.preview})
         if (!file.empty()) require_writable(file);
 }

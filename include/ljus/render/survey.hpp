@@ -65,7 +65,7 @@ struct Plan {
 /// \return A line that ends with a line feed.
 [[nodiscard]] inline std::string to_text(const PlanItem& item) {
     std::string name = item.pass;
-    name.resize(16, ' ');
+    name.resize(17, ' ');
     return name + (item.on ? "on   " : "off  ") + item.why + "\n";
 }
 
@@ -188,7 +188,7 @@ template <SceneLike S>
     Plan plan = detail::make_plan(needs(scene), settings);
     const auto add = [&](const char* what, int number, const auto& hooks) {
         std::string name = std::string(what).append(std::to_string(number));
-        name.resize(16, ' ');
+        name.resize(17, ' ');
         plan.types.push_back(name.append(detail::to_line(hooks)));
     };
     int shapes = 0, materials = 0; // neither finds what it asks for: all are asked
