@@ -218,12 +218,12 @@ TEST_CASE("survey: the lines as they are printed, and one photon is enough") {
     for (const PlanItem* item : plan.items()) all += to_text(*item);
     for (const std::string& type : plan.types) all += type + "\n";
     CHECK(to_text(plan) == all);
-    CHECK(all.starts_with("shadow rays     on   7 of 8 objects reflect diffusely"));
+    CHECK(all.starts_with("shadow rays      on   7 of 8 objects reflect diffusely"));
     CHECK(std::count(all.begin(), all.end(), '\n') ==
           std::ptrdiff_t(plan.items().size() + plan.types.size()));
     for (const std::string& type : plan.types) { // the names stand in a column
-        CHECK(type.substr(0, 16).find_last_not_of(' ') < 15);
-        CHECK(type[16] != ' ');
+        CHECK(type.substr(0, 17).find_last_not_of(' ') < 16);
+        CHECK(type[17] != ' ');
     }
 }
 
