@@ -25,6 +25,7 @@
 #include "ljus/inspect/census.hpp"
 #include "ljus/inspect/explain.hpp"
 #include "ljus/inspect/photon_dots.hpp"
+#include "ljus/inspect/survey.hpp"
 #include "ljus/io/hdr.hpp"
 #include "ljus/io/load_json.hpp"
 #include "ljus/io/pfm.hpp"

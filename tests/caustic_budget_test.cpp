@@ -9,6 +9,7 @@
 #include <cmath>
 #include <vector>
 
+#include "ljus/inspect/survey.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"

@@ -9,6 +9,7 @@
 
 #include "ljus/accel/mesh.hpp"
 #include "ljus/geometry/metaballs.hpp"
+#include "ljus/inspect/survey.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/mixture.hpp"
 #include "ljus/materials/soap_film.hpp"

@@ -14,7 +14,7 @@
 namespace ljus {
 
 /// \defgroup budget A budget for caustics
-/// \brief Discussion: "shooting fewer caustics photons towards objects with higher
+/// \brief Section 5: "shooting fewer caustics photons towards objects with higher
 /// refractivity". Chapter: \ref ch_caustic_budget.
 /// \{
 

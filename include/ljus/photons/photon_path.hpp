@@ -9,7 +9,7 @@
 
 #include "ljus/path/continue_path.hpp"
 #include "ljus/path/next_vertex.hpp"
-#include "ljus/photons/emission.hpp"
+#include "ljus/path/emission.hpp"
 #include "ljus/photons/photon_pass.hpp"
 
 namespace ljus {

@@ -15,7 +15,7 @@
 namespace ljus {
 
 /// \defgroup final_gathering Final gathering
-/// \brief The report's discussion: indirect photons, used well. Chapter:
+/// \brief Section 5 of the report: indirect photons, used well. Chapter:
 /// \ref ch_final_gathering.
 /// \{
 

@@ -1,13 +1,13 @@
 #pragma once
 
 /// \file ljus/render/photon_maps.hpp
-/// \brief The first pass of the report's renderer: its photon maps.
+/// \brief The first pass of the report's renderer (Section 3.2.2): photon maps.
 
 #include "ljus/photons/budget.hpp"
 #include "ljus/photons/tracing.hpp"
 #include "ljus/photons/verdict_grid.hpp"
+#include "ljus/render/detail/choose_passes.hpp"
 #include "ljus/render/irradiance_cache.hpp"
-#include "ljus/render/survey.hpp"
 
 namespace ljus {
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <string>
 
+#include "ljus/path/next_vertex.hpp"
 #include "ljus/render/photon_mapping_settings.hpp"
 
 namespace ljus {
@@ -21,6 +22,24 @@ struct SceneNeeds {
     std::size_t lights = 0;   ///< Emissive objects and point lights.
     bool films = false;       ///< Whether a material is a thin surface.
 };
+
+/// Counts what a scene is made of.
+/// \param scene  The scene.
+/// \return The counts.
+template <SceneLike S>
+[[nodiscard]] SceneNeeds needs(const S& scene) {
+    SceneNeeds found{.objects = scene.size(),
+                     .lights = scene.lights.size(),
+                     .films = detail::has_thin_surfaces(scene)};
+    for (const auto& objects : scene.objects)
+        for (const auto& object : objects) {
+            const Lobes parts = scene.visit_material(
+                object.material, [](const auto& m) { return lobes(m); });
+            found.diffuse += has(parts, Lobes::non_specular) ? 1 : 0;
+            found.specular += has(parts, Lobes::specular) ? 1 : 0;
+        }
+    return found;
+}
 
 namespace detail {
 

@@ -1,13 +1,12 @@
 #pragma once
 
-/// \file ljus/render/survey.hpp
+/// \file ljus/inspect/survey.hpp
 /// \brief What a scene requires: which passes run, and why.
 
 #include <array>
 #include <string>
 #include <vector>
 
-#include "ljus/path/next_vertex.hpp"
 #include "ljus/render/detail/choose_passes.hpp"
 #include "ljus/scene/index.hpp"
 
@@ -77,24 +76,6 @@ struct Plan {
     for (const PlanItem* item : plan.items()) text += to_text(*item);
     for (const std::string& type : plan.types) text += type + "\n";
     return text;
-}
-
-/// Counts what a scene is made of.
-/// \param scene  The scene.
-/// \return The counts.
-template <SceneLike S>
-[[nodiscard]] SceneNeeds needs(const S& scene) {
-    SceneNeeds found{.objects = scene.size(),
-                     .lights = scene.lights.size(),
-                     .films = detail::has_thin_surfaces(scene)};
-    for (const auto& objects : scene.objects)
-        for (const auto& object : objects) {
-            const Lobes parts = scene.visit_material(
-                object.material, [](const auto& m) { return lobes(m); });
-            found.diffuse += has(parts, Lobes::non_specular) ? 1 : 0;
-            found.specular += has(parts, Lobes::specular) ? 1 : 0;
-        }
-    return found;
 }
 
 namespace detail {
