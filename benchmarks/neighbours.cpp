@@ -14,7 +14,7 @@
 ///
 /// The sums are of a payload of the points found, so that no peer gets away without
 /// touching what a photon map reads, and so that all peers can be seen to agree. What a
-/// peer cannot do is left out. `--table` prints the times of all in one run: processor
+/// peer cannot do is left out. `--table`, and `--csv FOLDER`, prints the times of all in one run: processor
 /// time of one thread, peers in turn, the median of seven rounds, and how many times as
 /// long as the wide tree each takes.
 
@@ -37,6 +37,7 @@
 #include <ljus/accel/kd_tree8.hpp>
 #include <ljus/math/random.hpp>
 
+#include "csv.hpp"
 #include "point_structures.hpp"
 
 #if __has_include(<nanoflann.hpp>)
@@ -385,9 +386,11 @@ double cpu_seconds() {
 }
 
 /// One line of the table: the median time of each peer, and its ratio to the first.
+/// \return The ratios, and the first one's time in ns.
 template <typename... Times>
-void print_line(const char* what, const std::vector<std::string>& peers, int rounds,
-                Times... times) {
+std::pair<std::vector<double>, double> print_line(const char* what,
+                                                  const std::vector<std::string>& peers,
+                                                  int rounds, Times... times) {
     std::vector<std::vector<double>> all(sizeof...(times));
     for (int round = 0; round < rounds; ++round) {
         std::size_t i = 0;
@@ -400,6 +403,7 @@ void print_line(const char* what, const std::vector<std::string>& peers, int rou
         for (std::size_t r = 0; r < all[i].size(); ++r)
             ratio.push_back(all[i][r] / all[0][r]);
         std::sort(ratio.begin(), ratio.end());
+        ratios.push_back(ratio[ratio.size() / 2]);
         std::sort(all[i].begin(), all[i].end());
         const double time = all[i][all[i].size() / 2];
         if (time < 0)
@@ -410,12 +414,14 @@ void print_line(const char* what, const std::vector<std::string>& peers, int rou
     }
     std::printf("\n");
     std::fflush(stdout);
+    return {ratios, all[0][all[0].size() / 2]};
 }
 
 float sink = 0; // what the peers return, so that none is left out
 
 template <typename... Peers>
-void table(int kind, std::size_t count, const std::vector<std::string>& names_of) {
+void table(int kind, std::size_t count, const std::vector<std::string>& names_of,
+           examples::Table& book) {
     const auto points = points_of(kind, count);
     const float radius = radius_for_50(points);
     std::printf("%zu points %s; ns, and times the first\n", count,
@@ -427,7 +433,17 @@ void table(int kind, std::size_t count, const std::vector<std::string>& names_of
             return (cpu_seconds() - start) * 1e9 / double(count);
         };
     };
-    print_line("build", names_of, 5, built.template operator()<Peers>()...);
+    const auto of_nanoflann = [&](const std::vector<double>& ratios, std::size_t peer) {
+        book.rows.back().push_back(
+            peer < ratios.size() && ratios[peer] > 0
+                ? examples::text(ratios[peer], ratios[peer] < 9.5 ? "%.1f" : "%.0f")
+                : "");
+    };
+    book.rows.push_back({(count == 10000 ? "10 000" : "a million") +
+                         std::string(kind == 0 ? " on walls" : " in caustics")});
+    of_nanoflann(
+        print_line("build", names_of, 5, built.template operator()<Peers>()...).first,
+        1);
     const std::tuple<std::unique_ptr<Peers>...> peers{
         std::make_unique<Peers>(points)...};
     // Side by side: to fetch a centre from afar is nobody's search.
@@ -448,8 +464,13 @@ void table(int kind, std::size_t count, const std::vector<std::string>& names_of
                 }
             };
         };
-        print_line(names[std::size_t(query)], names_of, 7,
-                   time(*std::get<std::unique_ptr<Peers>>(peers))...);
+        const auto [ratios, first] =
+            print_line(names[std::size_t(query)], names_of, 7,
+                       time(*std::get<std::unique_ptr<Peers>>(peers))...);
+        of_nanoflann(ratios, 1);
+        if (query == Query::any) of_nanoflann(ratios, 2); // stopped at the first
+        if (query == Query::one)
+            book.rows.back().push_back(examples::text(1e-3 * first, "%.2f"));
     };
     line.template operator()<Query::within>();
     line.template operator()<Query::blocks>();
@@ -499,11 +520,18 @@ int main(int argc, char** argv) {
     with_peers([]<typename... Peers>(const std::vector<std::string>&) {
         (must_agree<WideTree, Peers>(), ...);
     });
-    if (argc > 1 && std::strcmp(argv[1], "--table") == 0) {
-        with_peers([]<typename... Peers>(const std::vector<std::string>& of) {
+    if (argc > 1 &&
+        (std::strcmp(argv[1], "--table") == 0 || std::strcmp(argv[1], "--csv") == 0)) {
+        examples::Table book{
+            .name = "kd_tree-nanoflann",
+            .columns = {"nanoflann's time over the wide tree's", "build", "ball",
+                        "by blocks", "50 nearest", "200 nearest", "any", "any, stopped",
+                        "nearest", "the wide tree's nearest, microseconds"}};
+        with_peers([&]<typename... Peers>(const std::vector<std::string>& of) {
             for (const std::size_t count : {10000u, 1000000u})
-                for (const int kind : {0, 1}) table<Peers...>(kind, count, of);
+                for (const int kind : {0, 1}) table<Peers...>(kind, count, of, book);
         });
+        save_csv(csv_folder(argc, argv), book);
         return std::isnan(sink) ? 1 : 0;
     }
     with_peers([]<typename... Peers>(const std::vector<std::string>& of) {

@@ -6,6 +6,7 @@
 #include <ljus/accel/detail/triangle_bvh.hpp>
 #include <ljus/geometry/shape.hpp>
 
+#include "csv.hpp"
 #include "rays_scenes.hpp"
 #include "rays_timing.hpp"
 
@@ -45,7 +46,12 @@ struct House {
 } // namespace
 
 /// Prints a row for each mesh and set of rays.
-int main() {
+int main(int argc, char** argv) {
+    const std::string folder = csv_folder(argc, argv);
+    examples::Table table{.name = "bvh-embree",
+                          .columns = {"mesh", "triangles", "primary", "diffuse",
+                                      "shadow", "plain tree: primary", "diffuse",
+                                      "shadow", "build time", "bytes a triangle"}};
     std::printf("%-10s %-8s %9s %9s %9s   x Embree: plain  wide\n", "", "", "plain, ns",
                 "wide, ns", "Embree");
     for (const rays::Named& named : rays::meshes()) {
@@ -76,10 +82,13 @@ int main() {
         embree.add(RTC_GEOMETRY_TYPE_TRIANGLE, vertices, 3, 3);
         embree.commit();
         std::printf(", Embree in %.1f ms", 1e3 * embree.build);
+        const std::string ratio = examples::text(build / embree.build, "%.2f");
 #else
         const rays::NoPeer embree;
+        const std::string ratio;
 #endif
         std::printf("\n");
+        std::vector<std::string> wide_ratios, plain_ratios;
         const auto row = [&](const char* name, const std::vector<Ray>& set, bool any) {
             const auto t = rays::compare(set, any, plain, wide, embree);
             std::printf("%-10s %-8s %9.1f %9.1f %9.1f   %15.2f %5.2f   %s\n", "", name,
@@ -87,9 +96,23 @@ int main() {
                         t.nanoseconds[2] / t.nanoseconds[0],
                         t.nanoseconds[2] / t.nanoseconds[1],
                         t.sums[0] == t.sums[1] ? "same" : "DIFFERENT");
+            const auto to_embree = [&](std::size_t k) {
+                return examples::text(t.nanoseconds[2] / t.nanoseconds[k], "%.2f");
+            };
+            plain_ratios.push_back(to_embree(0));
+            wide_ratios.push_back(to_embree(1));
         };
         row("primary", sets.primary, false);
         row("diffuse", sets.diffuse, false);
         row("shadow", sets.shadow, true);
+        table.rows.push_back(
+            {named.name.substr(0, named.name.find(' ')), std::to_string(mesh.size())});
+        std::vector<std::string>& cells = table.rows.back();
+        cells.insert(cells.end(), wide_ratios.begin(), wide_ratios.end());
+        cells.insert(cells.end(), plain_ratios.begin(), plain_ratios.end());
+        cells.push_back(ratio);
+        cells.push_back(
+            examples::text(double(wide.tree.bytes()) / double(mesh.size()), "%.0f"));
     }
+    save_csv(folder, table);
 }

@@ -8,6 +8,7 @@
 #include <ljus/ljus.hpp>
 #include <ljus/scenes/report_rooms.hpp>
 
+#include "csv.hpp"
 #include "rays_scenes.hpp"
 #include "rays_timing.hpp"
 
@@ -199,7 +200,10 @@ void add_to(rays::Embree& embree, const Scene& scene) {
 
 /// From how many objects on the index is faster: the room, cut down to its first few.
 template <typename Scene>
-void print_crossover(const Scene& whole, const std::vector<Ray>& set) {
+void print_crossover(const Scene& whole, const std::vector<Ray>& set,
+                     const std::string& folder) {
+    examples::Table table{
+        .name = "bvh-first", .columns = {"objects"}, .rows = {{"loop"}, {"wide tree"}}};
     using Part = ljus::Scene<ljus::Shapes<ljus::Quad, ljus::Sphere, ljus::Triangle>,
                              ljus::Materials<ljus::Lambertian>>;
     std::printf("\ndiffuse rays, the first objects only, ns a ray\n%8s %8s %8s\n",
@@ -217,13 +221,23 @@ void print_crossover(const Scene& whole, const std::vector<Ray>& set) {
         const House index{indexed};
         const auto t = rays::compare(set, false, loop, index);
         std::printf("%8zu %8.1f %8.1f\n", count, t.nanoseconds[0], t.nanoseconds[1]);
+        table.columns.push_back(std::to_string(count));
+        for (const std::size_t k : {0u, 1u})
+            table.rows[k].push_back(examples::text(t.nanoseconds[k], "%.0f"));
     }
+    save_csv(folder, table);
 }
 
 } // namespace
 
 /// Prints a row for each set of rays, and the crossover.
-int main() {
+int main(int argc, char** argv) {
+    const std::string folder = csv_folder(argc, argv);
+    examples::Table table{.name = "bvh-room",
+                          .columns = {"ns per ray", "report", "virtual", "loop",
+                                      "wide tree", "all in double", "Embree",
+                                      "report / tree", "virtual / tree",
+                                      "Embree / tree"}};
     const auto room = ljus::final_room();
     const auto& scene = room.scene;
     const auto indexed = ljus::index_scene(scene);
@@ -256,15 +270,24 @@ int main() {
     const auto row = [&](const char* name, const std::vector<Ray>& set, bool any) {
         const auto t = rays::compare(set, any, as_report, objects, loop, index,
                                      index_double, embree);
+        table.rows.push_back({name});
+        std::vector<std::string>& cells = table.rows.back();
         std::printf("%-8s", name);
-        for (const double ns : t.nanoseconds) std::printf(" %8.1f", ns);
-        for (const std::size_t k : {std::size_t(0), std::size_t(1), std::size_t(5)})
+        for (const double ns : t.nanoseconds) {
+            std::printf(" %8.1f", ns);
+            cells.push_back(examples::text(ns, "%.0f"));
+        }
+        for (const std::size_t k : {std::size_t(0), std::size_t(1), std::size_t(5)}) {
             std::printf("   %.2f", t.nanoseconds[k] / t.nanoseconds[3]);
+            cells.push_back(
+                examples::text(t.nanoseconds[k] / t.nanoseconds[3], "%.1f"));
+        }
         std::printf("\n");
     };
     row("primary", sets.primary, false);
     row("diffuse", sets.diffuse, false);
     row("shadow", sets.shadow, true);
 
-    print_crossover(scene, sets.diffuse);
+    save_csv(folder, table);
+    print_crossover(scene, sets.diffuse, folder);
 }

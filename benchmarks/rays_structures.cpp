@@ -7,6 +7,7 @@
 #include <ljus/accel/detail/triangle_bvh.hpp>
 #include <ljus/geometry/shape.hpp>
 
+#include "csv.hpp"
 #include "rays_scenes.hpp"
 #include "rays_structures.hpp"
 #include "rays_timing.hpp"
@@ -64,10 +65,15 @@ bool same(const NearestHit& a, const NearestHit& b) {
                          a.at.v == b.at.v));
 }
 
+/// What a row of the book's tables holds of one mesh.
+struct Cells {
+    std::vector<std::string> rays, build, bytes; ///< Of each structure.
+};
+
 /// Builds one, three times; asks it all rays, three times; prints the row.
 template <typename Structure>
 std::vector<NearestHit> row(const rays::Mesh& mesh, std::span<const Ray> set,
-                            const std::vector<NearestHit>* expected) {
+                            const std::vector<NearestHit>* expected, Cells& cells) {
     double build = HUGE_VAL, ray_time = HUGE_VAL;
     for (int run = 0; run < 3; ++run) {
         const double start = rays::seconds();
@@ -89,10 +95,15 @@ std::vector<NearestHit> row(const rays::Mesh& mesh, std::span<const Ray> set,
     std::printf("  %-11s %9.2f %10.0f %8.0f   %zu of %zu differ\n", Structure::name,
                 1e3 * build, 1e9 * ray_time,
                 double(structure.bytes()) / double(mesh.size()), other, set.size());
+    cells.rays.push_back(examples::text(1e9 * ray_time, "%.0f"));
+    cells.build.push_back(examples::text(1e3 * build, "%.3g"));
+    cells.bytes.push_back(
+        examples::text(double(structure.bytes()) / double(mesh.size()), "%.0f"));
     return hits;
 }
 
-void compare_on(const char* name, const rays::Mesh& mesh, Vec3 eye, bool all_rays) {
+Cells compare_on(const char* name, const rays::Mesh& mesh, Vec3 eye, bool all_rays) {
+    Cells cells;
     const Plain tree(mesh);
     const auto first_hit = [&](const Ray& ray) -> std::optional<ljus::SurfacePoint> {
         const NearestHit found = tree.closest(ray);
@@ -113,28 +124,58 @@ void compare_on(const char* name, const rays::Mesh& mesh, Vec3 eye, bool all_ray
     const std::size_t some =
         std::min(set.size(), all_rays ? set.size() : 100000000 / mesh.size());
     const std::span<const Ray> few(set.data(), some);
-    const auto expected = row<Loop>(mesh, few, nullptr);
-    std::vector<NearestHit> of_all = row<rays::Grid>(mesh, set, nullptr);
+    const auto expected = row<Loop>(mesh, few, nullptr, cells);
+    std::vector<NearestHit> of_all = row<rays::Grid>(mesh, set, nullptr, cells);
     std::size_t other = 0;
     for (std::size_t i = 0; i < some; ++i) other += !same(of_all[i], expected[i]);
     std::printf("  (the grid, against the loop: %zu of %zu differ)\n", other, some);
-    row<rays::Octree>(mesh, set, &of_all);
-    row<rays::KdTree>(mesh, set, &of_all);
-    row<Plain>(mesh, set, &of_all);
-    row<Wide>(mesh, set, &of_all);
+    row<rays::Octree>(mesh, set, &of_all, cells);
+    row<rays::KdTree>(mesh, set, &of_all, cells);
+    row<Plain>(mesh, set, &of_all, cells);
+    row<Wide>(mesh, set, &of_all, cells);
+    return cells;
 }
 
 } // namespace
 
-/// Prints a table for each mesh. With an argument: a million rays on a small mesh, all of
+/// Prints a table for each mesh. With `--all`: a million rays on a small mesh, all of
 /// them compared with the loop.
-int main(int argc, char**) {
-    if (argc > 1) {
+int main(int argc, char** argv) {
+    if (argc > 1 && std::string(argv[1]) == "--all") {
         compare_on("hills", rays::hills(400), {1.6f, 1.2f, 1.9f}, true);
         return 0;
     }
-    for (const int count : {100, 1000, 10000, 100000}) {
-        compare_on("balls", rays::balls(std::max(count, 192)), {0, 0.6f, 2.6f}, false);
-        compare_on("hills", rays::hills(count), {1.6f, 1.2f, 1.9f}, false);
-    }
+    const std::vector<std::string> structures{"loop",     "grid",       "octree",
+                                              "k-d tree", "plain tree", "wide tree"};
+    examples::Table times{.name = "bvh-structures",
+                          .columns = {"ns a ray", "triangles"}};
+    examples::Table builds{.name = "bvh-structures-build",
+                           .columns = {"", "triangles"}};
+    times.columns.insert(times.columns.end(), structures.begin(), structures.end());
+    builds.columns.insert(builds.columns.end(), structures.begin() + 1,
+                          structures.end());
+    for (const std::string name : {"balls", "hills"})
+        for (const int count : {100, 1000, 10000, 100000}) {
+            const bool hills = name == "hills";
+            const rays::Mesh mesh =
+                hills ? rays::hills(count) : rays::balls(std::max(count, 192));
+            const Cells cells =
+                compare_on(name.c_str(), mesh,
+                           hills ? Vec3{1.6f, 1.2f, 1.9f} : Vec3{0, 0.6f, 2.6f}, false);
+            const auto add = [&](examples::Table& table, const std::string& what,
+                                 const std::vector<std::string>& values,
+                                 std::size_t first) {
+                table.rows.push_back({what, std::to_string(mesh.size())});
+                table.rows.back().insert(table.rows.back().end(),
+                                         values.begin() + std::ptrdiff_t(first),
+                                         values.end());
+            };
+            add(times, name, cells.rays, 0);
+            if (count < 100000) continue; // the loop has nothing to build
+            add(builds, name + ": build, ms", cells.build, 1);
+            add(builds, name + ": bytes a triangle", cells.bytes, 1);
+        }
+    const std::string folder = csv_folder(argc, argv);
+    save_csv(folder, times);
+    save_csv(folder, builds);
 }

@@ -277,6 +277,12 @@ void laws(const examples::Options& options, const Sizes& sizes) {
         }
         return xy / xx;
     };
+    save_table(
+        options.out,
+        examples::Table{.name = "caustics-slopes",
+                        .columns = {"where", "law", "measured"},
+                        .rows = {{"middle", "-0.67", examples::text(slope(1), "%.2f")},
+                                 {"edge", "-0.33", examples::text(slope(2), "%.2f")}}});
     if (!options.quiet)
         std::printf("slopes of the best error: middle %.3f, edge %.3f\n", slope(1),
                     slope(2));

@@ -14,7 +14,6 @@
 
 #include <ljus/image/flip.hpp>
 #include <ljus/io/pfm.hpp>
-#include <ljus/io/progressive_file.hpp>
 #include <ljus/ljus.hpp>
 #include <ljus/scenes/cornell_box.hpp>
 
@@ -22,6 +21,7 @@
 #include "common/command_line.hpp"
 #include "common/convergence.hpp"
 #include "common/drawing.hpp"
+#include "common/progressive_picture.hpp"
 #include "common/terminal.hpp"
 
 #if __has_include(<sys/resource.h>)
@@ -34,13 +34,10 @@ namespace {
 
 /// What the user may set besides the common options.
 struct Sizes {
-    long long passes = 0;     ///< How many.
-    int seeds = 0;            ///< Runs behind each bias and variance.
-    std::string picture = {}; ///< Make this file alone.
-    std::string checkpoint = {};
-    std::string preview = {};
-    double every = 2; ///< Seconds between previews, and between checkpoints.
-    bool resume = false;
+    long long passes = 0;           ///< How many.
+    int seeds = 0;                  ///< Runs behind each bias and variance.
+    std::string picture = {};       ///< Make this file alone.
+    examples::PassOptions how = {}; ///< In this way.
 };
 
 /// The most memory that this program has taken so far; NaN where nobody tells.
@@ -372,50 +369,25 @@ PhotonMappingSettings pass_settings(const examples::Options& options) {
 /// A picture alone, as a program makes it: it shows itself while it runs, and can be
 /// stopped, killed and resumed.
 void one_picture(const examples::Options& options, const Sizes& sizes) {
-    for (const std::string& file : {sizes.picture, sizes.checkpoint, sizes.preview})
-        if (!file.empty()) examples::require_writable(file);
+    examples::require_writable(sizes.picture);
+    examples::require_pass_files(sizes.how, sizes.picture);
     const auto room = cornell_box();
+    auto stopped = [](long long, long long) { return examples::stop_signal() == 0; };
+    auto settings = pass_settings(options);
+    settings.caustics.progress = settings.general.progress = stopped;
     const RenderSettings picture{.width = options.width,
                                  .height = options.height,
                                  .samples = options.samples,
                                  .seed = options.seed,
-                                 .threads = options.threads};
-    examples::ProgressBar bar("passes", options.quiet);
-    auto stopped = [](long long, long long) { return examples::stop_signal() == 0; };
-    auto settings = pass_settings(options);
-    settings.caustics.progress = settings.general.progress = stopped;
-    RenderSettings size = picture;
-    size.progress = stopped;
-    // [program]
+                                 .threads = options.threads,
+                                 .progress = stopped};
     const auto pass = [&](long long i, double scale) {
-        return photon_mapping_pass(room.scene, room.camera, settings, size, i, scale);
+        return photon_mapping_pass(room.scene, room.camera, settings, picture, i,
+                                   scale);
     };
-    ProgressiveState state;
-    if (sizes.resume) {
-        state = load_checkpoint(sizes.checkpoint);
-        require_first_pass(state, pass);
-    }
-    examples::StopWatch watch;
-    const auto save = [&](const ProgressiveState& now) {
-        if (!sizes.preview.empty()) save_png(mean_image(now), sizes.preview);
-        if (!sizes.checkpoint.empty()) save_checkpoint(sizes.checkpoint, now);
-        watch.restart();
-    };
-    const bool done = run_progressive(state, sizes.passes, pass, [&](const auto& now) {
-        if (watch.seconds() >= sizes.every) save(now);
-        return bar(now.passes, sizes.passes);
-    });
-    if (state.passes > 0) save(state);
-    if (!done) throw examples::Interrupted{};
+    const auto state = examples::run_passes(sizes.how, options.quiet, pass);
     save_pfm(mean_image(state), sizes.picture);
-    // [program]
-    const auto error = estimate_error(state);
-    if (!options.quiet)
-        std::printf(
-            "%lld passes, standard error %.3g a pixel, %.3g a block of %d x %d; "
-            "radius %.3f of the first\n",
-            state.passes, error.pixels, error.blocks, state.block_side,
-            state.block_side, std::sqrt(state.shrink));
+    if (!options.quiet) examples::print_passes(state);
 }
 
 /// The box after ever more passes, and beside one map of as many photons.
@@ -640,26 +612,22 @@ int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
         line.about("Chapter 31, progressive photons: laws and pictures.");
-        line.add("--passes", sizes.passes, "How many passes", 1, 1000000000);
         line.add("--seeds", sizes.seeds, "Runs behind bias and variance", 2, 1000);
         line.add("--picture", sizes.picture, "Make this PFM file and nothing else");
-        line.add("--checkpoint", sizes.checkpoint, "With --picture: saved as it runs");
-        line.add("--resume", sizes.resume, "Go on from the checkpoint");
-        line.add("--preview", sizes.preview, "With --picture: a PNG file as it runs");
-        line.add("--every", sizes.every, "Seconds between them; 0: after each pass",
-                 0.0, 1e6);
+        examples::add_pass_options(line, sizes.how);
         const examples::Options options =
             line.parse({.draft{.width = 32, .height = 32, .samples = 1},
                         .report{.width = 64, .height = 64, .samples = 1},
                         .reference{.width = 128, .height = 128, .samples = 1}});
-        if (!line.given("--passes")) sizes.passes = options.pick(100, 1000, 10000);
+        if (!line.given("--passes")) sizes.how.passes = options.pick(100, 1000, 10000);
+        sizes.passes = sizes.how.passes;
         if (!line.given("--seeds")) sizes.seeds = options.pick(4, 16, 64);
         if (sizes.picture.empty() &&
-            (sizes.resume || !sizes.checkpoint.empty() || !sizes.preview.empty()))
+            (sizes.how.resume || !sizes.how.checkpoint.empty() ||
+             !sizes.how.preview.empty() || line.given("--alpha")))
             throw std::invalid_argument(
-                "--checkpoint, --resume and --preview are for --picture FILE.");
-        if (sizes.resume && sizes.checkpoint.empty())
-            throw std::invalid_argument("--resume needs --checkpoint FILE.");
+                "--checkpoint, --resume, --preview and --alpha are for --picture "
+                "FILE.");
         if (!sizes.picture.empty()) return one_picture(options, sizes);
         draw_discs(options);
         laws(options, sizes);

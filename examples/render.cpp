@@ -8,6 +8,9 @@
 ///     render scene.json --explain 120,80       why a pixel has its colour
 ///     render scene.json --photons shadow       the photons of a kind, as dots
 ///     render scene.json --precision double     the whole scene in double
+///     render scene.json --skip enough          shadow rays that photons make needless
+///     render scene.json --passes 100 --checkpoint a.check --preview a.png
+///                                              maps that converge; --resume goes on
 
 #include <charconv>
 #include <cinttypes>
@@ -16,10 +19,13 @@
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
+#include "common/photon_options.hpp"
+#include "common/progressive_picture.hpp"
 #include "common/terminal.hpp"
 #include "ljus/inspect/census.hpp"
 #include "ljus/inspect/explain.hpp"
 #include "ljus/inspect/photon_dots.hpp"
+#include "ljus/inspect/survey.hpp"
 #include "ljus/io/hdr.hpp"
 #include "ljus/io/load_json.hpp"
 #include "ljus/io/pfm.hpp"
@@ -83,6 +89,11 @@ struct Request {
     double exposure = 0.0;
     bool split_glass = false;
     bool plan = false;
+    examples::PhotonOptions photon_options;
+    examples::PassOptions passes;
+    std::string path_lights = "balance";
+    double roulette_threshold = 1;
+    double roulette_max = 1;
 };
 
 // The names of what is chosen by a word, in the order of its enum.
@@ -94,14 +105,8 @@ const std::vector<std::string> direct_lights{"sampled", "analytic", "mis"};
 const std::vector<std::string> presets{"draft", "fast", "exact"};
 const std::vector<std::string> patterns{"random", "jittered", "multi-jittered",
                                         "sobol"};
-
-/// The enumerator that a word names.
-template <typename Enum>
-Enum chosen(const std::vector<std::string>& words, const std::string& word) {
-    std::size_t i = 0;
-    while (i + 1 < words.size() && words[i] != word) ++i;
-    return static_cast<Enum>(i);
-}
+const std::vector<std::string> path_lights{"balance", "power", "rays", "paths"};
+using examples::chosen;
 
 /// The settings of a request: those of its preset, and what was given by name.
 PhotonMappingSettings settings_of(const Request& request,
@@ -147,7 +152,52 @@ PhotonMappingSettings settings_of(const Request& request,
         pass->seed = options.seed;
         pass->threads = options.threads;
     }
+    set_photon_options(settings, request.photon_options);
     return settings;
+}
+
+/// How the judge works.
+PathTracingSettings path_settings(const Request& request) {
+    PathTracingSettings settings{.max_depth = request.depth,
+                                 .roulette_depth = request.roulette,
+                                 .sample_lights = request.path_lights != "paths",
+                                 .roulette_threshold = request.roulette_threshold,
+                                 .roulette_max = request.roulette_max};
+    if (settings.sample_lights)
+        settings.heuristic = chosen<MisHeuristic>(path_lights, request.path_lights);
+    return settings;
+}
+
+/// Refuses what does not go with passes; each has one ray a pixel unless told.
+void set_passes(Request& request, const examples::CommandLine& line,
+                RenderSettings& picture) {
+    for (const char* option : {"--alpha", "--checkpoint", "--resume", "--preview"})
+        if (request.passes.passes == 0 && line.given(option))
+            throw std::invalid_argument(std::string(option).append(
+                " is for pictures that are made in passes: give --passes N."));
+    if (request.passes.passes == 0) return;
+    if (request.renderer == "path")
+        throw std::invalid_argument(
+            "--passes is for --renderer photon; a path tracer takes --rays.");
+    for (const char* option : {"--more-rays", "--explain", "--photons"})
+        if (line.given(option))
+            throw std::invalid_argument(
+                std::string(option).append(" does not go with --passes."));
+    if (!line.given("--rays")) picture.samples = 1;
+    request.more_rays = 0;
+    request.passes.exposure = request.exposure;
+}
+
+/// What the passes will be, as a line of the plan.
+std::string passes_line(const Request& request, const PhotonMappingSettings& settings) {
+    const long long passes = request.passes.passes;
+    if (passes == 0) return to_text(PlanItem{"passes", false, "one map for all rays"});
+    char why[160];
+    std::snprintf(why, sizeof why,
+                  "%lld, each with %lld caustic photons of its own and a smaller "
+                  "radius, alpha %.3g",
+                  passes, settings.caustics.photons, request.passes.alpha);
+    return to_text(PlanItem{"passes", true, why});
 }
 
 /// Rays in a pixel of a preset, before those where they disagree.
@@ -194,6 +244,14 @@ void print(const Counts& counts, double seconds) {
                     "", static_cast<double>(counts.map_queries) / samples,
                     static_cast<double>(counts.map_photons) /
                         static_cast<double>(counts.map_queries));
+    if (counts.skipped_rays + counts.skipped_bounces > 0)
+        std::printf("  %-16s %10s  skipped: %.1f %% of the rays to lights, %" PRIu64
+                    " bounces\n",
+                    "", "",
+                    100 * static_cast<double>(counts.skipped_rays) /
+                        static_cast<double>(std::max<std::uint64_t>(
+                            counts.skipped_rays + counts.shadow_rays, 1)),
+                    counts.skipped_bounces);
     if (counts.rejected > 0)
         std::printf("  %-16s %10s  %" PRIu64
                     " samples were not finite and are left out\n",
@@ -277,23 +335,67 @@ PhotonMapsT<T> first_passes(const LoadedSceneT<T>& loaded, RenderSettings pictur
     return maps;
 }
 
+/// Finds the shares of a budget, once, so that they can be told.
+template <SceneLike S>
+void choose_shares(const S& scene, PhotonMappingSettings& settings) {
+    if (survey(scene, settings).caustics_map.on)
+        settings.caustics.shares = caustic_shares(scene, settings);
+}
+
+/// What was chosen for the caustics, for the terminal.
+void print_caustics(const PhotonMappingSettings& settings) {
+    std::printf("  %-16s %10s  radius %.3g", "caustics", "",
+                double(settings.caustics_estimate.radius));
+    const std::vector<double>& shares = settings.caustics.shares;
+    for (std::size_t i = 0; i < shares.size() && i < 12; ++i)
+        std::printf("%s%.3g", i == 0 ? "; shares of the photons: " : ", ", shares[i]);
+    std::printf("%s\n", shares.size() > 12 ? ", ..." : "");
+}
+
+/// A picture in passes, each with photons of its own; see \ref progressive.
+template <std::floating_point T>
+RenderedT<T> render_passes(const LoadedSceneT<T>& loaded, RenderSettings picture,
+                           const Request& request, PhotonMappingSettings& settings,
+                           bool quiet) {
+    const auto scene = index_scene(loaded.scene);
+    auto stopped = [](long long, long long) { return examples::stop_signal() == 0; };
+    picture.progress = settings.caustics.progress = settings.general.progress = stopped;
+    const examples::StopWatch watch;
+    settings = settings_for_passes(scene, settings);
+    examples::stop_if_asked();
+    RenderedT<T> rendered;
+    const auto pass = [&](long long i, double scale) {
+        auto one = photon_mapping_pass<StratifiedStream>(scene, loaded.camera, settings,
+                                                         picture, i, scale);
+        rendered.counts += one.counts;
+        return one;
+    };
+    const auto state = examples::run_passes(request.passes, quiet, pass);
+    rendered.image = mean_image<T>(state);
+    if (quiet) return rendered;
+    print(rendered.counts, watch.seconds());
+    if (survey(loaded.scene, settings).caustics_map.on) print_caustics(settings);
+    std::printf("  %-16s %10s  ", "passes", "");
+    examples::print_passes(state);
+    return rendered;
+}
+
 template <std::floating_point T>
 RenderedT<T> render_scene(const LoadedSceneT<T>& loaded, const RenderSettings& picture,
                           const Request& request, PhotonMappingSettings& settings,
                           bool quiet) {
     if (request.renderer == "path") {
-        const auto tracer =
-            make_path_tracer(loaded.scene, {.max_depth = request.depth,
-                                            .roulette_depth = request.roulette});
+        const auto tracer = make_path_tracer(loaded.scene, path_settings(request));
         return run(tracer, loaded.camera, picture, request, quiet);
     }
+    if (request.passes.passes > 0)
+        return render_passes(loaded, picture, request, settings, quiet);
+    choose_shares(loaded.scene, settings);
     const auto maps = first_passes(loaded, picture, settings, quiet);
     const auto mapper =
         make_photon_mapper<StratifiedStream>(loaded.scene, maps, settings);
     settings = mapper.settings; // with the radii that were chosen
-    if (!quiet && !maps.caustics.empty())
-        std::printf("  %-16s %10s  radius %.3g\n", "caustics", "",
-                    double(settings.caustics_estimate.radius));
+    if (!quiet && !maps.caustics.empty()) print_caustics(settings);
     return run(mapper, loaded.camera, picture, request, quiet);
 }
 
@@ -337,12 +439,22 @@ std::string to_json(const Request& request, const RenderSettings& picture,
                           {"tile", settings.gather.tile},
                           {"nearest", settings.gather.nearest},
                           {"reach", settings.gather.reach}};
+        examples::add_to_json(json, settings);
+        if (request.passes.passes > 0)
+            json["passes"] = {{"count", request.passes.passes},
+                              {"alpha", request.passes.alpha}};
+    } else {
+        json["path_lights"] = request.path_lights;
+        json["roulette_threshold"] = request.roulette_threshold;
+        json["roulette_max"] = request.roulette_max;
     }
     json["cost"] = {{"seconds", seconds},
                     {"camera_rays", rendered.counts.camera_rays},
                     {"bounce_rays", rendered.counts.bounce_rays},
                     {"shadow_rays", rendered.counts.shadow_rays},
                     {"map_queries", rendered.counts.map_queries},
+                    {"skipped_rays", rendered.counts.skipped_rays},
+                    {"skipped_bounces", rendered.counts.skipped_bounces},
                     {"rejected", rendered.counts.rejected}};
     return json.dump(2) + "\n";
 }
@@ -421,14 +533,17 @@ void run_request(const examples::CommandLine& line, Request request,
         .sampling = chosen<Sampling>(patterns, request.sampling)};
     detail::require_image_size(picture.width, picture.height);
     set_samples(request, line, picture);
+    set_passes(request, line, picture);
     PhotonMappingSettings settings = settings_of(request, line, options, picture);
     const std::string stem = std::filesystem::path(request.scene).stem().string();
     const std::string path =
         options.path(options.file.empty() ? stem + ".png" : options.file);
     if (!request.pixel.empty())
         (void)pixel_of(request.pixel, picture);
-    else if (!request.plan)
+    else if (!request.plan) {
         examples::require_writable(path);
+        examples::require_pass_files(request.passes, path);
+    }
 
     const std::string name = loaded.name.empty() ? stem : loaded.name;
     if (!options.quiet || request.plan)
@@ -440,7 +555,10 @@ void run_request(const examples::CommandLine& line, Request request,
                                                  : "photon mapping");
     if (request.plan) {
         if (request.renderer == "photon")
-            std::fputs(to_text(survey(loaded.scene, settings)).c_str(), stdout);
+            std::fputs((to_text(survey(loaded.scene, settings)) +
+                        passes_line(request, settings))
+                           .c_str(),
+                       stdout);
         return;
     }
 
@@ -522,6 +640,17 @@ void body(examples::CommandLine& line) {
     line.add("--sampling", request.sampling, "Where in a pixel its rays go", patterns);
     line.add("--precision", request.precision, "Of scene, photons and light",
              {"float", "double"});
+    line.add(
+        "--path-lights", request.path_lights,
+        "Lamps of --renderer path: rays and paths weighted by balance or power, or "
+        "rays or paths alone",
+        path_lights);
+    line.add("--roulette-threshold", request.roulette_threshold,
+             "A path that carries less is in danger (path)", 0, 1e6);
+    line.add("--roulette-max", request.roulette_max,
+             "Largest probability to survive (path)", 1e-6, 1);
+    examples::add_photon_options(line, request.photon_options);
+    examples::add_pass_options(line, request.passes);
     line.add("--exposure", request.exposure, "Of a PNG file, in stops", -100, 100);
     line.add("--explain", request.pixel, "X,Y: print that pixel's paths, no picture");
     line.add("--photons", request.photons, "No rendering: photons as dots",

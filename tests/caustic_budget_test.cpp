@@ -9,6 +9,7 @@
 #include <cmath>
 #include <vector>
 
+#include "ljus/inspect/survey.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
@@ -313,6 +314,36 @@ TEST_CASE("caustic_budget: an index near 1 asks for photons by area, and else no
     CHECK(bright[1] < bright[2]);
     CHECK(bright[2] ==
           doctest::Approx(share(CausticBudget::flux, pilots)).epsilon(0.12));
+}
+
+TEST_CASE("caustic_budget: a radius of 0 is chosen as the picture will choose it") {
+    const PhotonPassSettings pass{.photons = 200000};
+    const Room room = two_balls(1.05f, 1.5f, 0.5f);
+    const PhotonMap whole =
+        make_photon_map(trace_photons(room, MapType::caustics, pass).photons);
+    const PhotonPassSettings other{.photons = 20000, .shadow_photons = false};
+    const auto light = trace_photons(room, MapType::general, other).photons;
+    const float wide = typical_radius(make_photon_map(light), 64);
+    // Ten times fewer photons, and a radius as if they were all: a few per cent.
+    const auto chosen = pilot_caustics(room, pass, 0.0f, light, 0.0f);
+    const auto told =
+        pilot_caustics(room, pass, typical_radius(whole, 32), light, wide);
+    REQUIRE(chosen.size() == 2);
+    for (const std::size_t i : {0u, 1u}) {
+        CHECK(chosen[i].absolute == told[i].absolute);
+        CHECK(chosen[i].area == doctest::Approx(told[i].area).epsilon(0.15));
+        CHECK(chosen[i].relative == doctest::Approx(told[i].relative).epsilon(0.15));
+        CHECK(chosen[i].visible == doctest::Approx(told[i].visible).epsilon(0.15));
+    }
+    // By the radius of the pilot alone it would be three times as large.
+    const auto alone = pilot_caustics(room, pass, 3 * typical_radius(whole, 32), light);
+    CHECK(alone[1].area > 1.3 * told[1].area);
+    // No photon to learn from: no radius, no share, and nothing that is not finite.
+    for (const PhotonPassSettings& none : {PhotonPassSettings{.photons = 0}, pass})
+        for (const CausticPilot& pilot : pilot_caustics(room, none, 0.0f, {}, 0.0f)) {
+            CHECK(std::isfinite(pilot.area));
+            CHECK(std::isfinite(pilot.visible));
+        }
 }
 
 TEST_CASE("caustic_budget: the shares make the error least that they promise") {

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include "ljus/inspect/survey.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "ljus/inspect/census.hpp"
+#include "ljus/inspect/survey.hpp"
 #include "ljus/photons/density_estimate.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "support/mean.hpp"

@@ -408,6 +408,51 @@ TEST_CASE("progressive: both radii shrink, and no pass repeats another") {
     }()));
 }
 
+TEST_CASE("progressive: radii and shares are chosen once, for all passes") {
+    ljus_test::Room room;
+    ljus_test::add_walls(room);
+    ljus_test::add_ball(room, ljus_test::Ball::glass);
+    ljus_test::add_lamps(room, ljus_test::Lamp::quad, 1);
+    const auto camera = ljus_test::room_camera<float>();
+    PhotonMappingSettings settings{.indirect = IndirectLight::photons,
+                                   .caustic_budget = CausticBudget::area};
+    settings.caustics = {.photons = 2000};
+    settings.general = {.photons = 2000};
+    settings.caustics_estimate.radius = settings.general_estimate.radius = 0;
+    const auto chosen = settings_for_passes(room, settings);
+    const auto maps = make_photon_maps(room, settings);
+    CHECK(chosen.caustics_estimate.radius == typical_radius(maps.caustics, 32));
+    CHECK(chosen.general_estimate.radius == typical_radius(maps.general, 64));
+    REQUIRE(chosen.caustics.shares.size() == 1);
+    CHECK(chosen.caustics.shares[0] == doctest::Approx(1));
+    // What was given stays; what is not asked for is not done.
+    settings.caustics_estimate.radius = 0.1f;
+    CHECK(settings_for_passes(room, settings).caustics_estimate.radius == 0.1f);
+    settings.caustics.shares = {1.0};
+    CHECK(settings_for_passes(room, settings).caustics.shares ==
+          settings.caustics.shares);
+    settings.caustics.shares.clear();
+    settings.caustic_budget = CausticBudget::as_seen;
+    CHECK(settings_for_passes(room, settings).caustics.shares.empty());
+
+    // A pass that would choose its own radius would never shrink it.
+    const RenderSettings picture{.width = 12, .height = 9, .samples = 1};
+    CHECK(refusal([&] {
+              (void)photon_mapping_pass(room, camera, settings, picture, 1, 1);
+          }) == "general_estimate.radius is 0; it must be finite and above 0.");
+    settings.caustics_estimate.radius = 0;
+    CHECK(refusal([&] {
+              (void)photon_mapping_pass(room, camera, settings, picture, 1, 1);
+          }) == "caustics_estimate.radius is 0; it must be finite and above 0.");
+
+    // A pass has the irradiance cache that it asks for: without it, it would gather
+    // for each of its pixels.
+    PhotonMappingSettings cached = chosen;
+    cached.indirect = IndirectLight::cache;
+    const auto pass = photon_mapping_pass(room, camera, cached, picture, 1, 1);
+    CHECK(pass.counts.bounce_rays < 12u * 9u * std::uint64_t(cached.gather.rays) / 2);
+}
+
 TEST_CASE("progressive: what cannot be is refused in a sentence") {
     const NoisyPass pass;
     for (const double alpha : {0.0, -1.0, 1.5, std::nan("")}) {

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "ljus/inspect/survey.hpp"
 #include "ljus/photons/tracing.hpp"
 #include "ljus/photons/verdict_grid.hpp"
 #include "ljus/render/photon_mapping.hpp"

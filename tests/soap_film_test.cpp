@@ -1,6 +1,7 @@
 /// \file soap_film_test.cpp
 /// \brief A soap bubble in rooms: what it reflects, what goes through, and who sees it.
 
+#include "ljus/inspect/survey.hpp"
 #include "ljus/materials/soap_film.hpp"
 
 #include <doctest/doctest.h>

@@ -9,6 +9,7 @@
 
 #include "ljus/accel/mesh.hpp"
 #include "ljus/geometry/metaballs.hpp"
+#include "ljus/inspect/survey.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/mixture.hpp"
 #include "ljus/materials/soap_film.hpp"
@@ -212,18 +213,18 @@ TEST_CASE("survey: the lines as they are printed, and one photon is enough") {
     CHECK(plan.general_map.why == "indirect light is asked of it");
     CHECK(plan.indirect_rays.why == "7 of 8 objects light each other");
     CHECK(to_text(plan.tree) ==
-          "tree            on   8 objects, a tree finds the first on a ray\n");
-    CHECK(to_text(plan.thin_film) == "thin film       off  no material is one\n");
+          "tree             on   8 objects, a tree finds the first on a ray\n");
+    CHECK(to_text(plan.thin_film) == "thin film        off  no material is one\n");
     std::string all;
     for (const PlanItem* item : plan.items()) all += to_text(*item);
     for (const std::string& type : plan.types) all += type + "\n";
     CHECK(to_text(plan) == all);
-    CHECK(all.starts_with("shadow rays     on   7 of 8 objects reflect diffusely"));
+    CHECK(all.starts_with("shadow rays      on   7 of 8 objects reflect diffusely"));
     CHECK(std::count(all.begin(), all.end(), '\n') ==
           std::ptrdiff_t(plan.items().size() + plan.types.size()));
     for (const std::string& type : plan.types) { // the names stand in a column
-        CHECK(type.substr(0, 16).find_last_not_of(' ') < 15);
-        CHECK(type[16] != ' ');
+        CHECK(type.substr(0, 17).find_last_not_of(' ') < 16);
+        CHECK(type[17] != ' ');
     }
 }
 
@@ -268,17 +269,17 @@ TEST_CASE("survey: a hook that is misspelt shows") {
     const Plan plan = survey(scene, PhotonMappingSettings{});
     REQUIRE(plan.types.size() == 4);
     CHECK(plan.types[0] ==
-          "shape 1         has meets, area; without bounds (its sphere's box), "
+          "shape 1          has meets, area; without bounds (its sphere's box), "
           "shading_normal (the geometric one), sample_area (refused as a light), "
           "sample_towards (points of its area), pdf_towards (points of its area), "
           "center_sample (u = v = 1/2), texture_coordinates (those of the hit), "
           "translated (does not compile), is_flat (at its sphere)");
-    CHECK(plan.types[1].find("shape 2         has bounds, area, ") == 0);
+    CHECK(plan.types[1].find("shape 2          has bounds, area, ") == 0);
     CHECK(plan.types[2] ==
-          "material 1      has emission; without absorption (clear), at_point (the "
+          "material 1       has emission; without absorption (clear), at_point (the "
           "same anywhere), uses_uv (uv is 0), both_ways (one way by chance), "
           "pass_through (opaque), only_specular (write both)");
-    CHECK(plan.types[3].find("material 2      has absorption, both_ways, "
+    CHECK(plan.types[3].find("material 2       has absorption, both_ways, "
                              "only_specular; without emission (black), ") == 0);
     CHECK(to_text(plan).find(plan.types[0] + "\n" + plan.types[1] + "\n") !=
           std::string::npos);

@@ -2,6 +2,11 @@
 # with GATE they are errors. What a test or benchmark has for itself needs no documentation.
 cmake_minimum_required(VERSION 3.22)
 file(REMOVE "${FOLDER}/warnings.txt")
+# The pages' numbers: Doxygen's filter pulls them from the tables of this folder.
+set(ENV{LJUS_FIGURES} "${FIGURES}")
+file(GLOB pages "${CMAKE_CURRENT_LIST_DIR}/../*.md")
+execute_process(COMMAND "${PERL}" "${CMAKE_CURRENT_LIST_DIR}/numbers" --check ${pages}
+    RESULT_VARIABLE lost OUTPUT_VARIABLE missing ERROR_VARIABLE missing)
 execute_process(COMMAND "${DOXYGEN}" Doxyfile WORKING_DIRECTORY "${FOLDER}"
     RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
 if(NOT result EQUAL 0)
@@ -12,6 +17,9 @@ if(EXISTS "${FOLDER}/warnings.txt")
     file(READ "${FOLDER}/warnings.txt" warnings)
     string(REGEX REPLACE "[^\n]*/(tests|benchmarks)/[^\n]* is not documented\\.\n?" "" warnings "${warnings}")
     string(STRIP "${warnings}" warnings)
+endif()
+if(NOT lost EQUAL 0)
+    string(APPEND warnings "\n${missing}")
 endif()
 if("x${warnings}" STREQUAL "x")
     return()

@@ -9,6 +9,7 @@
 /// which LJUS_CORE_INLINE stands. ljus.hpp includes the list then, and core/core.cpp,
 /// which makes what it names; a line here is all that it takes.
 
+#include "ljus/inspect/survey.hpp"
 #include "ljus/io/png.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/mirror.hpp"

@@ -11,6 +11,7 @@
 #include "ljus/geometry/quad.hpp"
 #include "ljus/geometry/sphere.hpp"
 #include "ljus/geometry/triangle.hpp"
+#include "ljus/inspect/survey.hpp"
 #include "ljus/io/png.hpp"
 #include "ljus/materials/compensated_glossy.hpp"
 #include "ljus/materials/eon.hpp"

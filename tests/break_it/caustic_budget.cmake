@@ -47,3 +47,15 @@ ljus_break_it(NAME caustic_budget-pilot HEADER photons/budget.hpp TEST caustic_b
     FROM "pass.shares[object] = 1;"
     TO   "pass.shares.clear();"
     CASES "caustic_budget: a share*")
+
+# A radius that is to be chosen, taken for a disc without an area.
+ljus_break_it(NAME caustic_budget-radius HEADER photons/budget.hpp TEST caustic_budget
+    FROM "if (radius == 0) //"
+    TO   "if (radius < 0) //"
+    CASES "caustic_budget: a radius of 0*")
+
+# The radius of the pilot's own photons, which lie wider than those of the picture.
+ljus_break_it(NAME caustic_budget-denser HEADER photons/budget.hpp TEST caustic_budget
+    FROM "T(std::sqrt(double(paths * count) / double(std::max(pass.photons, 1LL))));"
+    TO   "T(1);"
+    CASES "caustic_budget: a radius of 0*")

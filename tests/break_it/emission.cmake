@@ -1,24 +1,24 @@
 # The report's program: the flux times the cosine that the density already holds.
-ljus_break_it(NAME emission-cosine HEADER photons/emission.hpp TEST emission
+ljus_break_it(NAME emission-cosine HEADER path/emission.hpp TEST emission
     FROM ".flux = light.flux / chosen.probability,"
     TO   ".flux = light.flux * sample_cosine_hemisphere(u_direction).z /
                     chosen.probability,"
     CASES "emission: photons of a quad*")
 
 # Directions uniform over the hemisphere, at unchanged flux.
-ljus_break_it(NAME emission-uniform HEADER photons/emission.hpp TEST emission
+ljus_break_it(NAME emission-uniform HEADER path/emission.hpp TEST emission
     FROM "sample_cosine_hemisphere(u_direction)"
     TO   "sample_uniform_hemisphere(u_direction)"
     CASES "emission: photons of a quad*")
 
 # A light that is chosen rarely must be paid for it.
-ljus_break_it(NAME emission-probability HEADER photons/emission.hpp TEST emission
+ljus_break_it(NAME emission-probability HEADER path/emission.hpp TEST emission
     FROM "light.flux / chosen.probability"
     TO   "light.flux"
     CASES "emission: lights are chosen*")
 
 # A room of light that shines outwards.
-ljus_break_it(NAME emission-inside-out HEADER photons/emission.hpp TEST emission
+ljus_break_it(NAME emission-inside-out HEADER path/emission.hpp TEST emission
     FROM "if (scene.object(*light.object).inside_out) point.normal = -point.normal;"
     TO   ""
     CASES "emission: a room*")
@@ -55,7 +55,7 @@ ljus_break_it(NAME aim-stretch HEADER photons/aiming.hpp TEST emission
     CASES "emission: where cones overlap*")
 
 # A sun whose rays start within the ball that they should reach.
-ljus_break_it(NAME emission-sun-plane HEADER photons/emission.hpp TEST emission
+ljus_break_it(NAME emission-sun-plane HEADER path/emission.hpp TEST emission
     FROM "Vec3T<T>{disc.x, disc.y, -back}"
     TO   "Vec3T<T>{disc.x, disc.y, T(0)}"
     CASES "emission: a sun*")

@@ -37,7 +37,7 @@ ljus_break_it(NAME general-map-shadow-mirror HEADER photons/photon_path.hpp TEST
     CASES "general map: photons lie on matt*")
 
 # Each photon says that it comes from the first light.
-ljus_break_it(NAME general-map-light HEADER photons/emission.hpp TEST general_map
+ljus_break_it(NAME general-map-light HEADER path/emission.hpp TEST general_map
     FROM ".light = static_cast<std::uint16_t>(chosen.light)};"
     TO   ".light = 0};"
     CASES "general map: photons lie on matt*")

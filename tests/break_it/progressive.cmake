@@ -73,3 +73,15 @@ ljus_break_it(NAME progressive-parts HEADER io/progressive_file.hpp TEST progres
     FROM "detail::remove_parts(detail::file_to_replace(path));"
     TO   ""
     CASES "progressive: killed*")
+
+# A radius that each pass would choose anew, and that never shrinks.
+ljus_break_it(NAME progressive-chosen HEADER render/progressive.hpp TEST progressive
+    FROM "require_positive(\"caustics_estimate.radius\", settings.caustics_estimate.radius);"
+    TO   ""
+    CASES "progressive: radii and shares*")
+
+# A pilot with every pass.
+ljus_break_it(NAME progressive-shares HEADER render/progressive.hpp TEST progressive
+    FROM "settings.caustics.shares = caustic_shares(scene, settings);"
+    TO   ";"
+    CASES "progressive: radii and shares*")

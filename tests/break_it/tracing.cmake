@@ -31,13 +31,13 @@ ljus_break_it(NAME tracing-aim HEADER photons/aiming.hpp TEST tracing
     CASES "tracing: a caustic has*")
 
 # From each light as many photons as from the next, all with its own flux.
-ljus_break_it(NAME tracing-light-choice HEADER photons/emission.hpp TEST tracing
+ljus_break_it(NAME tracing-light-choice HEADER path/emission.hpp TEST tracing
     FROM ".flux = light.flux / chosen.probability,"
     TO   ".flux = light.flux,"
     CASES "tracing: all the lights' flux*")
 
 # Directions uniform over the hemisphere, with the flux of Lambert's.
-ljus_break_it(NAME tracing-cosine HEADER photons/emission.hpp TEST tracing
+ljus_break_it(NAME tracing-cosine HEADER path/emission.hpp TEST tracing
     FROM "to_world(frame, sample_cosine_hemisphere(u_direction))"
     TO   "to_world(frame, sample_uniform_hemisphere(u_direction))"
     CASES "tracing: the first hits*")

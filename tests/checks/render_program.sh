@@ -43,7 +43,10 @@ cmp -s map.pfm photons.pfm && wrong "--indirect photons changes nothing"
 # What else there is to choose changes the picture, and is known by its name.
 "$render" "$scene" "${few[@]}" --quiet --out plain.pfm
 for choice in --split-glass "--sampling random" "--sampling jittered" "--sampling sobol" \
-    "--precision double" "--shadow-rays 2" "--radius 0.3"; do
+    "--precision double" "--shadow-rays 2" "--radius 0.3" "--radius 0" \
+    "--caustic-budget equal" "--caustic-budget flux" "--caustic-budget area" \
+    "--caustic-budget brightness" "--photon-numbers sobol" "--photon-bounces 1" \
+    "--passes 2"; do
     # shellcheck disable=SC2086
     "$render" "$scene" "${few[@]}" $choice --quiet --out choice.pfm
     ! cmp -s plain.pfm choice.pfm || wrong "$choice changes nothing"
@@ -51,6 +54,66 @@ done
 "$render" "$scene" "${few[@]}" --sampling multi-jittered --precision float \
     --indirect rays --quiet --out choice.pfm
 cmp plain.pfm choice.pfm || wrong "the defaults are not the defaults"
+
+for choice in "--path-lights power" "--path-lights rays" "--path-lights paths" \
+    "--roulette-threshold 0 --roulette 1" "--roulette-max 0.5 --roulette 1"; do
+    "$render" "$scene" "${few[@]}" --renderer path --quiet --out path.pfm
+    # shellcheck disable=SC2086
+    "$render" "$scene" "${few[@]}" --renderer path $choice --quiet --out choice.pfm
+    ! cmp -s path.pfm choice.pfm || wrong "$choice changes nothing"
+done
+for choice in "--irradiance-radius 0.2" "--irradiance-shadow-rays 1" "--gather-depth 2"; do
+    cached=(--indirect cache --general-photons 2000)
+    "$render" "$scene" "${few[@]}" "${cached[@]}" --quiet --out cached.pfm
+    # shellcheck disable=SC2086
+    "$render" "$scene" "${few[@]}" "${cached[@]}" $choice --quiet --out choice.pfm
+    ! cmp -s cached.pfm choice.pfm || wrong "$choice changes nothing"
+done
+
+# What is chosen is said, and stands in the JSON beside the picture.
+json_has() { grep -q -- "$1" choice.pfm.json || wrong "no $1 in $(cat choice.pfm.json)"; }
+for rule in report any enough; do # where the photons are right, the picture is the same
+    "$render" "$scene" "${few[@]}" --skip $rule --quiet --out choice.pfm
+    json_has "\"rule\": \"$rule\""
+    json_has '"skipped_rays": [1-9]'
+done
+"$render" "$scene" "${few[@]}" --skip enough --skip-bounces --skip-radius 0.4 \
+    --skip-tolerance 0.25 --skip-risk 0.125 --caustic-budget area --radius 0 \
+    --photon-numbers sobol --photon-bounces 9 --photon-memory 2 --out choice.pfm >out.txt
+for line in '"rule": "enough"' '"bounces": true' '"radius": 0.4' '"tolerance": 0.25' \
+    '"risk": 0.125' '"budget": "area"' '"shares": \[' '"photon_numbers": "sobol"' \
+    '"photon_bounces": 9' '"photon_memory_gb": 2' '"skipped_rays": [1-9]' \
+    '"skipped_bounces": [1-9]'; do
+    json_has "$line"
+done
+grep -q 'shares of the photons: 0\.' out.txt || wrong "no shares in $(cat out.txt)"
+grep -q 'skipped: [1-9]' out.txt || wrong "no skipped rays in $(cat out.txt)"
+"$render" "$scene" --skip enough --caustic-budget flux --radius 0 --passes 7 --alpha 0.5 \
+    --plan >plan.txt
+for line in '^skipped rays  *on ' 'shared out by flux, the radius comes from the photons' \
+    '^passes  *on  *7, .* alpha 0.5$'; do
+    grep -q "$line" plan.txt || wrong "no $line in the plan"
+done
+"$render" "$scene" "${few[@]}" --renderer path --path-lights power --quiet --out choice.pfm
+json_has '"path_lights": "power"'
+
+# Passes: by any threads, cut in two and resumed, the same bytes; and a preview.
+passes=("$scene" "${few[@]}" --radius 0 --caustic-budget brightness --alpha 0.5 --quiet)
+"$render" "${passes[@]}" --passes 6 --threads 1 --out whole.pfm
+"$render" "${passes[@]}" --passes 2 --threads 2 --out part.pfm --checkpoint part.check
+"$render" "${passes[@]}" --passes 6 --threads 2 --out choice.pfm --checkpoint part.check \
+    --resume --preview part.png --every 0
+cmp whole.pfm choice.pfm || wrong "a resumed picture is another"
+[ -s part.png ] || wrong "no preview"
+json_has '"count": 6'
+json_has '"alpha": 0.5'
+json_has '"shares": \['
+"$render" "${passes[@]}" --passes 2 --precision double --preset fast --out choice.pfm
+json_has '"preset": "fast"'
+json_has '"rays": 2,'
+json_has '"more_rays": 0,'
+"$render" "$scene" --width 20 --height 16 --passes 2 --quiet --out choice.pfm
+json_has '"rays": 1,'
 
 # A ball with a picture on it, by its own coordinates, and one of the report's material.
 cp new/a.png picture.png
@@ -97,6 +160,34 @@ refused "--radius" "$scene" --radius nan
 refused "--caustic-kernel" "$scene" --caustic-kernel hat
 refused "--precision" "$scene" --precision half
 refused "--nope" "$scene" --nope
+refused "--skip" "$scene" --skip jensen
+refused "--skip-tolerance" "$scene" --skip-tolerance 1
+refused "--skip-risk" "$scene" --skip-risk 0
+refused "--skip-radius" "$scene" --skip-radius -1
+refused "--caustic-budget" "$scene" --caustic-budget most
+refused "--photon-numbers" "$scene" --photon-numbers dice
+refused "--photon-bounces" "$scene" --photon-bounces 0
+refused "max_memory allows 1e-06 GB" "$scene" --photon-memory 1e-6
+refused "--path-lights" "$scene" --path-lights all
+refused "--roulette-max" "$scene" --roulette-max 0
+refused "--passes" "$scene" --passes 0
+refused "--alpha" "$scene" --passes 2 --alpha 0
+for option in "--alpha 0.5" "--checkpoint a.check" --resume "--preview a.png"; do
+    # shellcheck disable=SC2086
+    refused "give --passes N" "$scene" $option
+done
+refused "--passes is for --renderer photon" "$scene" --passes 2 --renderer path
+refused "--more-rays does not go with --passes" "$scene" --passes 2 --more-rays 3
+refused "--explain does not go with --passes" "$scene" --passes 2 --explain 1,1
+refused "--photons does not go with --passes" "$scene" --passes 2 --photons all
+refused "--resume needs --checkpoint" "$scene" --passes 2 --resume
+refused "its name must end with .png" "$scene" --passes 2 --preview a.jpg
+refused "it must be a file of its own" "$scene" --passes 2 --out a.pfm --checkpoint a.pfm
+refused "cannot write" "$scene" --passes 2 --checkpoint /proc/none/a.check
+refused "cannot read 'none.check'" "$scene" --passes 2 --checkpoint none.check --resume
+refused "of another picture" "${passes[@]}" --passes 9 --seed 3 --checkpoint part.check --resume
+refused "alpha is 0.75; it must be that" "${passes[@]}" --passes 9 --alpha 0.75 \
+    --checkpoint part.check --resume
 refused "cannot write" "$scene" --out /proc/none/a.png
 printf '{"name": "x",\n "camera": {"position": [1e999' >huge.json
 refused "huge.json: line 2, column 30: camera.position[0] is 1e999" huge.json
@@ -133,6 +224,17 @@ took=$((($(date +%s%N) - begin) / 1000000))
 [ $code -eq 130 ] || wrong "Ctrl-C: exit code $code, not 130"
 [ $took -lt 1000 ] || wrong "Ctrl-C: it took $took ms"
 [ ! -e never.png ] || wrong "Ctrl-C left a picture"
+
+# The same in passes: what is done by then is in the checkpoint.
+"$render" "$scene" --passes 1000000 --caustic-photons 500 --out never.png \
+    --checkpoint never.check >out.txt 2>err.txt &
+pid=$!
+sleep 1
+kill -INT $pid
+code=0
+wait $pid || code=$?
+[ $code -eq 130 ] || wrong "Ctrl-C in passes: exit code $code, not 130"
+[ -s never.check ] && [ ! -e never.png ] || wrong "Ctrl-C in passes: no checkpoint, or a picture"
 
 leftover=$(find . -name '*.part*' -o -name '.ljus*')
 [ -z "$leftover" ] || wrong "left behind: $leftover"

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "ljus/photons/emission.hpp"
+#include "ljus/path/emission.hpp"
 
 namespace ljus {
 

@@ -122,8 +122,9 @@ trace_pilot(const S& scene, PhotonPassSettings pass, std::size_t object,
 /// \param pass    Of the picture; a twentieth of its photons is sent, at least 500 and
 ///                at most 20 000 to each object.
 /// \param radius  Of the estimates of the picture, in scene units; twice of it is used.
+///                0: that in which 32 photons of the picture lie typically.
 /// \param light   What else lights the scene: photons of a general map, or none.
-/// \param wide    The radius that they are asked with.
+/// \param wide    The radius that they are asked with; 0: that of 64 of them.
 /// \return One for each of specular_objects().
 template <SceneLike S, std::floating_point T = typename S::Scalar>
 [[nodiscard]] std::vector<CausticPilot>
@@ -142,6 +143,11 @@ pilot_caustics(const S& scene, const PhotonPassSettings& pass, T radius,
     }
     const PhotonMapT<T> caustics = make_photon_map(all, pass.threads);
     const PhotonMapT<T> rest = make_photon_map(light, pass.threads);
+    if (radius == 0) // the picture's photons lie denser than those of the pilot
+        radius =
+            typical_radius(caustics, 32) *
+            T(std::sqrt(double(paths * count) / double(std::max(pass.photons, 1LL))));
+    if (wide == 0) wide = typical_radius(rest, 64);
     const double dark =
         0.1 * (light.empty() ? detail::mean_irradiance(caustics, all, 2 * radius)
                              : detail::mean_irradiance(rest, light, wide));

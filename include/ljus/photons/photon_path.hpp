@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "ljus/path/continue_path.hpp"
+#include "ljus/path/emission.hpp"
 #include "ljus/path/next_vertex.hpp"
-#include "ljus/photons/emission.hpp"
 #include "ljus/photons/photon_pass.hpp"
 
 namespace ljus {
@@ -108,8 +108,8 @@ template <std::floating_point T>
 /// \param out       Takes it.
 template <std::floating_point T, Material M>
 void store_photon(const PathStateT<T>& path, const VertexT<T>& vertex,
-                  const M& material, std::uint16_t light, MapType map,
-                  PhotonKinds keep, std::vector<PhotonT<T>>& out) {
+                  const M& material, std::uint16_t light, MapType map, PhotonKinds keep,
+                  std::vector<PhotonT<T>>& out) {
     const PhotonKind kind = kind_of(path);
     const bool caustics = map == MapType::caustics;
     const bool owned = (kind == PhotonKind::caustic) == caustics && keep.has(kind);

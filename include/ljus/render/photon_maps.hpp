@@ -1,13 +1,13 @@
 #pragma once
 
 /// \file ljus/render/photon_maps.hpp
-/// \brief The first pass of the report's renderer: its photon maps.
+/// \brief The first pass of the report's renderer (Section 3.2.2): photon maps.
 
 #include "ljus/photons/budget.hpp"
 #include "ljus/photons/tracing.hpp"
 #include "ljus/photons/verdict_grid.hpp"
+#include "ljus/render/detail/choose_passes.hpp"
 #include "ljus/render/irradiance_cache.hpp"
-#include "ljus/render/survey.hpp"
 
 namespace ljus {
 
@@ -29,16 +29,14 @@ struct PhotonMapsT {
     std::string remarks{};      ///< Why a pass gave up, if one did: lines.
 };
 
-namespace detail {
-
 /// The shares of the caustics' photons that a budget asks for, by a pilot.
 /// \param scene     The scene.
 /// \param settings  The budget, photons, radii. For the brightness 20 000 photons of a
 ///                  general pass tell what else lights the scene.
-/// \return As PhotonPassSettings::shares.
+/// \return As PhotonPassSettings::shares; those of the settings if there are some.
 template <SceneLike S>
 [[nodiscard]] std::vector<double>
-shares_by_pilot(const S& scene, const PhotonMappingSettings& settings) {
+caustic_shares(const S& scene, const PhotonMappingSettings& settings) {
     using T = typename S::Scalar;
     const CausticBudget budget = settings.caustic_budget;
     if (budget == CausticBudget::as_seen || !settings.caustics.shares.empty())
@@ -57,8 +55,6 @@ shares_by_pilot(const S& scene, const PhotonMappingSettings& settings) {
                                          T(settings.caustics_estimate.radius), light,
                                          T(settings.general_estimate.radius)));
 }
-
-} // namespace detail
 
 /// Runs the first pass: the maps that the plan asks for, and no others.
 /// \param scene     The scene.
@@ -103,7 +99,7 @@ make_photon_maps(const S& scene, const PhotonMappingSettings& settings = {}) {
     };
     if (run.caustics_map) {
         PhotonPassSettings caustics = settings.caustics;
-        caustics.shares = detail::shares_by_pilot(scene, settings);
+        caustics.shares = caustic_shares(scene, settings);
         make(MapType::caustics, caustics, maps.caustics, maps.caustics_audit);
     }
     if (run.general_map || verdicts)

@@ -165,21 +165,42 @@ void require_first_pass(const ProgressiveState& state, RenderPass&& pass) {
         "program must be as they were.");
 }
 
+/// Settings of which nothing is left to choose from a pass's photons: with the radii
+/// that are 0 chosen, and the shares that a budget asks for found by one pilot.
+/// \param scene     The scene.
+/// \param settings  Photons of one pass.
+/// \return The same settings for each pass, and each time the program runs.
+/// \cost With a radius of 0, the photon maps of one pass; with a budget, its pilot.
+template <SceneLike S>
+[[nodiscard]] PhotonMappingSettings
+settings_for_passes(const S& scene, PhotonMappingSettings settings) {
+    check(settings);
+    if (detail::choose_passes(needs(scene), settings).caustics_map)
+        settings.caustics.shares = caustic_shares(scene, settings);
+    if (settings.caustics_estimate.radius > 0 && settings.general_estimate.radius > 0)
+        return settings;
+    const auto maps = make_photon_maps(scene, settings);
+    return make_photon_mapper(scene, maps, settings).settings;
+}
+
 /// One pass of the photon mapper: photons of its own, camera rays of its own, and all
 /// radii, of the caustics map and of the general map, times `scale`.
 ///
 /// With IndirectLight::rays there is no general map: only caustics converge, and only
 /// they have to. With k nearest photons the k-th sets the radius until the shrinking
-/// one is smaller, and until then no bias goes away. A budget by pilot would send one
-/// with each pass: give settings.caustics.shares instead, see \ref budget.
+/// one is smaller, and until then no bias goes away. A radius that is chosen from the
+/// photons, and shares that a pilot finds, are chosen once: see settings_for_passes().
+/// Points of an irradiance cache are the pass's own; what they are blurred by stays.
 /// \tparam Draws    RandomStream, or StratifiedStream for several rays a pixel.
 /// \param scene     The scene, or an IndexedScene, which saves indexing it each time.
 /// \param camera    A CameraT, or anything with a camera_ray().
-/// \param settings  Photons *of one pass*; the radii of the first.
+/// \param settings  Photons *of one pass*; the radii of the first, above 0.
 /// \param picture   Size; rays a pixel in one pass.
 /// \param pass      Its number, from 1 on.
 /// \param scale     Of the radii, in (0, 1].
 /// \return The picture; not complete if a progress callback stopped it.
+/// \throws std::invalid_argument  if a radius is 0: each pass would choose its own, and
+///         none would shrink.
 // [photon mapping pass]
 template <typename Draws = RandomStream, SceneLike S,
           template <std::floating_point> typename AnyCamera, std::floating_point T>
@@ -187,13 +208,16 @@ template <typename Draws = RandomStream, SceneLike S,
 photon_mapping_pass(const S& scene, const AnyCamera<T>& camera,
                     PhotonMappingSettings settings, RenderSettings picture,
                     long long pass, double scale) {
+    require_positive("caustics_estimate.radius", settings.caustics_estimate.radius);
+    require_positive("general_estimate.radius", settings.general_estimate.radius);
     const auto number = static_cast<std::uint64_t>(pass);
     settings.caustics.iteration = settings.general.iteration = number;
     picture.seed = detail::mix_bits(detail::mix_bits(picture.seed) + number);
     settings.caustics_estimate.radius *= static_cast<float>(scale);
     settings.general_estimate.radius *= static_cast<float>(scale);
-    const auto maps = make_photon_maps(scene, settings);
+    auto maps = make_photon_maps(scene, settings);
     if (!maps.complete) return {.complete = false};
+    add_irradiance_cache(maps, scene, camera, picture, settings);
     return render(make_photon_mapper<Draws>(scene, maps, settings), camera, picture);
 }
 // [photon mapping pass]

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <string>
 
+#include "ljus/path/next_vertex.hpp"
 #include "ljus/render/photon_mapping_settings.hpp"
 
 namespace ljus {
@@ -21,6 +22,24 @@ struct SceneNeeds {
     std::size_t lights = 0;   ///< Emissive objects and point lights.
     bool films = false;       ///< Whether a material is a thin surface.
 };
+
+/// Counts what a scene is made of.
+/// \param scene  The scene.
+/// \return The counts.
+template <SceneLike S>
+[[nodiscard]] SceneNeeds needs(const S& scene) {
+    SceneNeeds found{.objects = scene.size(),
+                     .lights = scene.lights.size(),
+                     .films = detail::has_thin_surfaces(scene)};
+    for (const auto& objects : scene.objects)
+        for (const auto& object : objects) {
+            const Lobes parts = scene.visit_material(
+                object.material, [](const auto& m) { return lobes(m); });
+            found.diffuse += has(parts, Lobes::non_specular) ? 1 : 0;
+            found.specular += has(parts, Lobes::specular) ? 1 : 0;
+        }
+    return found;
+}
 
 namespace detail {
 
@@ -82,22 +101,30 @@ struct Passes {
     return skip;
 }
 
-/// How a plan says what the caustics' photons are shared out by.
+/// How a plan says what is chosen for the caustics: by what their photons are shared
+/// out, and where their radius comes from.
 /// \param settings  What the user asks for.
-/// \return The end of a clause; nothing for CausticBudget::as_seen.
-[[nodiscard]] inline std::string budget_clause(const PhotonMappingSettings& settings) {
-    if (!settings.caustics.shares.empty()) return ", photons in given shares";
+/// \return The end of a clause; nothing where nothing is chosen.
+[[nodiscard]] inline std::string
+caustics_clause(const PhotonMappingSettings& settings) {
+    const char* const radius = settings.caustics_estimate.radius == 0
+                                   ? ", the radius comes from the photons"
+                                   : "";
+    const auto clause = [&](const char* shares) {
+        return std::string(shares).append(radius);
+    };
+    if (!settings.caustics.shares.empty()) return clause(", photons in given shares");
     switch (settings.caustic_budget) {
     case CausticBudget::equal:
-        return ", each gets as many photons";
+        return clause(", each gets as many photons");
     case CausticBudget::flux:
-        return ", photons are shared out by flux";
+        return clause(", photons are shared out by flux");
     case CausticBudget::area:
-        return ", photons are shared out by caustic area";
+        return clause(", photons are shared out by caustic area");
     case CausticBudget::brightness:
-        return ", photons are shared out by flux over brightness";
+        return clause(", photons are shared out by flux over brightness");
     default:
-        return "";
+        return clause("");
     }
 }
 

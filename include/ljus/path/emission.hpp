@@ -1,6 +1,6 @@
 #pragma once
 
-/// \file ljus/photons/emission.hpp
+/// \file ljus/path/emission.hpp
 /// \brief How a photon leaves a light.
 
 #include "ljus/math/low_discrepancy.hpp"

@@ -1,13 +1,12 @@
 #pragma once
 
-/// \file ljus/render/survey.hpp
+/// \file ljus/inspect/survey.hpp
 /// \brief What a scene requires: which passes run, and why.
 
 #include <array>
 #include <string>
 #include <vector>
 
-#include "ljus/path/next_vertex.hpp"
 #include "ljus/render/detail/choose_passes.hpp"
 #include "ljus/scene/index.hpp"
 
@@ -65,7 +64,7 @@ struct Plan {
 /// \return A line that ends with a line feed.
 [[nodiscard]] inline std::string to_text(const PlanItem& item) {
     std::string name = item.pass;
-    name.resize(16, ' ');
+    name.resize(17, ' ');
     return name + (item.on ? "on   " : "off  ") + item.why + "\n";
 }
 
@@ -77,24 +76,6 @@ struct Plan {
     for (const PlanItem* item : plan.items()) text += to_text(*item);
     for (const std::string& type : plan.types) text += type + "\n";
     return text;
-}
-
-/// Counts what a scene is made of.
-/// \param scene  The scene.
-/// \return The counts.
-template <SceneLike S>
-[[nodiscard]] SceneNeeds needs(const S& scene) {
-    SceneNeeds found{.objects = scene.size(),
-                     .lights = scene.lights.size(),
-                     .films = detail::has_thin_surfaces(scene)};
-    for (const auto& objects : scene.objects)
-        for (const auto& object : objects) {
-            const Lobes parts = scene.visit_material(
-                object.material, [](const auto& m) { return lobes(m); });
-            found.diffuse += has(parts, Lobes::non_specular) ? 1 : 0;
-            found.specular += has(parts, Lobes::specular) ? 1 : 0;
-        }
-    return found;
 }
 
 namespace detail {
@@ -134,9 +115,9 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
         item("caustics map", run.caustics_map,
              found.specular == 0              ? "no object mirrors or refracts"
              : settings.caustics.photons == 0 ? "0 photons were asked for"
-             : run.shadow_rays
-                 ? of_all(found.specular, "mirror or refract") + budget_clause(settings)
-                 : "nothing is lit");
+             : run.shadow_rays ? of_all(found.specular, "mirror or refract") +
+                                     caustics_clause(settings)
+                               : "nothing is lit");
     plan.general_map =
         item("general map", run.general_map,
              run.general_map ? "indirect light is asked of it" : "no ray asks it");
@@ -188,7 +169,7 @@ template <SceneLike S>
     Plan plan = detail::make_plan(needs(scene), settings);
     const auto add = [&](const char* what, int number, const auto& hooks) {
         std::string name = std::string(what).append(std::to_string(number));
-        name.resize(16, ' ');
+        name.resize(17, ' ');
         plan.types.push_back(name.append(detail::to_line(hooks)));
     };
     int shapes = 0, materials = 0; // neither finds what it asks for: all are asked

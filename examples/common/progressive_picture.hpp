@@ -1,0 +1,115 @@
+#pragma once
+
+/// \file progressive_picture.hpp
+/// \brief A picture made pass by pass: it shows itself while it runs, and can be
+/// stopped, killed and resumed.
+
+#include <cstdio>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+#include "clock.hpp"
+#include "command_line.hpp"
+#include "ljus/io/png.hpp"
+#include "ljus/io/progressive_file.hpp"
+#include "terminal.hpp"
+
+namespace examples {
+
+/// What the user asks of such a picture.
+struct PassOptions {
+    long long passes = 0;        ///< How many; 0: not asked for.
+    double alpha = 2.0 / 3;      ///< How fast the radius shrinks; 1: not at all.
+    std::string checkpoint = {}; ///< Saved while it runs, if it has a name.
+    std::string preview = {};    ///< The same for a PNG file.
+    double every = 2;            ///< Seconds between them; 0: after each pass.
+    bool resume = false;         ///< Whether to go on from the checkpoint.
+    double exposure = 0;         ///< Of the preview, in stops.
+};
+
+/// Adds the options of passes to a command line.
+/// \param line  The command line.
+/// \param how   Takes what the user gives; must live until the line is parsed.
+inline void add_pass_options(CommandLine& line, PassOptions& how) {
+    line.add("--passes", how.passes, "Photon maps of smaller and smaller radius", 1,
+             1'000'000'000);
+    line.add("--alpha", how.alpha, "How slowly the radius of the passes shrinks", 1e-3,
+             1);
+    line.add("--checkpoint", how.checkpoint, "A file from which passes can go on");
+    line.add("--resume", how.resume, "Go on from the checkpoint");
+    line.add("--preview", how.preview, "A PNG file that is saved as passes run");
+    line.add("--every", how.every, "Seconds between checkpoints; 0: after each pass", 0,
+             1e6);
+}
+
+/// Makes sure that the files of the passes can be written, before any work is done.
+/// \param how      What the user asked for.
+/// \param picture  The file of the picture, which is none of them.
+/// \throws std::invalid_argument  for names that do not go together.
+inline void require_pass_files(const PassOptions& how, const std::string& picture) {
+    if (how.resume && how.checkpoint.empty())
+        throw std::invalid_argument("--resume needs --checkpoint FILE.");
+    if (!how.preview.empty() &&
+        std::filesystem::path(how.preview).extension() != ".png")
+        throw std::invalid_argument("--preview is " + how.preview +
+                                    "; its name must end with .png.");
+    const auto place = [](const std::string& file) {
+        return std::filesystem::absolute(file).lexically_normal();
+    };
+    if (!how.checkpoint.empty())
+        for (const std::string& file : {picture, how.preview})
+            if (!file.empty() && place(file) == place(how.checkpoint))
+                throw std::invalid_argument("--checkpoint is " + how.checkpoint +
+                                            "; it must be a file of its own.");
+    for (const std::string& file : {how.checkpoint, how.preview})
+        if (!file.empty()) require_writable(file);
+}
+
+/// Makes the passes.
+/// \param how    What the user asked for.
+/// \param quiet  Draw no progress bar.
+/// \param pass   Called as pass(i, scale); see \ref progressive.
+/// \return The state after the last pass.
+/// \throws Interrupted  after Ctrl-C; what is done by then is in the checkpoint.
+template <typename RenderPass>
+[[nodiscard]] ljus::ProgressiveState run_passes(const PassOptions& how, bool quiet,
+                                                RenderPass&& pass) {
+    using namespace ljus;
+    ProgressBar bar("passes", quiet);
+    // [program]
+    ProgressiveState state{.alpha = how.alpha};
+    if (how.resume) {
+        state = load_checkpoint(how.checkpoint);
+        require(state.alpha == how.alpha, "alpha", how.alpha,
+                "that of the passes so far, " + to_text(state.alpha));
+        require_first_pass(state, pass);
+    }
+    StopWatch watch;
+    const auto save = [&](const ProgressiveState& now) {
+        if (!how.preview.empty())
+            save_png(mean_image(now), how.preview, {.exposure = how.exposure});
+        if (!how.checkpoint.empty()) save_checkpoint(how.checkpoint, now);
+        watch.restart();
+    };
+    const bool done = run_progressive(state, how.passes, pass, [&](const auto& now) {
+        if (watch.seconds() >= how.every) save(now);
+        return bar(now.passes, how.passes);
+    });
+    if (state.passes > 0) save(state);
+    if (!done) throw Interrupted{};
+    // [program]
+    return state;
+}
+
+/// What is known of the picture, for the terminal.
+/// \param state  Of at least one pass.
+inline void print_passes(const ljus::ProgressiveState& state) {
+    const auto error = ljus::estimate_error(state);
+    std::printf("%lld passes, standard error %.3g a pixel, %.3g a block of %d x %d; "
+                "radius %.3f of the first\n",
+                state.passes, error.pixels, error.blocks, state.block_side,
+                state.block_side, std::sqrt(state.shrink));
+}
+
+} // namespace examples
