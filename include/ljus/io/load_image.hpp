@@ -144,7 +144,7 @@ template <std::floating_point T = float>
     // Chunks of a file's own have names of any bytes, which stb_image repeats.
     const auto reason = [](std::string_view what) {
         const char* const why = stbi_failure_reason();
-        return join({what, why == nullptr ? "unknown" : shown(why)});
+        return join({what, why == nullptr ? "unknown" : shown(std::string(why))});
     };
     int width = 0;
     int height = 0;
