@@ -317,6 +317,14 @@ TEST_CASE("texture: of pictures only those are read whose reader is trusted, and
     const std::string sentence = refusal_of(strange);
     CHECK(sentence.find("a is ") == 0);
     for (const char c : sentence) CHECK((c >= ' ' && c < 0x7f));
+    // A JPEG file whose table has more entries than stb_image has room for.
+    Bytes jpeg{0xff, 0xd8, 0xff, 0xc4, 0x01, 0x14, 0x00};
+    jpeg.insert(jpeg.end(), 16, 0);
+    jpeg[7 + 8] = 255;
+    jpeg.resize(400);
+    CHECK(refusal_of(jpeg) != "a is damaged: a table has more than 255 entries.");
+    jpeg[7 + 15] = 1;
+    CHECK(refusal_of(jpeg) == "a is damaged: a table has more than 255 entries.");
     // A size that would take gigabytes.
     Bytes large = whole;
     for (const std::size_t at : {18, 22}) large[at] = 0x40; // 16386 x 16386

@@ -122,6 +122,41 @@ inline const char* png_trouble(const Bytes& file) {
     return "it ends before its last chunk";
 }
 
+// Whether stb_image may read the tables of a JPEG file whose length stands at `at`: it
+// has room for 256 entries, does not count them, and takes number 255 for none.
+inline bool good_huffman_tables(const Bytes& file, std::size_t at) {
+    const auto byte = [&](std::size_t i) {
+        return i < file.size() ? std::size_t(file[i]) : std::size_t(0);
+    };
+    auto left = static_cast<long long>(byte(at) * 256 + byte(at + 1)) - 2;
+    for (at += 2; left > 0;) {
+        std::size_t entries = 0;
+        for (std::size_t i = 1; i <= 16; ++i) entries += byte(at + i);
+        if (entries > 255) return false;
+        at += 17 + entries;
+        left -= static_cast<long long>(17 + entries);
+    }
+    return true;
+}
+
+// What is wrong with a JPEG file, which stb_image does not ask.
+inline const char* jpeg_trouble(const Bytes& file) {
+    bool coded = false; // from the first coded pixels on a table may stand anywhere
+    for (std::size_t at = 2; file.size() - at >= 4;) {
+        const unsigned char kind = file[at + 1];
+        if (file[at] != 0xff || kind == 0xff || (coded && kind != 0xc4)) {
+            ++at;
+            continue;
+        }
+        if (kind == 0xc4 && !good_huffman_tables(file, at + 2))
+            return "a table has more than 255 entries";
+        coded = coded || kind == 0xda;
+        at += coded ? 2 : 2 + std::size_t(file[at + 2]) * 256 + file[at + 3];
+        if (at > file.size()) break;
+    }
+    return nullptr;
+}
+
 /// A picture from the bytes of a file.
 /// \param bytes  The file.
 /// \param path   What messages call it.
@@ -136,10 +171,13 @@ template <std::floating_point T = float>
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
                                 bytes.size());
     const bool png = text.starts_with("\x89PNG\r\n\x1a\n");
-    if (!png && !text.starts_with("\xff\xd8\xff") && !text.starts_with("BM"))
+    const bool jpeg = text.starts_with("\xff\xd8\xff");
+    if (!png && !jpeg && !text.starts_with("BM"))
         refuse("is no picture that can be read: it begins as neither PNG, JPEG nor "
                "BMP does");
-    if (const char* const why = png ? png_trouble(bytes) : nullptr)
+    if (const char* const why = png    ? png_trouble(bytes)
+                                : jpeg ? jpeg_trouble(bytes)
+                                       : nullptr)
         refuse(join({"is damaged: ", why}));
     // Chunks of a file's own have names of any bytes, which stb_image repeats.
     const auto reason = [](std::string_view what) {
