@@ -198,6 +198,10 @@ void print(const Counts& counts, double seconds) {
         std::printf("  %-16s %10s  %" PRIu64
                     " samples were not finite and are left out\n",
                     "", "", counts.rejected);
+    if (counts.cut_paths > 0)
+        std::printf("  %-16s %10s  %" PRIu64
+                    " paths were cut at --depth; their further light is missing\n",
+                    "", "", counts.cut_paths);
 }
 
 /// Renders, or explains one pixel.
@@ -282,6 +286,8 @@ RenderedT<T> render_scene(const LoadedSceneT<T>& loaded, const RenderSettings& p
                           const Request& request, PhotonMappingSettings& settings,
                           bool quiet) {
     if (request.renderer == "path") {
+        const std::string digits = detail::digits_remark(loaded.scene);
+        if (!digits.empty()) std::fprintf(stderr, "%s\n", digits.c_str());
         const auto tracer =
             make_path_tracer(loaded.scene, {.max_depth = request.depth,
                                             .roulette_depth = request.roulette});
@@ -343,7 +349,8 @@ std::string to_json(const Request& request, const RenderSettings& picture,
                     {"bounce_rays", rendered.counts.bounce_rays},
                     {"shadow_rays", rendered.counts.shadow_rays},
                     {"map_queries", rendered.counts.map_queries},
-                    {"rejected", rendered.counts.rejected}};
+                    {"rejected", rendered.counts.rejected},
+                    {"cut_paths", rendered.counts.cut_paths}};
     return json.dump(2) + "\n";
 }
 

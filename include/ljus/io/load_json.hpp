@@ -45,7 +45,7 @@ using LoadedScene = LoadedSceneT<float>; ///< LoadedSceneT in float.
 namespace detail {
 
 /// The largest file that load_json() takes, in bytes.
-inline constexpr std::size_t max_scene_file = std::size_t(1) << 28;
+inline constexpr std::size_t max_scene_file = std::size_t(1) << 26;
 
 template <std::floating_point T>
 CameraT<T> read_camera(const JsonField& field) {
