@@ -88,10 +88,10 @@ TEST_CASE("counts: passes that are off make no photon and ask no query") {
         return render(make_photon_mapper(room, maps, settings), camera, picture).counts;
     };
     // No mirror, no glass: no caustics.
-    const Room matt = make_room<float>(Ball::lambertian, Lamp::quad, 1);
+    const ljus_test::Room matt = make_room<float>(Ball::lambertian, Lamp::quad, 1);
     CHECK(counts_of(matt).map_queries == 0);
     CHECK(counts_of(matt).map_photons == 0);
-    const Room glass = make_room<float>(Ball::glass, Lamp::quad, 1);
+    const ljus_test::Room glass = make_room<float>(Ball::glass, Lamp::quad, 1);
     const Counts with = counts_of(glass);
     CHECK(with.map_queries > 100);
     CHECK(with.map_photons > 100);
