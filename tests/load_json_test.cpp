@@ -598,6 +598,17 @@ TEST_CASE("load_json: so many values that memory would end are refused") {
     CHECK(refusal(many(100'000, "[1,2,3]")) != sentence);
 }
 
+TEST_CASE("load_json: hundreds of soap films are refused before all are made") {
+    std::string films;
+    for (int i = 0; i < 300; ++i)
+        films.append("\"f")
+            .append(std::to_string(i))
+            .append(R"(": {"type": "soap-film", "ior": 1.33, "thickness_nm": 400}, )");
+    CHECK(refusal("\"materials\": {", "\"materials\": {" + films) ==
+          "a.json: materials has more than 16 soap films, whose colours take long to "
+          "make.");
+}
+
 TEST_CASE("load_json: tens of thousands of lights are refused") {
     std::string text = "{\"camera\": {\"position\": [0, 0, 9], \"look_at\": [0, 0, 0],"
                        "\"up\": [0, 1, 0], \"vfov_deg\": 40},"

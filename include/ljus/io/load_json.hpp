@@ -47,6 +47,9 @@ namespace detail {
 /// The largest file that load_json() takes, in bytes.
 inline constexpr std::size_t max_scene_file = std::size_t(1) << 26;
 
+/// The most soap films in a file: the colours of each take a tenth of a second.
+inline constexpr std::size_t max_soap_films = 16;
+
 template <std::floating_point T>
 CameraT<T> read_camera(const JsonField& field) {
     require_object(field, {"position", "look_at", "up", "vfov_deg"});
@@ -92,9 +95,14 @@ LoadedSceneT<T> read_scene(const JsonField& top, LoadMeshes& load_meshes) {
     std::map<std::string, MaterialId> materials;
     const JsonField list = member(top, "materials");
     if (!list.value.is_object()) refuse_value(list, "an object");
-    for (const auto& [name, value] : list.value.items())
+    const auto& films = std::get<std::vector<SoapFilmT<T>>>(loaded.scene.materials);
+    for (const auto& [name, value] : list.value.items()) {
         materials[name] = read_material(
             {value, top.file, path_of_member(list.path, name)}, loaded.scene);
+        if (films.size() > max_soap_films)
+            refuse(list,
+                   "has more than 16 soap films, whose colours take long to make");
+    }
 
     const JsonField objects = member(top, "objects");
     for (std::size_t i = 0; i < list_size(objects); ++i)
