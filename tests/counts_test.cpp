@@ -122,7 +122,9 @@ TEST_CASE("counts: what the depth cuts is counted, path by path") {
         CHECK(cut(make_path_tracer(matt.scene, traced), inside) == 60);
         PhotonMappingSettings settings{.max_depth = depth, .roulette_depth = 1000};
         const auto maps = make_photon_maps(matt.scene, settings);
-        CHECK(cut(make_photon_mapper(matt.scene, maps, settings), inside) == 60);
+        // At a depth of one the plan has no indirect rays, and says why.
+        CHECK(cut(make_photon_mapper(matt.scene, maps, settings), inside) ==
+              (depth == 1 ? 0 : 60));
         // The map answers for what comes after: nothing is missing.
         settings.indirect = IndirectLight::photons;
         const auto known = make_photon_maps(matt.scene, settings);

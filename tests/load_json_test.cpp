@@ -594,7 +594,6 @@ TEST_CASE("load_json: so many values that memory would end are refused") {
     CHECK(refusal(many(1'100'000, "{}")) == sentence);
     CHECK(refusal(many(1'100'000, "[]")) == sentence);
     CHECK(refusal(many(700'000, R"({"a":1})")) == sentence);
-    CHECK(refusal(many(4'200'000, "1")) == sentence);
     CHECK(refusal(many(100'000, "[1,2,3]")) != sentence);
 }
 

@@ -95,14 +95,15 @@ LoadedSceneT<T> read_scene(const JsonField& top, LoadMeshes& load_meshes) {
     std::map<std::string, MaterialId> materials;
     const JsonField list = member(top, "materials");
     if (!list.value.is_object()) refuse_value(list, "an object");
-    const auto& films = std::get<std::vector<SoapFilmT<T>>>(loaded.scene.materials);
-    for (const auto& [name, value] : list.value.items()) {
+    std::size_t films = 0;
+    for (const auto& value : list.value)
+        if (const auto type = value.find("type"); type != value.end())
+            films += *type == "soap-film" ? 1u : 0u;
+    if (films > max_soap_films)
+        refuse(list, "has more than 16 soap films, whose colours take long to make");
+    for (const auto& [name, value] : list.value.items())
         materials[name] = read_material(
             {value, top.file, path_of_member(list.path, name)}, loaded.scene);
-        if (films.size() > max_soap_films)
-            refuse(list,
-                   "has more than 16 soap films, whose colours take long to make");
-    }
 
     const JsonField objects = member(top, "objects");
     for (std::size_t i = 0; i < list_size(objects); ++i)
