@@ -256,6 +256,10 @@ void print(const Counts& counts, double seconds) {
         std::printf("  %-16s %10s  %" PRIu64
                     " samples were not finite and are left out\n",
                     "", "", counts.rejected);
+    if (counts.cut_paths > 0)
+        std::printf("  %-16s %10s  %" PRIu64
+                    " paths were cut at --depth; their further light is missing\n",
+                    "", "", counts.cut_paths);
 }
 
 /// Renders, or explains one pixel.
@@ -385,6 +389,8 @@ RenderedT<T> render_scene(const LoadedSceneT<T>& loaded, const RenderSettings& p
                           const Request& request, PhotonMappingSettings& settings,
                           bool quiet) {
     if (request.renderer == "path") {
+        const std::string digits = detail::digits_remark(loaded.scene);
+        if (!digits.empty()) std::fprintf(stderr, "%s\n", digits.c_str());
         const auto tracer = make_path_tracer(loaded.scene, path_settings(request));
         return run(tracer, loaded.camera, picture, request, quiet);
     }
@@ -455,7 +461,8 @@ std::string to_json(const Request& request, const RenderSettings& picture,
                     {"map_queries", rendered.counts.map_queries},
                     {"skipped_rays", rendered.counts.skipped_rays},
                     {"skipped_bounces", rendered.counts.skipped_bounces},
-                    {"rejected", rendered.counts.rejected}};
+                    {"rejected", rendered.counts.rejected},
+                    {"cut_paths", rendered.counts.cut_paths}};
     return json.dump(2) + "\n";
 }
 

@@ -27,7 +27,11 @@ configure() {
         # Its own sentence, if it is one of ours; all that it said, if not.
         if grep -q 'Ljus: .* is not installed; install' "$log"; then
             fail "$(sed -n '/Ljus: .* is not installed; install/,/^ *$/p' "$log" |
-                tr -s ' \n' '  ' | sed 's/^ *Ljus: //; s/ *$//')"
+                sed '/^Call Stack/,$d' | tr -s ' \n' '  ' | sed 's/^ *Ljus: //; s/ *$//')"
+        fi
+        if grep -qE 'step for (ljus-|.*populate)|Failed to clone|Failed to checkout' "$log"; then
+            fail "$(sed -n 's/^-- Ljus: \(.*\) is fetched from \(.*\) (faster: \(.*\))$/\1 is not installed and cannot be fetched from \2: is there a network? Else: \3./p' \
+                "$log" | tail -n 1)"
         fi
         cat "$log" >&2
         fail "cmake could not configure $folder; its messages are above."

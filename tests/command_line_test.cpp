@@ -4,6 +4,7 @@
 #if __has_include(<CLI/CLI.hpp>)
 
 #include <csignal>
+#include <filesystem>
 #include <initializer_list>
 #include <stdexcept>
 #include <string>
@@ -12,6 +13,12 @@
 #include "../examples/common/command_line.cpp"
 #include "../examples/common/terminal.hpp"
 #include "scratch_folder.hpp"
+
+#if __has_include(<sys/resource.h>)
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#endif
 
 namespace {
 
@@ -199,5 +206,70 @@ TEST_CASE(
 #else
 
 TEST_CASE("command_line: not tested, because CLI11 is not installed") {}
+
+TEST_CASE("command_line: the name of a picture is no folder") {
+    const ScratchFolder folder;
+    CHECK(answer({"--out", folder.file("a.png").c_str()}) ==
+          "--out is " + folder.file("a.png") + "; it must be a folder, for all files");
+    for (const char* name : {"a.jpg", "a.exr", "a.PNG", "a.ppm"}) {
+        const std::string out = folder.file(name);
+        CommandLine line({"program", "--out", out});
+        line.file_types({".png", ".hdr", ".pfm"});
+        CHECK_THROWS_WITH((void)line.parse(),
+                          ("--out is " + out +
+                           "; the name of a file must end in .png, .hdr or .pfm, and "
+                           "any other is that of a folder")
+                              .c_str());
+    }
+    CHECK(folder.count() == 0);
+    for (const char* name : {"v1.2", "results", ".png"})
+        CHECK(answer({"--out", folder.file(name).c_str()}) == "accepted");
+    std::filesystem::create_directory(folder.path / "b.png"); // it is one already
+    CHECK(answer({"--out", folder.file("b.png").c_str()}) == "accepted");
+}
+
+TEST_CASE("command_line: a number that is not whole is called so") {
+    for (const char* text : {"1.5", "1e3", "0x10", "010", "ten", "", "1 ", "--"})
+        CHECK(answer({"--width", text}).find(" is no whole number (see --help)") !=
+              std::string::npos);
+    CHECK(answer({"--width", "99999999999999999999"}) ==
+          "--width: Value 99999999999999999999 not in range 1 to 65536 (see --help)");
+}
+
+#if __has_include(<sys/resource.h>)
+TEST_CASE("command_line: threads that cannot be had are asked for before they are "
+          "needed") {
+    // The root may have any number of threads: memory is what ends.
+    const ::pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        ::rlimit memory{};
+        ::getrlimit(RLIMIT_AS, &memory);
+        memory.rlim_cur = ::rlim_t(512) << 20;
+        ::setrlimit(RLIMIT_AS, &memory);
+        const std::string said = answer({"--threads", "1024"});
+        ::_exit(said.find("cannot start 1024 threads: ") == 0 ? 0 : 1);
+    }
+    int status = 0;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    CHECK(status == 0);
+    CHECK(answer({"--threads", "8"}) == "accepted");
+}
+
+TEST_CASE("command_line: whoever does not listen to Ctrl-C is stopped two seconds "
+          "later") {
+    const ::pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0)
+        ::_exit(run([](CommandLine&) {
+            std::raise(SIGINT);
+            for (;;) ::pause();
+        }));
+    int status = 0;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    CHECK(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 130);
+}
+#endif
 
 #endif

@@ -1,9 +1,12 @@
 #include <doctest/doctest.h>
 
 #include "ljus/inspect/survey.hpp"
+#include "ljus/render/distributed.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"
+#include "ljus/render/whitted.hpp"
+#include "ljus/scenes/furnaces.hpp"
 #include "support/rooms.hpp"
 
 using namespace ljus;
@@ -17,7 +20,8 @@ TEST_CASE("counts: sums, member by member") {
              .map_photons = 5,
              .skipped_rays = 7,
              .skipped_bounces = 8,
-             .rejected = 6};
+             .rejected = 6,
+             .cut_paths = 9};
     const Counts b{.camera_rays = 10,
                    .bounce_rays = 20,
                    .shadow_rays = 30,
@@ -25,7 +29,8 @@ TEST_CASE("counts: sums, member by member") {
                    .map_photons = 50,
                    .skipped_rays = 70,
                    .skipped_bounces = 80,
-                   .rejected = 60};
+                   .rejected = 60,
+                   .cut_paths = 90};
     a += b;
     CHECK(a.camera_rays == 11);
     CHECK(a.bounce_rays == 22);
@@ -35,13 +40,14 @@ TEST_CASE("counts: sums, member by member") {
     CHECK(a.skipped_rays == 77);
     CHECK(a.skipped_bounces == 88);
     CHECK(a.rejected == 66);
+    CHECK(a.cut_paths == 99);
     CHECK(a.rays() == 66); // no queries, no photons
 }
 
 TEST_CASE("counts: one shadow ray a light and surface, one ray a bounce") {
     // An open floor under two point lights: each path is camera ray, two shadow rays,
     // and one indirect ray that meets nothing.
-    Room room;
+    ljus_test::Room room;
     const auto white = room.add(Lambertian{.albedo = Rgb{0.5f}});
     room.add(Quad{.corner{-90, 0, -90}, .edge_u{0, 0, 180}, .edge_v{180, 0, 0}}, white);
     room.add(PointLight{.position{0, 2, 0}, .intensity = Rgb{1}});
@@ -75,7 +81,7 @@ TEST_CASE("counts: passes that are off make no photon and ask no query") {
     PhotonMappingSettings settings;
     settings.caustics.photons = 2000;
     settings.general.photons = 2000;
-    const auto counts_of = [&](const Room& room) {
+    const auto counts_of = [&](const ljus_test::Room& room) {
         const auto maps = make_photon_maps(room, settings);
         const Plan plan = survey(room, settings);
         CHECK(plan.caustics_map.on == !maps.caustics.empty());
@@ -83,10 +89,10 @@ TEST_CASE("counts: passes that are off make no photon and ask no query") {
         return render(make_photon_mapper(room, maps, settings), camera, picture).counts;
     };
     // No mirror, no glass: no caustics.
-    const Room matt = make_room<float>(Ball::lambertian, Lamp::quad, 1);
+    const ljus_test::Room matt = make_room<float>(Ball::lambertian, Lamp::quad, 1);
     CHECK(counts_of(matt).map_queries == 0);
     CHECK(counts_of(matt).map_photons == 0);
-    const Room glass = make_room<float>(Ball::glass, Lamp::quad, 1);
+    const ljus_test::Room glass = make_room<float>(Ball::glass, Lamp::quad, 1);
     const Counts with = counts_of(glass);
     CHECK(with.map_queries > 100);
     CHECK(with.map_photons > 100);
@@ -100,4 +106,42 @@ TEST_CASE("counts: passes that are off make no photon and ask no query") {
     CHECK(direct.bounce_rays == 0);
     CHECK(direct.shadow_rays <= direct.camera_rays); // none where the lamp is behind
     CHECK(direct.shadow_rays > direct.camera_rays / 2);
+}
+
+TEST_CASE("counts: what the depth cuts is counted, path by path") {
+    // In a white hall between mirrors every path goes on until the depth ends it.
+    const RenderSettings picture{.width = 6, .height = 5, .samples = 2, .threads = 1};
+    const auto cut = [&](const auto& renderer, const Camera& camera) {
+        const Counts counts = render(renderer, camera, picture).counts;
+        CHECK(counts.camera_rays == 60);
+        return counts.cut_paths;
+    };
+    const auto matt = sphere_furnace<float>(Rgb{1}, Rgb{0.75f});
+    const Camera inside = matt.camera;
+    for (const int depth : {1, 4}) {
+        const PathTracingSettings traced{.max_depth = depth, .roulette_depth = 1000};
+        CHECK(cut(make_path_tracer(matt.scene, traced), inside) == 60);
+        PhotonMappingSettings settings{.max_depth = depth, .roulette_depth = 1000};
+        const auto maps = make_photon_maps(matt.scene, settings);
+        // At a depth of one the plan has no indirect rays, and says why.
+        CHECK(cut(make_photon_mapper(matt.scene, maps, settings), inside) ==
+              (depth == 1 ? 0 : 60));
+        // The map answers for what comes after: nothing is missing.
+        settings.indirect = IndirectLight::photons;
+        const auto known = make_photon_maps(matt.scene, settings);
+        CHECK(cut(make_photon_mapper(matt.scene, known, settings), inside) == 0);
+    }
+    // No path is cut where it ends by itself.
+    Scene<Shapes<Sphere>, Materials<Lambertian, Mirror>> black;
+    black.add(Sphere{.center{0, 0, 0}, .radius = 1},
+              black.add(Lambertian{.albedo = Rgb{0}}), Rgb{1}, true);
+    CHECK(cut(make_path_tracer(black, {.max_depth = 50}), inside) == 0);
+    Scene<Shapes<Sphere>, Materials<Mirror>> hall;
+    hall.add(Sphere{.center{0, 0, 0}, .radius = 1}, hall.add(Mirror{}), Rgb{0}, true);
+    for (const int depth : {1, 4}) {
+        CHECK(cut(make_path_tracer(hall, {.max_depth = depth, .roulette_depth = 1000}),
+                  inside) == 60);
+        CHECK(cut(make_whitted(hall, {.max_depth = depth}), inside) == 60);
+        CHECK(cut(make_distributed(hall, {.max_depth = depth}), inside) == 60);
+    }
 }

@@ -9,7 +9,11 @@
 
 #if __has_include(<sys/resource.h>)
 #include <csignal>
+#include <fcntl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #endif
 
 namespace {
@@ -125,6 +129,85 @@ TEST_CASE(
     CHECK(folder.count() == 1);
 }
 #endif
+
+#if __has_include(<sys/resource.h>)
+TEST_CASE("file: who may read it stays the same, and what nobody may write stays") {
+    using std::filesystem::perms, std::filesystem::permissions;
+    const ScratchFolder folder;
+    const std::string path = folder.file("a");
+    ScratchFolder::write(path, "older");
+    const auto mode = [&] { return std::filesystem::status(path).permissions(); };
+    permissions(path, perms::owner_read | perms::owner_write);
+    ljus::save_file(path, bytes_of("newer"));
+    CHECK(mode() == (perms::owner_read | perms::owner_write));
+    permissions(path, perms::owner_read);
+    CHECK(message_of_save(path, bytes_of("newest")) ==
+          "cannot write '" + path + "': Permission denied.");
+    CHECK(ScratchFolder::read(path) == "newer");
+    CHECK(folder.count() == 1);
+}
+
+TEST_CASE("file: what others have left beside it does not block a save") {
+    const ScratchFolder folder;
+    for (int i = 0; i < 150; ++i)
+        ScratchFolder::write(folder.file("a.part" + std::to_string(i)), "");
+    CHECK(message_of_save(folder.file("a"), bytes_of("mine")) == "saved");
+    CHECK(ScratchFolder::read(folder.file("a")) == "mine");
+    CHECK(folder.count() == 151);
+}
+
+TEST_CASE("file: a program that is killed while it saves leaves the older file, and "
+          "nothing where files can be without a name") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("a");
+    const ljus::Bytes first(300'000, 'a'), second(300'000, 'b');
+    ljus::save_file(path, first);
+    for (int round = 0; round < 40; ++round) {
+        const ::pid_t child = ::fork();
+        REQUIRE(child >= 0);
+        if (child == 0)
+            for (;;) ljus::save_file(path, round % 2 == 0 ? second : first);
+        ::usleep(static_cast<::useconds_t>(500 + 397 * round));
+        REQUIRE(::kill(child, SIGKILL) == 0);
+        int status = 0;
+        REQUIRE(::waitpid(child, &status, 0) == child);
+        const ljus::Bytes found = ljus::load_file(path, 1'000'000);
+        REQUIRE((found == first || found == second));
+    }
+    CHECK(message_of_save(path, first) == "saved");
+#ifdef O_TMPFILE
+    const int nameless =
+        ::open(folder.path.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+    if (nameless < 0) return;
+    ::close(nameless);
+    CHECK(folder.count() <= 4); // between its name and its place it can be killed
+#endif
+}
+
+TEST_CASE("file: a pipe and a device are no files, and are not waited for") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("pipe");
+    REQUIRE(::mkfifo(path.c_str(), 0600) == 0);
+    for (const std::string& name : {path, std::string("/dev/zero")})
+        CHECK_THROWS_WITH(
+            (void)ljus::load_file(name, 10),
+            ("cannot read '" + name + "': it is a pipe or a device and no file.")
+                .c_str());
+}
+#endif
+
+TEST_CASE("file: a message shows letters, and nothing that moves the cursor") {
+    using ljus::detail::shown;
+    CHECK(shown("a\tb\x1b[31m\x7f\n") == "a?b?[31m??");
+    CHECK(shown("\xc3\xa5\xe2\x82\xac\xf0\x9f\x92\xa1 ") ==
+          "\xc3\xa5\xe2\x82\xac\xf0\x9f\x92\xa1 "); // two, three and four bytes
+    CHECK(shown("\xff\xc3") == "??");               // no beginning; no end
+    CHECK(shown("\xe2\x82") == "??");               // cut short
+    CHECK(shown("\x80z\xc0\x80") == "?z??");        // no such letters
+    CHECK(shown("\xc2\x9b"
+                "2J") == "??2J"); // a control character of two bytes
+    CHECK(shown(std::string(47, 'x') + "\xc3\xa5").size() == 47 + 3);
+}
 
 TEST_CASE("file: a failure to read names the path and the reason") {
     const ScratchFolder folder;

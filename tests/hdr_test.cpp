@@ -218,6 +218,13 @@ TEST_CASE("hdr: the exposure of the header is taken out again") {
                          "#?RADIANCE\n# a comment\nEXPOSURE= 2.0\nEXPOSURE=4e0\r\n"
                          "FORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x40\x20\x81");
     CHECK(ljus::load_hdr(path).pixels[0] == ljus::Rgb{0.125f, 0.0625f, 0.03125f});
+    // Light without end is refused, and not loaded as infinity.
+    for (const char* exposure : {"1e-300", "1e-38\nEXPOSURE=1e-2"}) {
+        ScratchFolder::write(path, std::string("#?RADIANCE\nEXPOSURE=") + exposure +
+                                       "\n\n-Y 1 +X 1\n\x80\x40\x20\x88");
+        CHECK(message_of_load(path) ==
+              "divided by its exposure, a pixel is beyond all numbers.");
+    }
 }
 
 TEST_CASE("hdr: a truncated, longer or foreign file is refused in a sentence") {

@@ -581,6 +581,33 @@ TEST_CASE("load_json: files") {
     CHECK_THROWS_AS((void)load_json(folder.file("")), std::runtime_error);
 }
 
+TEST_CASE("load_json: so many values that memory would end are refused") {
+    const auto many = [](std::size_t count, const std::string& value) {
+        std::string text = "[";
+        for (std::size_t i = 0; i < count; ++i) text.append(value).append(",");
+        text.back() = ']';
+        return text;
+    };
+    const std::string sentence =
+        "a.json: there is more in it than 4194304 numbers, or a quarter as many lists, "
+        "objects and members; put large meshes into OBJ files.";
+    CHECK(refusal(many(1'100'000, "{}")) == sentence);
+    CHECK(refusal(many(1'100'000, "[]")) == sentence);
+    CHECK(refusal(many(700'000, R"({"a":1})")) == sentence);
+    CHECK(refusal(many(100'000, "[1,2,3]")) != sentence);
+}
+
+TEST_CASE("load_json: hundreds of soap films are refused before all are made") {
+    std::string films;
+    for (int i = 0; i < 300; ++i)
+        films.append("\"f")
+            .append(std::to_string(i))
+            .append(R"(": {"type": "soap-film", "ior": 1.33, "thickness_nm": 400}, )");
+    CHECK(refusal("\"materials\": {", "\"materials\": {" + films) ==
+          "a.json: materials has more than 16 soap films, whose colours take long to "
+          "make.");
+}
+
 TEST_CASE("load_json: tens of thousands of lights are refused") {
     std::string text = "{\"camera\": {\"position\": [0, 0, 9], \"look_at\": [0, 0, 0],"
                        "\"up\": [0, 1, 0], \"vfov_deg\": 40},"

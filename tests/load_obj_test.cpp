@@ -14,6 +14,10 @@
 #include "ljus/scenes/mesh_formulas.hpp"
 #include "scratch_folder.hpp"
 
+#if __has_include(<sys/stat.h>)
+#include <sys/stat.h>
+#endif
+
 using namespace ljus;
 
 namespace {
@@ -471,6 +475,32 @@ TEST_CASE("load_obj: a path-traced wall shows the four colours") {
                 CHECK(mean[k] == doctest::Approx(right[k]).epsilon(0.01));
         }
 }
+
+TEST_CASE("load_obj: an exponent that overflows is no number, a name stays a name") {
+    const auto blunt = [](std::string text) {
+        detail::blunt_exponents(text);
+        return text;
+    };
+    CHECK(blunt("v 0E-2147483648 1e+9999999999 1e999999999\n") ==
+          "v 0x-2147483648 1x+9999999999 1e999999999\n");
+    CHECK(blunt("Ns\t.5e0000000001e1") == "Ns\t.5x0000000001e1");
+    CHECK(blunt("usemtl stone1e1234567890\nmap_Kd a/1e1234567890.png") ==
+          "usemtl stone1e1234567890\nmap_Kd a/1e1234567890.png");
+    CHECK(
+        message("v 0E-2147483648 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").find("line 1: ") !=
+        std::string::npos);
+}
+
+#if __has_include(<sys/stat.h>)
+TEST_CASE("load_obj: a pipe in the place of a material file is not waited for") {
+    const ScratchFolder folder;
+    REQUIRE(::mkfifo(folder.file("pipe.mtl").c_str(), 0600) == 0);
+    const auto loaded =
+        read_obj("mtllib pipe.mtl\n" + std::string(cube), folder.file("cube.obj"));
+    CHECK(loaded.parts.size() == 1);
+    CHECK(to_text(loaded.report).find("line 1: ") != std::string::npos);
+}
+#endif
 
 TEST_CASE("load_obj: no file crashes it") {
     // Bytes changed, cut out, doubled and swapped in; each mesh that comes out is asked.

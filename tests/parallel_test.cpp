@@ -329,6 +329,14 @@ TEST_CASE("parallel: a number of threads without sense is refused with its value
     CHECK(ljus::max_threads_allowed == 1024);
     CHECK(ljus::parallel_blocks(1, [](long long) {}, {.threads = 1024}));
     CHECK(ljus::detail::max_threads() >= 1);
+#ifdef _OPENMP
+    const int before = omp_get_max_threads(); // what OMP_NUM_THREADS says
+    omp_set_num_threads(5000);
+    CHECK(ljus::detail::max_threads() == 1024);
+    omp_set_num_threads(7);
+    CHECK(ljus::detail::max_threads() == 7);
+    omp_set_num_threads(before);
+#endif
 }
 
 TEST_CASE("parallel: blocks cover all things, none twice") {

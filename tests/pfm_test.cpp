@@ -100,6 +100,9 @@ TEST_CASE("pfm: big-endian, grey and scaled files of other programs") {
     CHECK(grey.pixels[1] == ljus::Rgb{1, 1, 1});
     ScratchFolder::write(path, std::string("Pf\n1 1\n-2.5e-1\n\0\0\x80\x3f", 19));
     CHECK(ljus::load_pfm(path).pixels[0].x == 0.25f);
+    ScratchFolder::write(path, std::string("Pf\n1 1\n-1e300\n\0\0\x80\x3f", 18));
+    CHECK(message_of_load(path) ==
+          "multiplied by its scale, a pixel is beyond all numbers.");
 }
 
 TEST_CASE("pfm: a truncated, longer or foreign file is refused in a sentence") {

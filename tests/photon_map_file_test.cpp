@@ -125,7 +125,7 @@ TEST_CASE("photon_map_file: what is wrong is said in a sentence") {
     CHECK(why_not(path) == cannot + "No such file or directory.");
     const std::string text = "P6 this is a picture, and no map of photons at all";
     ljus::save_file(path, Bytes(text.begin(), text.end()));
-    CHECK(why_not(path) == cannot + "it does not begin with 'ljus photon map\n', so "
+    CHECK(why_not(path) == cannot + "it does not begin with 'ljus photon map?', so "
                                     "that it is another kind of file.");
     ljus::save_photon_map(path, some_map<float>(3));
     const Bytes whole = ljus::load_file(path, 10000);

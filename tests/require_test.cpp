@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <clocale>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -31,6 +32,22 @@ TEST_CASE("require: the sentence says what, its value, and what would be right")
         require_finite("ray.origin", Vec3{1, nan_value, -infinite}),
         "ray.origin is (1, NaN, -infinity); it must be finite in every component.",
         std::invalid_argument);
+}
+
+TEST_CASE("require: a number has a point in every country") {
+    const char* const before = std::setlocale(LC_ALL, nullptr);
+    const std::string country = before == nullptr ? "C" : before;
+    bool found = false;
+    for (const char* name :
+         {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "sv_SE.UTF-8", "fr_FR.UTF-8"})
+        found = found || std::setlocale(LC_ALL, name) != nullptr;
+    if (!found) MESSAGE("no country with a comma is installed: only the text is tried");
+    CHECK(to_text(0.5f) == "0.5");
+    CHECK(to_text(1.5e-7) == "1.5e-7");
+    std::setlocale(LC_ALL, country.c_str());
+    char half[] = "1,5e-07", whole[] = "15";
+    CHECK(std::string(detail::with_point(half)) == "1.5e-07");
+    CHECK(std::string(detail::with_point(whole)) == "15");
 }
 
 TEST_CASE("require: what holds passes in silence") {

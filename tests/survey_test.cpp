@@ -11,6 +11,7 @@
 #include "ljus/geometry/metaballs.hpp"
 #include "ljus/inspect/survey.hpp"
 #include "ljus/materials/glass.hpp"
+#include "ljus/materials/glossy.hpp"
 #include "ljus/materials/mixture.hpp"
 #include "ljus/materials/soap_film.hpp"
 #include "ljus/materials/textured.hpp"
@@ -314,4 +315,55 @@ TEST_CASE("survey: the hooks of the house's own types") {
     CHECK(has(detail::material_hooks<SoapFilm>(), "pass_through"));
     CHECK(has(detail::material_hooks<SoapFilm>(), "at_point"));
     CHECK(has(detail::material_hooks<Textured<Lambertian, UvPicture>>(), "uses_uv"));
+}
+
+TEST_CASE("survey: where float stops holding, it says so, with the digits left") {
+    const auto remarks = [](const auto& scene) {
+        return survey(scene, PhotonMappingSettings{}).remarks;
+    };
+    const auto moved = [](auto far, auto radius) {
+        using T = decltype(far);
+        Scene<Shapes<SphereT<T>>, Materials<LambertianT<T>>> scene;
+        const auto white = scene.add(LambertianT<T>{});
+        scene.add(SphereT<T>{.center{T(0), T(0), T(0)}, .radius = T(1)}, white);
+        scene.add(SphereT<T>{.center{T(0), -far, T(0)}, .radius = radius}, white);
+        return scene;
+    };
+    CHECK(remarks(moved(1e4f, 1.0f)).empty());
+    CHECK(remarks(moved(1e7f, 1e4f)).empty()); // a large thing may be far away
+    REQUIRE(remarks(moved(1e5f, 1.0f)).size() == 1);
+    CHECK(
+        remarks(moved(1e5f, 1.0f))[0] ==
+        "coordinates reach 1e+05 times the smallest radius, 1: float keeps 2 digits of "
+        "it; use double, or move the scene towards the origin");
+    CHECK(remarks(moved(1e6f, 1.0f))[0].find("keeps 1 digit of") != std::string::npos);
+    CHECK(remarks(moved(1e8f, 1.0f))[0].find("keeps 0 digits of") != std::string::npos);
+    CHECK(remarks(moved(1.0f, 1e-6f))[0].find("keeps 1 digit of") != std::string::npos);
+    CHECK(remarks(moved(1e8, 1.0)).empty());
+    CHECK(
+        remarks(moved(1e14, 1.0))[0] ==
+        "coordinates reach 1e+14 times the smallest radius, 1: double keeps 1 digit of "
+        "it; move the scene towards the origin");
+    // It stands in the plan, and the first pass says it again.
+    const auto far = moved(1e5f, 1.0f);
+    const Plan plan = survey(far, PhotonMappingSettings{});
+    CHECK(to_text(plan).ends_with("\nremark          " + plan.remarks[0] + "\n"));
+    CHECK(make_photon_maps(far).remarks == plan.remarks[0] + "\n");
+}
+
+TEST_CASE("survey: a lobe that shadow rays do not find is named") {
+    const auto remarks = [](float roughness, DirectLight direct) {
+        Scene<Shapes<Sphere>, Materials<Lambertian, Glossy>> scene;
+        scene.add(Sphere{}, scene.add(Lambertian{}), Rgb{1});
+        scene.add(Sphere{.center{3, 0, 0}},
+                  scene.add(Glossy{.reflectance = Rgb{1}, .roughness = roughness}));
+        return survey(scene, PhotonMappingSettings{.direct = direct}).remarks;
+    };
+    REQUIRE(remarks(0.01f, DirectLight::sampled).size() == 1);
+    CHECK(remarks(0.01f, DirectLight::sampled)[0].find("1 object(s) are nearly") == 0);
+    CHECK(remarks(0.05f, DirectLight::sampled).size() == 1);
+    for (const float wide : {0.0f, 0.2f, 1.0f})
+        CHECK(remarks(wide, DirectLight::sampled).empty());
+    CHECK(remarks(0.01f, DirectLight::mis).empty());
+    CHECK(remarks(0.01f, DirectLight::analytic).empty());
 }

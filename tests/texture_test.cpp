@@ -275,4 +275,63 @@ TEST_CASE("texture: what is saved as PNG is loaded again; what is not is named")
               (void)detail::decode_image({}, "empty.png");
           }).find("empty.png is no picture that can be read: ") == 0);
 }
+
+TEST_CASE("texture: of pictures only those are read whose reader is trusted, and of "
+          "PNG files only whole ones") {
+    const auto refusal_of = [](const Bytes& bytes) -> std::string {
+        try {
+            (void)detail::decode_image(bytes, "a");
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    const std::string other = "a is no picture that can be read: it begins as neither "
+                              "PNG, JPEG nor BMP does.";
+    // Softimage PIC, Photoshop, GIF, PNM; and TGA, which begins as anything.
+    for (const std::string_view begin :
+         {std::string_view("\x53\x80\xf6\x34"), std::string_view("8BPS"),
+          std::string_view("GIF89a"), std::string_view("P6 1 1 255 abc"),
+          std::string_view("\0\0\2", 3)}) {
+        Bytes bytes(130, 1);
+        std::copy(begin.begin(), begin.end(), bytes.begin());
+        CHECK(refusal_of(bytes) == other);
+    }
+    // Any bit turned over, and any end: stb_image asks for no sum.
+    const Bytes whole = detail::encode_png(four());
+    REQUIRE(refusal_of(whole).empty());
+    for (std::size_t i = 8; i < whole.size(); ++i) {
+        Bytes damaged = whole;
+        damaged[i] = static_cast<unsigned char>(damaged[i] ^ 4u);
+        REQUIRE(refusal_of(damaged).find("a is damaged: ") == 0);
+        damaged.resize(i);
+        REQUIRE(refusal_of(damaged).find("a is damaged: it ends ") == 0);
+    }
+    // A chunk of which the picture depends, with a name of bytes that are no letters.
+    Bytes chunk{0, 0, 0, 0, 'A', 0x1b, 0xff, '\n'};
+    const std::uint32_t sum = detail::png_sum(chunk, 4, 8);
+    for (const int shift : {24, 16, 8, 0})
+        chunk.push_back(static_cast<unsigned char>(sum >> shift & 255u));
+    Bytes strange = whole;
+    strange.insert(strange.begin() + 33, chunk.begin(), chunk.end());
+    const std::string sentence = refusal_of(strange);
+    CHECK(sentence.find("a is ") == 0);
+    for (const char c : sentence) CHECK((c >= ' ' && c < 0x7f));
+    // A JPEG file whose table has more entries than stb_image has room for.
+    Bytes jpeg{0xff, 0xd8, 0xff, 0xc4, 0x01, 0x14, 0x00};
+    jpeg.insert(jpeg.end(), 16, 0);
+    jpeg[7 + 8] = 255;
+    jpeg.resize(400);
+    CHECK(refusal_of(jpeg) != "a is damaged: a table has more than 255 entries.");
+    jpeg[7 + 15] = 1;
+    CHECK(refusal_of(jpeg) == "a is damaged: a table has more than 255 entries.");
+    // A size that would take gigabytes.
+    Bytes large = whole;
+    for (const std::size_t at : {18, 22}) large[at] = 0x40; // 16386 x 16386
+    const std::uint32_t new_sum = detail::png_sum(large, 12, 29);
+    for (std::size_t i = 0; i < 4; ++i)
+        large[29 + i] = static_cast<unsigned char>(new_sum >> (24 - 8 * i) & 255u);
+    CHECK(refusal_of(large) ==
+          "a has 16386 x 16386 pixels; there can be at most 33554432.");
+}
 #endif

@@ -530,7 +530,10 @@ TEST_CASE("whitted: what two lamps send is the sum of each") {
 TEST_CASE("whitted: at the extremes") {
     const auto glass = ball_scene<float>(Glass{float(glass_index)});
     CHECK_THROWS_WITH_AS((void)make_whitted(glass, {.max_depth = -1}),
-                         "max_depth is -1; it must be at least 0.",
+                         "max_depth is -1; it must be within [0, 1000].",
+                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS((void)make_whitted(glass, {.max_depth = 1001}),
+                         "max_depth is 1001; it must be within [0, 1000].",
                          std::invalid_argument);
     CHECK_THROWS_AS((void)make_whitted(glass, {.ambient = Rgb{-1.0f}}),
                     std::invalid_argument);

@@ -10,10 +10,13 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <iterator>
+#include <mutex>
 #include <new>
 #include <optional>
 #include <stdexcept>
 #include <system_error>
+#include <thread>
 
 #include <CLI/CLI.hpp>
 
@@ -47,6 +50,14 @@ void require_folder(const std::string& folder) {
     probe.close();
 }
 
+// ".png, .hdr or .pfm".
+std::string list_of(const std::vector<std::string>& words) {
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i)
+        text += (i == 0 ? "" : i + 1 < words.size() ? ", " : " or ") + words[i];
+    return text;
+}
+
 // One line without its full stop.
 std::string without_end(std::string text) {
     const std::size_t end = text.find_last_not_of(" \n.");
@@ -54,6 +65,58 @@ std::string without_end(std::string text) {
     for (char& c : text)
         if (c == '\n') c = ' ';
     return text;
+}
+
+// A name that only a picture has, and no folder.
+bool names_a_file(std::string out) {
+    for (char& c : out) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+    const std::string kind = std::filesystem::path(out).extension().string();
+    constexpr const char* kinds[] = {".png", ".jpg", ".jpeg", ".exr",  ".ppm", ".pgm",
+                                     ".hdr", ".pfm", ".bmp",  ".tga",  ".gif", ".tif",
+                                     ".svg", ".pdf", ".webp", ".tiff", ".json"};
+    return std::find(std::begin(kinds), std::end(kinds), kind) != std::end(kinds);
+}
+
+// A library that makes threads ends the program when there are none to be had: so they
+// are asked for first.
+void require_threads(int wanted) {
+    const int count = wanted == 0 ? ljus::detail::max_threads() : wanted;
+    std::vector<std::thread> threads;
+    std::string why;
+    std::mutex wait;
+    {
+        const std::lock_guard all_at_a_time(wait);
+        try {
+            for (int i = 1; i < count; ++i)
+                threads.emplace_back([&wait] { const std::lock_guard turn(wait); });
+        } catch (const std::system_error& error) {
+            why = error.code().message();
+        }
+    }
+    for (std::thread& thread : threads) thread.join();
+    if (!why.empty())
+        throw std::runtime_error("cannot start " + std::to_string(count) +
+                                 " threads: " + why + "; --threads 1 needs none");
+}
+
+// Digits, and a sign: the parser's own conversion takes 010 for 8.
+std::string check_whole(const std::string& text, long long least, long long most) {
+    long long value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, value);
+    const std::size_t first = text.find_first_not_of('-');
+    const bool octal = first + 1 < text.size() && text[first] == '0';
+    if (rest != end || text.empty() || octal || error == std::errc::invalid_argument)
+        return "Value " + text + " is no whole number";
+    if (error == std::errc() && value >= least && value <= most) return "";
+    return "Value " + text + " not in range " + std::to_string(least) + " to " +
+           std::to_string(most);
+}
+
+auto whole(long long least, long long most) {
+    return [least, most](const std::string& text) {
+        return check_whole(text, least, most);
+    };
 }
 
 // All digits, and below 2^64: the parser's own conversion takes -1 for the largest seed.
@@ -118,16 +181,16 @@ CommandLine::CommandLine(std::vector<std::string> arguments)
         ->check(check_seed)
         ->option_text("N");
     app.add_option("--threads", options.threads, "0 for all processors [0]")
-        ->check(CLI::Range(0, ljus::max_threads_allowed).description(""))
+        ->check(whole(0, ljus::max_threads_allowed))
         ->option_text("N");
     app.add_option("--width", options.width, "Width of the picture in pixels")
-        ->check(CLI::Range(1, 65536).description(""))
+        ->check(whole(1, 65536))
         ->option_text("N");
     app.add_option("--height", options.height, "Height of the picture in pixels")
-        ->check(CLI::Range(1, 65536).description(""))
+        ->check(whole(1, 65536))
         ->option_text("N");
     app.add_option("--rays,--spp", options.samples, "Rays per pixel")
-        ->check(CLI::Range(1, 100'000'000).description(""))
+        ->check(whole(1, 100'000'000))
         ->option_text("N");
     app.add_flag("--quiet", options.quiet, "No progress bar and no text");
 }
@@ -141,14 +204,14 @@ void CommandLine::about(const std::string& text) {
 void CommandLine::add(const std::string& name, int& value, const std::string& help,
                       int least, int most) {
     parser_->app.add_option(name, value, help + " [" + std::to_string(value) + "]")
-        ->check(CLI::Range(least, most).description(""))
+        ->check(whole(least, most))
         ->option_text("N");
 }
 
 void CommandLine::add(const std::string& name, long long& value,
                       const std::string& help, long long least, long long most) {
     parser_->app.add_option(name, value, help + " [" + std::to_string(value) + "]")
-        ->check(CLI::Range(least, most).description(""))
+        ->check(whole(least, most))
         ->option_text("N");
 }
 
@@ -238,12 +301,23 @@ Options CommandLine::parse(const Presets& presets) {
         options.file = out.filename().string();
         options.out = out.has_parent_path() ? out.parent_path().string() : ".";
     }
+    if (options.file.empty() && names_a_file(options.out) &&
+        !std::filesystem::is_directory(out))
+        throw std::invalid_argument(
+            types.empty()
+                ? "--out is " + options.out + "; it must be a folder, for all files"
+                : "--out is " + options.out + "; the name of a file must end in " +
+                      list_of(types) + ", and any other is that of a folder");
+    require_threads(options.threads);
     if (types.empty()) require_folder(options.out);
     return options;
 }
 
 int run_main(int argc, const char* const* argv,
              const std::function<void(CommandLine&)>& body) {
+    const struct LetBe {
+        ~LetBe() { detail::let_be(); }
+    } at_the_end;
     std::string name = argc > 0 ? argv[0] : "example";
     const auto complain = [&name](const std::string& what) {
         std::fprintf(stderr, "%s: %s.\n", name.c_str(), without_end(what).c_str());

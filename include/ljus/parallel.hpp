@@ -36,10 +36,11 @@ struct ParallelSettings {
 namespace detail {
 
 /// The number of threads that `threads = 0` stands for: that of the processors, or what
-/// OMP_NUM_THREADS says; 1 without OpenMP.
+/// OMP_NUM_THREADS says, but no more than are allowed; 1 without OpenMP.
 [[nodiscard]] inline int max_threads() noexcept {
 #ifdef _OPENMP
-    return omp_get_max_threads();
+    const int most = omp_get_max_threads();
+    return most < max_threads_allowed ? most : max_threads_allowed;
 #else
     return 1;
 #endif

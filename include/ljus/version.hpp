@@ -14,8 +14,16 @@
 #error "Ljus needs C++20: add -std=c++20 (g++, clang) or /std:c++20 (MSVC)."
 #endif
 
-#if defined(__FAST_MATH__)
-#error "Ljus relies on NaN and infinity: compile without -ffast-math."
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "Ljus needs NaN and infinity: compile without -ffast-math, -ffinite-math-only."
+#endif
+
+#if defined(__GNUC__) && !defined(__cpp_exceptions) && !defined(__EMSCRIPTEN__)
+#error "Ljus says what is wrong by exceptions: compile without -fno-exceptions."
+#endif
+
+#if defined(GLM_FORCE_INTRINSICS)
+#error "Ljus computes with GLM's plain vectors: compile without GLM_FORCE_INTRINSICS."
 #endif
 
 /// Before a function that is no template and that ljus::core has compiled: `inline` to

@@ -22,8 +22,8 @@ ljus_break_it(NAME distributed-rays-matt HEADER render/distributed.hpp
 # The depth counts one turn too many.
 ljus_break_it(NAME distributed-rays-depth HEADER render/distributed.hpp
     TEST distributed_rays
-    FROM "if (path.depth > tracer.settings.max_depth) return false;"
-    TO   "if (path.depth > tracer.settings.max_depth + 1) return false;"
+    FROM "if (path.depth > tracer.settings.max_depth) {"
+    TO   "if (path.depth > tracer.settings.max_depth + 1) {"
     CASES "distributed rays: every path*")
 
 # Nothing moves.

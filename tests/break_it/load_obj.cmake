@@ -57,3 +57,15 @@ ljus_break_it(NAME load-obj-picture HEADER io/load_obj.hpp TEST load_obj
     FROM "picture != loaded.pictures.end())"
     TO   "picture == loaded.pictures.end())"
     CASES "load_obj: a path-traced wall*")
+
+# Exponents of ten digits reach tinyobjloader.
+ljus_break_it(NAME obj-exponents HEADER io/detail/obj_text.hpp TEST load_obj
+    FROM "last - first >= 10"
+    TO   "last - first >= 11"
+    CASES "load_obj: an exponent*")
+
+# Names are changed as well.
+ljus_break_it(NAME obj-exponent-names HEADER io/detail/obj_text.hpp TEST load_obj
+    FROM "(c == 'e' || c == 'E') && number"
+    TO   "c == 'e' || c == 'E'"
+    CASES "load_obj: an exponent*")

@@ -15,8 +15,8 @@ ljus_break_it(NAME path-tracing-emission-weight HEADER render/path_tracing.hpp
 # The last surface's lamp, seen by nobody but its shadow ray, which is weighed down.
 ljus_break_it(NAME path-tracing-last-surface HEADER render/path_tracing.hpp
     TEST path_tracing
-    FROM "if (path.depth == settings.max_depth && path.specular) break;"
-    TO   "if (path.depth == settings.max_depth) break;"
+    FROM "if (path.depth == settings.max_depth && path.specular) {"
+    TO   "if (path.depth == settings.max_depth) {"
     CASES "path tracing: in a furnace every*")
 
 # Radiance leaves glass unchanged: only light that starts in the glass notices.

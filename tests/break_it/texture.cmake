@@ -47,3 +47,21 @@ ljus_break_it(NAME texture-scale HEADER image/texture.hpp TEST texture
     FROM "return map.scale * uv;"
     TO   "return uv;"
     CASES "texture: a UvMap*")
+
+# A chunk's sum is not asked.
+ljus_break_it(NAME png-sum HEADER io/load_image.hpp TEST texture
+    FROM "if (png_number(file, at + 8 + size) != png_sum(file, at + 4, at + 8 + size))"
+    TO   "if (size > 1u << 30)"
+    CASES "texture: of pictures only*")
+
+# Formats whose readers cannot be trusted are handed on.
+ljus_break_it(NAME image-kinds HEADER io/load_image.hpp TEST texture
+    FROM "if (!png && !jpeg && !text.starts_with(\"BM\"))"
+    TO   "if (bytes.empty())"
+    CASES "texture: of pictures only*")
+
+# A table of more entries than there are places.
+ljus_break_it(NAME jpeg-tables HEADER io/load_image.hpp TEST texture
+    FROM "entries > 255"
+    TO   "entries > 4080"
+    CASES "texture: of pictures only*")

@@ -6,8 +6,8 @@ ljus_break_it(NAME whitted-branch HEADER render/whitted.hpp TEST whitted
 
 # The depth counts one turn too many.
 ljus_break_it(NAME whitted-depth HEADER render/whitted.hpp TEST whitted
-    FROM "if (path.depth > tracer.settings.max_depth) return false;"
-    TO   "if (path.depth > tracer.settings.max_depth + 1) return false;"
+    FROM "if (path.depth > tracer.settings.max_depth) {"
+    TO   "if (path.depth > tracer.settings.max_depth + 1) {"
     CASES "whitted: one ball of glass*")
 
 # Matt surfaces send their light on as well: L D D E.

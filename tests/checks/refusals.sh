@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# C++17 and -ffast-math are refused by one sentence, whichever header comes first. Only a
-# header that includes nothing of ours may compile without a word.
+# C++17, -ffast-math and the like are refused by one sentence, whichever header comes
+# first. Only a header that includes nothing of ours may compile without a word.
 # Usage: refusals.sh [N]: every Nth header; without it, all.
 . "$(dirname "$0")/common.sh"
 status=0
@@ -31,5 +31,9 @@ refused() {
 }
 refused "-std=c++17" "Ljus needs C++20: add -std=c++20"
 refused "-std=c++20 -ffast-math" "compile without -ffast-math"
-[ $status -eq 0 ] && echo "C++17 and -ffast-math are refused by every header"
+step=$((4 * step)) # the same line of the same header says it
+refused "-std=c++20 -ffinite-math-only" "compile without -ffast-math"
+refused "-std=c++20 -fno-exceptions" "compile without -fno-exceptions"
+refused "-std=c++20 -DGLM_FORCE_INTRINSICS" "compile without GLM_FORCE_INTRINSICS"
+[ $status -eq 0 ] && echo "C++17, -ffast-math and the like are refused by every header"
 exit $status

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ljus/render/detail/choose_passes.hpp"
+#include "ljus/render/detail/scene_remarks.hpp"
 #include "ljus/scene/index.hpp"
 
 namespace ljus {
@@ -40,6 +41,8 @@ struct Plan {
     /// order: which hooks it has, and what happens without the others. A hook that is
     /// misspelt is among the others.
     std::vector<std::string> types;
+    /// What the passes will do badly, and what helps; most scenes have none.
+    std::vector<std::string> remarks;
 
     /// All items, in the order in which they are printed.
     [[nodiscard]] std::array<const PlanItem*, 11> items() const& {
@@ -68,13 +71,15 @@ struct Plan {
     return name + (item.on ? "on   " : "off  ") + item.why + "\n";
 }
 
-/// A plan: one line per pass, then one line per type of shape and of material.
+/// A plan: one line per pass, then one per type of shape and of material, then remarks.
 /// \param plan  The plan.
 /// \return Lines that end with a line feed.
 [[nodiscard]] inline std::string to_text(const Plan& plan) {
     std::string text;
     for (const PlanItem* item : plan.items()) text += to_text(*item);
     for (const std::string& type : plan.types) text += type + "\n";
+    for (const std::string& remark : plan.remarks)
+        text += "remark          " + remark + "\n";
     return text;
 }
 
@@ -167,6 +172,7 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
 template <SceneLike S>
 [[nodiscard]] Plan survey(const S& scene, const PhotonMappingSettings& settings) {
     Plan plan = detail::make_plan(needs(scene), settings);
+    plan.remarks = detail::scene_remarks(scene, settings);
     const auto add = [&](const char* what, int number, const auto& hooks) {
         std::string name = std::string(what).append(std::to_string(number));
         name.resize(17, ' ');

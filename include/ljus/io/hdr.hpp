@@ -174,8 +174,12 @@ template <std::floating_point T = float>
     std::vector<std::array<unsigned char, 4>> row;
     for (int y = 0; y < height; ++y) {
         detail::read_rgbe_row(reader, row, static_cast<std::size_t>(width));
-        for (const auto& rgbe : row)
-            image.pixels.push_back(RgbT<T>(detail::from_rgbe(rgbe) / exposure));
+        for (const auto& rgbe : row) {
+            const RgbT<T> color(detail::from_rgbe(rgbe) / exposure);
+            if (!is_finite(color))
+                reader.fail("divided by its exposure, a pixel is beyond all numbers");
+            image.pixels.push_back(color);
+        }
     }
     if (reader.left() != 0)
         reader.fail("it has " + std::to_string(reader.left()) +

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/load_image.hpp
-/// \brief Pictures from PNG, JPEG and other files of 8 bits, made linear.
+/// \brief Pictures from PNG, JPEG and BMP files of 8 bits, made linear.
 ///
 /// The decoding is done by stb_image, whose implementation this header makes for
 /// itself, invisible to other files, as png.hpp does for the writer. A program with its
@@ -10,7 +10,7 @@
 
 #if defined(STBI_INCLUDE_STB_IMAGE_H)
 #define LJUS_HAS_STB_IMAGE 1 // the program's own
-#elif __has_include(<stb/stb_image.h>)
+#elif __has_include(<stb/stb_image.h>) || __has_include(<stb_image.h>)
 #define LJUS_HAS_STB_IMAGE 1
 #if defined(__GNUC__)
 #pragma GCC diagnostic push
@@ -28,12 +28,29 @@
 #endif
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
-#define STBI_NO_HDR
+#define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
+#define STBI_ONLY_BMP
 #define STBI_NO_LINEAR
 #define STBI_NO_STDIO
+#if __has_include(<stb/stb_image.h>)
 #include <stb/stb_image.h>
+#else
+#include <stb_image.h>
+#endif
 #undef STB_IMAGE_STATIC
 #undef STB_IMAGE_IMPLEMENTATION
+#undef STBI_ONLY_PNG
+#undef STBI_ONLY_JPEG
+#undef STBI_ONLY_BMP
+#undef STBI_NO_LINEAR
+#undef STBI_NO_STDIO
+#undef STBI_NO_GIF // the others it has made itself
+#undef STBI_NO_HDR
+#undef STBI_NO_PIC
+#undef STBI_NO_PNM
+#undef STBI_NO_PSD
+#undef STBI_NO_TGA
 #if defined(__GNUC__)
 #pragma GCC diagnostic pop
 #elif defined(_MSC_VER)
@@ -41,10 +58,13 @@
 #endif
 #endif
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "ljus/image/color.hpp"
 #include "ljus/image/image.hpp"
@@ -53,13 +73,89 @@
 namespace ljus {
 
 /// \defgroup load_image Loading pictures
-/// \brief Optional (stb_image): PNG, JPEG, BMP, TGA, GIF, PNM.
+/// \brief Optional (stb_image): PNG, JPEG, BMP, and no others, since a reader of a rare
+/// format is where a damaged file does harm.
 /// \{
 
 namespace detail {
 
 /// The largest file that load_image() takes, in bytes.
-inline constexpr std::size_t max_image_file = std::size_t(1) << 28;
+inline constexpr std::size_t max_image_file = std::size_t(1) << 27;
+
+/// The most pixels that it takes: 8192 x 4096.
+inline constexpr int max_image_pixels = 1 << 25;
+
+// The number in four bytes of a PNG file, the highest first.
+inline std::uint32_t png_number(const Bytes& file, std::size_t at) noexcept {
+    return std::uint32_t(file[at]) << 24 | std::uint32_t(file[at + 1]) << 16 |
+           std::uint32_t(file[at + 2]) << 8 | std::uint32_t(file[at + 3]);
+}
+
+// The sum, CRC-32, that ends each chunk of a PNG file: of its name and its bytes.
+inline std::uint32_t png_sum(const Bytes& file, std::size_t first, std::size_t last) {
+    static constexpr auto table = [] {
+        std::array<std::uint32_t, 256> sums{};
+        for (std::uint32_t i = 0; i < 256; ++i) {
+            sums[i] = i;
+            for (int bit = 0; bit < 8; ++bit)
+                sums[i] = sums[i] >> 1 ^ (sums[i] & 1u ? 0xedb88320u : 0u);
+        }
+        return sums;
+    }();
+    std::uint32_t sum = 0xffffffffu;
+    for (std::size_t i = first; i < last; ++i)
+        sum = table[(sum ^ file[i]) & 255u] ^ sum >> 8;
+    return ~sum;
+}
+
+// What is wrong with a PNG file, which stb_image does not ask: the chunks must follow
+// one another up to IEND, each with its own sum.
+inline const char* png_trouble(const Bytes& file) {
+    for (std::size_t at = 8; file.size() - at >= 12;) {
+        const std::size_t size = png_number(file, at);
+        if (size > file.size() - at - 12) return "it ends in the middle of a chunk";
+        if (png_number(file, at + 8 + size) != png_sum(file, at + 4, at + 8 + size))
+            return "the sum of a chunk is wrong";
+        if (png_number(file, at + 4) == 0x49454e44u) return nullptr; // IEND
+        at += 12 + size;
+    }
+    return "it ends before its last chunk";
+}
+
+// Whether stb_image may read the tables of a JPEG file whose length stands at `at`: it
+// has room for 256 entries, does not count them, and takes number 255 for none.
+inline bool good_huffman_tables(const Bytes& file, std::size_t at) {
+    const auto byte = [&](std::size_t i) {
+        return i < file.size() ? std::size_t(file[i]) : std::size_t(0);
+    };
+    auto left = static_cast<long long>(byte(at) * 256 + byte(at + 1)) - 2;
+    for (at += 2; left > 0;) {
+        std::size_t entries = 0;
+        for (std::size_t i = 1; i <= 16; ++i) entries += byte(at + i);
+        if (entries > 255) return false;
+        at += 17 + entries;
+        left -= static_cast<long long>(17 + entries);
+    }
+    return true;
+}
+
+// What is wrong with a JPEG file, which stb_image does not ask.
+inline const char* jpeg_trouble(const Bytes& file) {
+    bool coded = false; // from the first coded pixels on a table may stand anywhere
+    for (std::size_t at = 2; file.size() - at >= 4;) {
+        const unsigned char kind = file[at + 1];
+        if (file[at] != 0xff || kind == 0xff || (coded && kind != 0xc4)) {
+            ++at;
+            continue;
+        }
+        if (kind == 0xc4 && !good_huffman_tables(file, at + 2))
+            return "a table has more than 255 entries";
+        coded = coded || kind == 0xda;
+        at += coded ? 2 : 2 + std::size_t(file[at + 2]) * 256 + file[at + 3];
+        if (at > file.size()) break;
+    }
+    return nullptr;
+}
 
 /// A picture from the bytes of a file.
 /// \param bytes  The file.
@@ -68,39 +164,55 @@ inline constexpr std::size_t max_image_file = std::size_t(1) << 28;
 /// \throws std::runtime_error  with path and reason, if it is no picture.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> decode_image(const Bytes& bytes, const std::string& path) {
+    const auto refuse = [&](std::string_view why) {
+        throw std::runtime_error(join({shown_path(path), " ", why, "."}));
+    };
 #ifdef LJUS_HAS_STB_IMAGE
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
+                                bytes.size());
+    const bool png = text.starts_with("\x89PNG\r\n\x1a\n");
+    const bool jpeg = text.starts_with("\xff\xd8\xff");
+    if (!png && !jpeg && !text.starts_with("BM"))
+        refuse("is no picture that can be read: it begins as neither PNG, JPEG nor "
+               "BMP does");
+    if (const char* const why = png    ? png_trouble(bytes)
+                                : jpeg ? jpeg_trouble(bytes)
+                                       : nullptr)
+        refuse(join({"is damaged: ", why}));
+    // Chunks of a file's own have names of any bytes, which stb_image repeats.
+    const auto reason = [](std::string_view what) {
+        const char* const why = stbi_failure_reason();
+        return join({what, why == nullptr ? "unknown" : shown(std::string(why))});
+    };
     int width = 0;
     int height = 0;
     int channels = 0;
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const auto size = static_cast<int>(bytes.size());
     if (!stbi_info_from_memory(data, size, &width, &height, &channels))
-        throw std::runtime_error(
-            detail::shown_path(path).append(" is no picture that can be read: ") +
-            stbi_failure_reason() + ".");
-    if (width < 1 || height < 1)
-        throw std::runtime_error(detail::shown_path(path).append(" has no pixels."));
-    if (width > detail::max_pixels / height)
-        throw std::runtime_error(detail::shown_path(path).append(" has more than ") +
-                                 std::to_string(detail::max_pixels) + " pixels.");
+        refuse(reason("is no picture that can be read: "));
+    if (width < 1 || height < 1) refuse("has no pixels");
+    if (width > max_image_pixels / height)
+        refuse(join({"has ", to_text(width), " x ", to_text(height),
+                     " pixels; there can be at most ", to_text(max_image_pixels)}));
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
         stbi_load_from_memory(data, size, &width, &height, &channels, 3),
         stbi_image_free);
-    if (!pixels)
-        throw std::runtime_error(detail::shown_path(path).append(" is damaged: ") +
-                                 stbi_failure_reason() + ".");
+    if (!pixels) refuse(reason("is damaged: "));
 
+    std::array<T, 256> linear{};
+    for (std::size_t i = 0; i < 256; ++i)
+        linear[i] = static_cast<T>(srgb_decode(static_cast<double>(i) / 255.0));
     ImageT<T> image = make_image<T>(width, height);
-    const auto linear = [&](std::size_t i) {
-        return static_cast<T>(srgb_decode(pixels.get()[i] / 255.0));
-    };
-    for (std::size_t i = 0; i < image.pixels.size(); ++i)
-        image.pixels[i] = {linear(3 * i), linear(3 * i + 1), linear(3 * i + 2)};
+    const stbi_uc* next = pixels.get();
+    for (RgbT<T>& color : image.pixels)
+        for (T* const channel : {&color.x, &color.y, &color.z})
+            *channel = linear[*next++];
     return image;
 #else
     (void)bytes;
-    throw std::runtime_error(detail::shown_path(path).append(
-        " cannot be read: this program was made without stb_image.h."));
+    refuse("cannot be read: this program was made without stb_image.h");
+    return {};
 #endif
 }
 

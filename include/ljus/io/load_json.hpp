@@ -45,7 +45,10 @@ using LoadedScene = LoadedSceneT<float>; ///< LoadedSceneT in float.
 namespace detail {
 
 /// The largest file that load_json() takes, in bytes.
-inline constexpr std::size_t max_scene_file = std::size_t(1) << 28;
+inline constexpr std::size_t max_scene_file = std::size_t(1) << 26;
+
+/// The most soap films in a file: the colours of each take a tenth of a second.
+inline constexpr std::size_t max_soap_films = 16;
 
 template <std::floating_point T>
 CameraT<T> read_camera(const JsonField& field) {
@@ -92,6 +95,12 @@ LoadedSceneT<T> read_scene(const JsonField& top, LoadMeshes& load_meshes) {
     std::map<std::string, MaterialId> materials;
     const JsonField list = member(top, "materials");
     if (!list.value.is_object()) refuse_value(list, "an object");
+    std::size_t films = 0;
+    for (const auto& value : list.value)
+        if (const auto type = value.find("type"); type != value.end())
+            films += *type == "soap-film" ? 1u : 0u;
+    if (films > max_soap_films)
+        refuse(list, "has more than 16 soap films, whose colours take long to make");
     for (const auto& [name, value] : list.value.items())
         materials[name] = read_material(
             {value, top.file, path_of_member(list.path, name)}, loaded.scene);

@@ -5,7 +5,9 @@
 
 #include <sstream>
 
+#ifndef TINY_OBJ_LOADER_H_ // it guards its names, and not what it implements
 #include <tiny_obj_loader.h>
+#endif
 
 #include "ljus/accel/mesh.hpp"
 #include "ljus/io/detail/obj_reader.hpp"
@@ -71,6 +73,7 @@ template <std::floating_point T = float>
 [[nodiscard]] LoadedObjT<T> read_obj(std::string text, const std::string& file,
                                      const ObjSettings& settings = {}) {
     require_positive("the scale of a mesh file", settings.scale);
+    detail::blunt_exponents(text);
     std::istringstream stream(std::move(text));
     using Reader = detail::ObjReader<T>;
     Reader reader{.settings = settings, .line{.stream = stream}};

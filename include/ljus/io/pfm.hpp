@@ -81,7 +81,10 @@ template <std::floating_point T = float>
             bits |= std::uint32_t(reader.next()) << 8 * (little_endian ? i : 3 - i);
         const float value = std::bit_cast<float>(bits);
         if (std::abs(scale) == 1.0) return static_cast<T>(value);
-        return static_cast<T>(std::abs(scale) * static_cast<double>(value));
+        const T scaled = static_cast<T>(std::abs(scale) * static_cast<double>(value));
+        if (std::isfinite(value) && !std::isfinite(scaled))
+            reader.fail("multiplied by its scale, a pixel is beyond all numbers");
+        return scaled;
     };
     auto image = make_image<T>(width, height);
     for (int y = height - 1; y >= 0; --y)

@@ -29,6 +29,12 @@ namespace detail {
 [[nodiscard]] LJUS_CORE_INLINE std::string
 join(std::initializer_list<std::string_view> parts);
 
+// Where the program's country writes a comma, it is still a point here.
+inline char* with_point(char* digits) {
+    if (char* const comma = std::strchr(digits, ',')) *comma = '.';
+    return digits;
+}
+
 // One number, or several as the components of a vector; `single` says that they came
 // from floats. See to_text().
 [[nodiscard]] LJUS_CORE_INLINE std::string
@@ -54,6 +60,7 @@ LJUS_CORE_INLINE std::string numbers_to_text(std::initializer_list<double> value
             if (read == value || (single && float(read) == float(value))) break;
         }
         // C writes at least two digits of an exponent: 1e-07.
+        with_point(digits);
         char* const e = std::strchr(digits, 'e');
         if (e != nullptr && e[2] == '0') std::memmove(e + 2, e + 3, std::strlen(e + 2));
         text.append(text.empty() ? "" : ", ");

@@ -21,6 +21,8 @@ struct Counts {
     std::uint64_t skipped_rays = 0;    ///< Shadow rays that photons have made needless.
     std::uint64_t skipped_bounces = 0; ///< Indirect rays left out where it is dark.
     std::uint64_t rejected = 0;        ///< Samples that were not finite and left out.
+    std::uint64_t cut_paths =
+        0; ///< Ended by the limit of depth: their light is missing.
 
     /// All rays.
     [[nodiscard]] constexpr std::uint64_t rays() const noexcept {
@@ -37,9 +39,23 @@ struct Counts {
         skipped_rays += other.skipped_rays;
         skipped_bounces += other.skipped_bounces;
         rejected += other.rejected;
+        cut_paths += other.cut_paths;
         return *this;
     }
 };
+
+namespace detail {
+
+/// Counts a path that is cut, if it is.
+/// \param cut     Whether the limit of depth ends it.
+/// \param counts  Gets one more.
+/// \return `cut`.
+constexpr bool cut_if(bool cut, Counts& counts) noexcept {
+    counts.cut_paths += cut ? 1u : 0u;
+    return cut;
+}
+
+} // namespace detail
 
 /// \}
 

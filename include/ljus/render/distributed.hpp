@@ -112,9 +112,12 @@ template <SceneLike S, std::floating_point T, typename Stream, typename Log = No
             if (has(parts, Lobes::non_specular))
                 add("shadow ray", "DL",
                     detail::soft_light(scene, *vertex, material, stream, counts));
-            if (path.depth > tracer.settings.max_depth) return false;
             const Lobes which =
                 has(parts, Lobes::glossy) ? Lobes::all : Lobes::specular;
+            if (path.depth > tracer.settings.max_depth) {
+                detail::cut_if(has(parts, which), counts);
+                return false;
+            }
             return continue_path(path, *vertex, material, Transport::radiance, which,
                                  stream);
         };

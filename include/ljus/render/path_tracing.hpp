@@ -176,7 +176,7 @@ template <SceneLike S, std::floating_point T, typename Log = NoLog>
     while (const auto vertex = next_vertex(scene, path, stream)) {
         if (vertex->emits())
             add("emission", "L", detail::emitted(tracer, path, *vertex));
-        if (path.depth > settings.max_depth) break;
+        if (detail::cut_if(path.depth > settings.max_depth, counts)) break;
 
         const auto at_material = [&](const auto& material) {
             if (has(lobes(material), Lobes::non_specular) && settings.sample_lights &&
@@ -190,7 +190,10 @@ template <SceneLike S, std::floating_point T, typename Log = NoLog>
         if (!visit_material_at(scene, *vertex, at_material)) break;
         // From the last surface a path goes on to the lamp that its shadow ray left a
         // part of, and to nothing else.
-        if (path.depth == settings.max_depth && path.specular) break;
+        if (path.depth == settings.max_depth && path.specular) {
+            detail::cut_if(!is_black(path.throughput), counts);
+            break;
+        }
         detail::log_vertex(log, path);
         if (is_black(path.throughput)) break;
         if (path.depth >= settings.roulette_depth &&

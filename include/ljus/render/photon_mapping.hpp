@@ -189,7 +189,11 @@ template <SceneLike S, typename Stream, std::floating_point T, typename Log = No
                     if (has(lobes(material), Lobes::non_specular))
                         light_at(mapper, *vertex, material, gather, stream, counts,
                                  add);
-                if (path.depth == settings.max_depth) return false;
+                const Lobes open = gather ? Lobes::specular : mapper.bounces;
+                if (path.depth == settings.max_depth) {
+                    detail::cut_if(has(lobes(material), open), counts);
+                    return false;
+                }
                 if (settings.split_glass && !path.met_diffuse &&
                     branches.size() < detail::max_splits)
                     if (const auto other = split_path(path, *vertex, material)) {
@@ -197,7 +201,7 @@ template <SceneLike S, typename Stream, std::floating_point T, typename Log = No
                         return true;
                     }
                 // Go on by one branch; after gathering, by mirrors and glass only.
-                Lobes which = gather ? Lobes::specular : mapper.bounces;
+                Lobes which = open;
                 if (has(which, Lobes::diffuse) &&
                     detail::skips_bounce(mapper.maps.verdicts, *vertex, counts))
                     which = Lobes::specular;

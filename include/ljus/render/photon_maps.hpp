@@ -26,7 +26,7 @@ struct PhotonMapsT {
     FluxAudit caustics_audit{}; ///< Where the flux of the caustics pass went.
     FluxAudit general_audit{};  ///< Where the flux of the general pass went.
     bool complete = true;       ///< False if the progress callback stopped the pass.
-    std::string remarks{};      ///< Why a pass gave up, if one did: lines.
+    std::string remarks{};      ///< Those of the survey, and why a pass gave up: lines.
 };
 
 /// The shares of the caustics' photons that a budget asks for, by a pilot.
@@ -82,6 +82,8 @@ make_photon_maps(const S& scene, const PhotonMappingSettings& settings = {}) {
         general.equal_lights = true;
     }
     PhotonMapsT<typename S::Scalar> maps;
+    for (const std::string& remark : detail::scene_remarks(scene, settings))
+        maps.remarks.append(remark).append("\n");
     const auto make = [&](MapType type, const PhotonPassSettings& pass, auto& map,
                           auto& audit) {
         auto traced = trace_photons(scene, type, pass);

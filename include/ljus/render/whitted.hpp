@@ -21,7 +21,8 @@ namespace ljus {
 
 /// How a tree is traced.
 struct WhittedSettings {
-    int max_depth = 5;     ///< Reflections and refractions in a row; 0 sends no ray on.
+    int max_depth = 5;     ///< Reflections and refractions in a row; 0 sends no ray on,
+                           ///< 1000 is the most: each is one call inside of another.
     bool both_ways = true; ///< Glass sends two rays; false: one of them, by roulette.
     bool lamps = true; ///< A lamp with a size lights, from its centre; or is only seen.
     Rgb ambient{0}; ///< W/(m^2 sr) from everywhere to every diffuse surface; in place
@@ -46,8 +47,8 @@ struct WhittedTracer {
 template <SceneLike S>
 [[nodiscard]] WhittedTracer<S> make_whitted(const S& scene,
                                             const WhittedSettings& settings = {}) {
-    require(settings.max_depth >= 0, "max_depth",
-            static_cast<long long>(settings.max_depth), "at least 0");
+    require(settings.max_depth >= 0 && settings.max_depth <= 1000, "max_depth",
+            static_cast<long long>(settings.max_depth), "within [0, 1000]");
     require_radiance("whitted.ambient", settings.ambient);
     return {detail::IndexedT<S>(scene), settings};
 }
@@ -114,7 +115,10 @@ void trace_branch(const WhittedTracer<S>& tracer, PathStateT<T> path, Stream& st
     const auto at_material = [&](const auto& material) {
         if (has(lobes(material), Lobes::non_specular))
             local_light(tracer, *vertex, material, counts, add);
-        if (path.depth > tracer.settings.max_depth) return false;
+        if (path.depth > tracer.settings.max_depth) {
+            detail::cut_if(has(lobes(material), Lobes::specular), counts);
+            return false;
+        }
         if (tracer.settings.both_ways) other = split_path(path, *vertex, material);
         return other || continue_path(path, *vertex, material, Transport::radiance,
                                       Lobes::specular, stream);

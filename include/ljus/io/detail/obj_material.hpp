@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <sstream>
 
+#ifndef TINY_OBJ_LOADER_H_ // it guards its names, and not what it implements
 #include <tiny_obj_loader.h>
+#endif
 
 #include "ljus/io/detail/obj_text.hpp"
 #include "ljus/io/file.hpp"
@@ -91,7 +93,8 @@ read_materials(std::string_view text, const std::string& folder, ObjReport& repo
             try {
                 const std::string path = folder + std::string(words[i]);
                 const Bytes bytes = load_file(path, max_obj_file);
-                const std::string lines(bytes.begin(), bytes.end());
+                std::string lines(bytes.begin(), bytes.end());
+                blunt_exponents(lines);
                 std::istringstream stream(lines);
                 std::map<std::string, int> names;
                 std::vector<tinyobj::material_t> found;

@@ -8,7 +8,9 @@
 #include <optional>
 #include <sstream>
 
+#ifndef TINY_OBJ_LOADER_H_ // it guards its names, and not what it implements
 #include <tiny_obj_loader.h>
+#endif
 
 #include "ljus/io/detail/obj_material.hpp"
 #include "ljus/io/detail/polygon.hpp"

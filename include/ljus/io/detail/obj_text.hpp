@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -57,6 +58,26 @@ inline glm::dvec3 numbers_of(std::string_view line) {
             result[static_cast<glm::length_t>(i)] = value;
     }
     return result;
+}
+
+// tinyobjloader's exponents overflow from ten digits on. In what begins as a number and
+// has so many, the letter E gives way to one that ends it, which numbers_of() refuses.
+inline void blunt_exponents(std::string& text) {
+    const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+    bool number = true; // the word up to here
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if ((c == 'e' || c == 'E') && number) {
+            std::size_t first = i + 1;
+            if (first < text.size() && (text[first] == '-' || text[first] == '+'))
+                ++first;
+            std::size_t last = first;
+            while (last < text.size() && digit(text[last])) ++last;
+            if (last - first >= 10) text[i] = 'x';
+        }
+        const bool space = c == ' ' || c == '\t' || c == '\r' || c == '\n';
+        number = space || (number && (digit(c) || c == '.' || c == '-' || c == '+'));
+    }
 }
 
 } // namespace detail

@@ -12,6 +12,10 @@ namespace ljus::detail {
 // The deepest nesting of lists and objects that parse_json() takes.
 inline constexpr std::size_t max_json_depth = 32;
 
+// What may be in a file: so many numbers, or a quarter as many lists and objects, which
+// take more memory. Else a file of some megabytes could take all that there is.
+inline constexpr std::size_t max_json_values = std::size_t(1) << 22;
+
 // Receives what nlohmann's parser reads, piece by piece, and keeps it as one value.
 struct JsonBuilder {
     using number_integer_t = nlohmann::json::number_integer_t;
@@ -23,6 +27,7 @@ struct JsonBuilder {
     nlohmann::json root{};               // what has been read
     std::vector<nlohmann::json*> open{}; // the lists and objects around this place
     std::vector<std::string> keys{};     // of the objects around, the members' names
+    std::size_t room = max_json_values;  // for so much more
 
     bool null() { return put(nullptr); }
     bool boolean(bool value) { return put(value); }
@@ -37,6 +42,7 @@ struct JsonBuilder {
     bool end_array() { return end(); }
 
     bool key(std::string& name) {
+        take(4);
         keys.back() = name;
         if (open.back()->contains(name))
             throw std::runtime_error(shown_path(file) + ": " + path() +
@@ -83,7 +89,20 @@ private:
         return all.empty() ? "the file" : all;
     }
 
-    bool put(nlohmann::json value) { return (void(place(std::move(value))), true); }
+    void take(std::size_t cost) {
+        if (room < cost)
+            throw std::runtime_error(
+                join({shown_path(file), ": there is more in it than ",
+                      to_text(static_cast<long long>(max_json_values)),
+                      " numbers, or a quarter as many lists, objects and members; put "
+                      "large meshes into OBJ files."}));
+        room -= cost;
+    }
+
+    bool put(nlohmann::json value) {
+        take(1);
+        return (void(place(std::move(value))), true);
+    }
 
     nlohmann::json* place(nlohmann::json&& value) {
         if (open.empty()) return &(root = std::move(value));
@@ -95,6 +114,7 @@ private:
     }
 
     bool begin(nlohmann::json value) {
+        take(4);
         if (open.size() == max_json_depth)
             throw std::runtime_error(shown_path(file) + ": " + shown(path(), 96) +
                                      " is nested too deeply; at most " +

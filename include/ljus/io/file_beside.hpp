@@ -1,0 +1,212 @@
+#pragma once
+
+/// \file ljus/io/file_beside.hpp
+/// \brief The new file beside an older one, which takes its place when it is whole.
+
+#include <cerrno>
+#include <cstddef>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ljus/math/require.hpp"
+
+#if __has_include(<unistd.h>)
+#include <cstdlib>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#endif
+
+#ifdef _MSC_VER
+#pragma warning(push)
+#pragma warning(disable : 4996) // std::fopen is what this header wants
+#endif
+
+namespace ljus {
+
+/// \addtogroup file
+/// \{
+
+/// The bytes of a file.
+using Bytes = std::vector<unsigned char>;
+
+namespace detail {
+
+// A text of a file as a message shows it: on one line, and not too long; `?` for each
+// control character and each byte that is no UTF-8.
+[[nodiscard]] inline std::string shown(std::string text, std::size_t limit = 48) {
+    const auto byte = [&](std::size_t i) {
+        return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
+    };
+    for (std::size_t i = 0, size = 1; i < text.size(); i += size) {
+        const unsigned first = byte(i);
+        size = first < 0x80 ? 1 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
+        bool good = first < 0x80 ? first >= 0x20 && first != 0x7f
+                                 : first >= 0xc2 && first < 0xf5;
+        for (std::size_t k = 1; k < size; ++k) good = good && byte(i + k) >> 6 == 2;
+        if (first == 0xc2 && byte(i + 1) < 0xa0) good = false; // more of control
+        if (good) continue;
+        text[i] = '?';
+        size = 1;
+    }
+    if (text.size() <= limit) return text;
+    // Not in the middle of a UTF-8 character.
+    while (limit > 0 && (static_cast<unsigned char>(text[limit]) & 0xc0u) == 0x80u)
+        --limit;
+    return join({std::string_view(text).substr(0, limit), "..."});
+}
+
+// A path as a message shows it: another file may have named it.
+[[nodiscard]] inline std::string shown_path(const std::string& path) {
+    return shown(path, 1000);
+}
+
+[[noreturn]] inline void fail_to_write(const std::string& path, int error) {
+    throw std::runtime_error(join({"cannot write '", shown_path(path), "': ",
+                                   std::strerror(error == 0 ? EIO : error), "."}));
+}
+
+// The file that a save replaces: behind a symbolic link its target, so that the link
+// stays. What is there and no plain file (a folder, /dev/null), or may not be written
+// by anyone, is not replaced.
+inline std::string file_to_replace(const std::string& path) {
+#if __has_include(<unistd.h>)
+    struct ::stat status = {};
+    if (::stat(path.c_str(), &status) != 0) return path;
+    if (S_ISDIR(status.st_mode)) fail_to_write(path, EISDIR);
+    if (!S_ISREG(status.st_mode)) fail_to_write(path, EEXIST);
+    if ((status.st_mode & 0222) == 0 || ::access(path.c_str(), W_OK) != 0)
+        fail_to_write(path, EACCES);
+    if (char* const resolved = ::realpath(path.c_str(), nullptr)) {
+        const std::string target = resolved;
+        std::free(resolved);
+        return target;
+    }
+#endif
+    return path;
+}
+
+// A new file beside `path`, which goes again unless it is renamed to `path`. Where the
+// system has files without a name it gets one when it is whole: killed before, a
+// program leaves nothing.
+class FileBeside {
+public:
+    explicit FileBeside(const std::string& path) : path_(path) {
+        open_nameless();
+        // "x": never a file that is there already, e.g. of another process.
+        for (long long number = 0; file_ == nullptr && number < most_names; ++number) {
+            name_ = name_of(number);
+            errno = 0;
+            file_ = std::fopen(name_.c_str(), "wbx");
+            if (file_ == nullptr && errno != EEXIST) break;
+        }
+        if (file_ == nullptr) fail_to_write(path_, errno);
+#if __has_include(<unistd.h>)
+        struct ::stat older = {}; // what may be read by some is not read by others now
+        if (::stat(path.c_str(), &older) == 0)
+            (void)::fchmod(::fileno(file_), older.st_mode & 07777);
+#endif
+    }
+    FileBeside(const FileBeside&) = delete;
+    FileBeside& operator=(const FileBeside&) = delete;
+    ~FileBeside() {
+        if (file_ != nullptr) std::fclose(file_);
+        if (!renamed_ && !name_.empty()) std::remove(name_.c_str());
+    }
+
+    void write(const Bytes& bytes) {
+        if (bytes.empty()) return;
+        errno = 0;
+        if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size())
+            fail_to_write(path_, errno);
+    }
+
+    void close() {
+        errno = 0;
+        if (std::fflush(file_) != 0) fail_to_write(path_, errno);
+#if __has_include(<unistd.h>)
+        // On the disk before it has the name: else a loss of power could leave the name
+        // and not the bytes. Not every file system knows how.
+        errno = 0;
+        if (::fsync(::fileno(file_)) != 0 && errno != EINVAL && errno != ENOTSUP)
+            fail_to_write(path_, errno);
+#endif
+        if (name_.empty()) give_name();
+        // The file counts as closed even if fclose reports that the last write failed.
+        std::FILE* const file = file_;
+        file_ = nullptr;
+        if (std::fclose(file) != 0) fail_to_write(path_, errno);
+    }
+
+    void rename_to_path() {
+#ifdef _WIN32
+        // Here std::rename does not replace: the older file steps aside, and comes back
+        // if the new one cannot take its place.
+        const std::string aside = name_ + ".old";
+        const bool older = std::rename(path_.c_str(), aside.c_str()) == 0;
+        renamed_ = std::rename(name_.c_str(), path_.c_str()) == 0;
+        const int error = errno;
+        if (older && renamed_) std::remove(aside.c_str());
+        if (older && !renamed_) std::rename(aside.c_str(), path_.c_str());
+        if (!renamed_) fail_to_write(path_, error);
+#else
+        if (std::rename(name_.c_str(), path_.c_str()) != 0) fail_to_write(path_, errno);
+        renamed_ = true;
+#endif
+    }
+
+private:
+    static constexpr long long most_names = 10'000;
+    std::string name_of(long long number) const {
+        return join({path_, ".part", to_text(number)});
+    }
+
+    // If it fails, what is done with a name will fail as well, and say why.
+    void open_nameless() {
+#if defined(O_TMPFILE) && defined(AT_SYMLINK_FOLLOW)
+        struct ::stat status = {};
+        if (::stat(name_of(0).c_str(), &status) != 0 && errno != ENOENT) return;
+        if (::stat("/proc/self/fd", &status) != 0) return;
+        const std::string folder = path_.substr(0, path_.find_last_of('/') + 1);
+        const int number = ::open(folder.empty() ? "." : folder.c_str(),
+                                  O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+        if (number < 0) return;
+        file_ = ::fdopen(number, "wb");
+        if (file_ == nullptr) ::close(number);
+#endif
+    }
+    void give_name() {
+#if defined(O_TMPFILE) && defined(AT_SYMLINK_FOLLOW)
+        const std::string mine = join({"/proc/self/fd/", to_text(::fileno(file_))});
+        for (long long number = 0; number < most_names; ++number) {
+            const std::string name = name_of(number);
+            if (::linkat(AT_FDCWD, mine.c_str(), AT_FDCWD, name.c_str(),
+                         AT_SYMLINK_FOLLOW) == 0) {
+                name_ = name;
+                return;
+            }
+            if (errno != EEXIST) break;
+        }
+        fail_to_write(path_, errno);
+#endif
+    }
+
+    std::string path_;
+    std::string name_; // empty as long as it has none
+    std::FILE* file_ = nullptr;
+    bool renamed_ = false;
+};
+
+} // namespace detail
+
+/// \}
+
+} // namespace ljus
+
+#ifdef _MSC_VER
+#pragma warning(pop)
+#endif

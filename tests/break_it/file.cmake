@@ -1,0 +1,41 @@
+# Who may read a file is forgotten.
+ljus_break_it(NAME file-mode HEADER io/file_beside.hpp TEST file
+    FROM "older.st_mode & 07777"
+    TO   "0644"
+    CASES "file: who may read it*")
+
+# What nobody may write is replaced.
+ljus_break_it(NAME file-read-only HEADER io/file_beside.hpp TEST file
+    FROM "(status.st_mode & 0222) == 0"
+    TO   "false"
+    CASES "file: who may read it*")
+
+# A hundred files that others left block the next save.
+ljus_break_it(NAME file-names HEADER io/file_beside.hpp TEST file
+    FROM "most_names = 10'000"
+    TO   "most_names = 100"
+    CASES "file: what others have left*")
+
+# Written with a name from the beginning, so that a kill leaves it.
+ljus_break_it(NAME file-nameless HEADER io/file_beside.hpp TEST file
+    FROM "if (number < 0) return;"
+    TO   "if (number >= 0) ::close(number);\n        if (number != -2) return;"
+    CASES "file: a program that is killed*")
+
+# A device is read as if it were a file.
+ljus_break_it(NAME file-pipe HEADER io/file.hpp TEST file
+    FROM "!S_ISREG(status.st_mode) &&"
+    TO   "S_ISFIFO(status.st_mode) &&"
+    CASES "file: a pipe and a device*")
+
+# Control characters of two bytes pass.
+ljus_break_it(NAME file-shown-control HEADER io/file_beside.hpp TEST file
+    FROM "byte(i + 1) < 0xa0"
+    TO   "byte(i + 1) < 0x80"
+    CASES "file: a message shows letters*")
+
+# Bytes that are no UTF-8 pass.
+ljus_break_it(NAME file-shown-letters HEADER io/file_beside.hpp TEST file
+    FROM "byte(i + k) >> 6 == 2"
+    TO   "byte(i + k) >> 6 < 4"
+    CASES "file: a message shows letters*")

@@ -1,0 +1,11 @@
+# The digits of the largest thing, and not of the one that has fewest.
+ljus_break_it(NAME survey-digits HEADER render/detail/scene_remarks.hpp TEST survey
+    FROM "if (!(ratio > most)) continue;"
+    TO   "if (ratio > most) continue;"
+    CASES "survey: where float stops*")
+
+# Every gloss is called a mirror.
+ljus_break_it(NAME survey-narrow HEADER render/detail/scene_remarks.hpp TEST survey
+    FROM "Lobes::glossy) > T(1000)"
+    TO   "Lobes::glossy) > T(0)"
+    CASES "survey: a lobe that*")

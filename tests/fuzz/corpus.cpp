@@ -1,0 +1,66 @@
+/// \file tests/fuzz/corpus.cpp
+/// \brief Makes the small files that the fuzzers of binary formats begin with.
+///
+///     corpus FOLDER       FOLDER/png/..., FOLDER/pfm/..., ...
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+#include "ljus/io/hdr.hpp"
+#include "ljus/io/light_map_file.hpp"
+#include "ljus/io/pfm.hpp"
+#include "ljus/io/photon_map_file.hpp"
+#include "ljus/io/png.hpp"
+#include "ljus/radiosity/radiosity.hpp"
+#include "ljus/render/photon_maps.hpp"
+#include "ljus/scenes/cornell_box.hpp"
+
+int main(int argc, char** argv) {
+    if (argc != 2) return 2;
+    using namespace ljus;
+    const std::filesystem::path folder = argv[1];
+    const auto file = [&](const char* kind, const std::string& name) {
+        std::filesystem::create_directories(folder / kind);
+        return (folder / kind / name).string();
+    };
+
+    Image image = make_image<float>(9, 3);
+    for (int y = 0; y < 3; ++y)
+        for (int x = 0; x < 9; ++x)
+            pixel(image, x, y) = Rgb{float(x) / 8, float(y) / 2, 0.5f};
+    save_pfm(image, file("pfm", "color.pfm"));
+    save_file(file("pfm", "grey.pfm"), {'P', 'f', '\n', '1', ' ', '1', '\n', '1', '.',
+                                        '0', '\n', 63, 128, 0, 0});
+    save_hdr(image, file("hdr", "plain.hdr"));
+    // Nine pixels in runs: of one byte, and of several.
+    const std::string runs = "#?RADIANCE\nEXPOSURE=2\nFORMAT=32-bit_rle_rgbe\n\n"
+                             "-Y 1 +X 9\n\x02\x02";
+    Bytes coded(runs.begin(), runs.end());
+    for (const int byte :
+         {0, 9, 137, 128, 2, 1, 2, 135, 7, 9, 1, 2, 3, 4, 5, 6, 7, 8, 9, 137, 129})
+        coded.push_back(static_cast<unsigned char>(byte));
+    save_file(file("hdr", "runs.hdr"), coded);
+
+    save_png(image, file("png", "color.png"));
+    Bytes screen;
+    for (int i = 0; i < 9 * 3 * 4; ++i) screen.push_back(static_cast<unsigned char>(i));
+    for (const int channels : {1, 2, 4}) {
+        const std::string name = file("png", std::to_string(channels) + ".png");
+        stbi_write_png(name.c_str(), 9, 3, channels, screen.data(), 9 * channels);
+    }
+    stbi_write_bmp(file("png", "3.bmp").c_str(), 9, 3, 3, screen.data());
+    stbi_write_jpg(file("png", "50.jpg").c_str(), 9, 3, 3, screen.data(), 50);
+    stbi_write_jpg(file("png", "95.jpg").c_str(), 9, 3, 3, screen.data(), 95);
+
+    const auto room = cornell_box();
+    PhotonMappingSettings settings{.indirect = IndirectLight::map};
+    settings.caustics.photons = settings.general.photons = 12;
+    save_photon_map(file("photon_map", "room.map"),
+                    make_photon_maps(room.scene, settings).general);
+    save_photon_map(file("photon_map", "none.map"), PhotonMap{});
+    LightMap light = make_radiosity(room.scene, {.patches = {.size = 2}})->map;
+    save_light_map(file("light_map", "room.light"), light);
+    save_light_map(file("light_map", "none.light"), {});
+    return 0;
+}

@@ -1,0 +1,29 @@
+/// \file tests/fuzz/light_map.cpp
+/// \brief Light maps in files, drawn if a room takes them; the checksum put right.
+
+#include "fuzz.hpp"
+#include "ljus/io/light_map_file.hpp"
+#include "ljus/render/render.hpp"
+#include "ljus/scenes/cornell_box.hpp"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static const auto room = ljus::cornell_box();
+    ljus::Bytes bytes(data, data + size);
+    const auto load = [](const ljus::Bytes& file) {
+        const fuzz::MemoryFile in_memory(file);
+        fuzz::refused_or_done([&] {
+            const auto map = ljus::load_light_map(in_memory.path(), 10'000);
+            const auto view = ljus::make_light_map_view(room.scene, map);
+            const auto picture =
+                ljus::render(view, room.camera,
+                             {.width = 4, .height = 4, .samples = 1, .threads = 1});
+            for (const ljus::Rgb& c : picture.image.pixels)
+                fuzz::require_that(ljus::is_finite(c), "a pixel is finite");
+        });
+    };
+    load(bytes);
+    if (size < ljus::detail::map_header) return 0;
+    ljus::detail::put_checksum(bytes);
+    load(bytes);
+    return 0;
+}
