@@ -162,8 +162,7 @@ inline constexpr bool is_flat<TriangleT<T>> = true;
 template <std::floating_point T>
 inline constexpr bool is_flat<QuadT<T>> = true;
 
-/// Whether a type of shape has one normal(), which point_at() and sample_area() take
-/// from who knows it.
+/// Whether a shape has one normal(), and does not work it out again if it is told it.
 template <typename S>
 inline constexpr bool is_plane = requires(const S& shape, Vec2T<ScalarOf<S>> u) {
     point_at(shape, u.x, u.y, normal(shape));

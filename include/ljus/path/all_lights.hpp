@@ -178,7 +178,7 @@ template <SceneLike S, std::floating_point T, Material M, typename Stream,
         }
         const auto place = [&](int i) { // a single ray needs no cells
             if (rays == 1) return u;
-            const std::uint64_t key = stream.key + std::uint64_t(u.x * T(0x1p24));
+            const std::uint64_t key = stream.key + std::uint32_t(u.x * T(0x1p24));
             return stratified(strata, i, key, u);
         };
         if constexpr (lambertian)

@@ -50,16 +50,16 @@ using FramesT = std::array<std::vector<FrameT<typename S::Scalar>>,
 template <typename S>
 [[nodiscard]] FramesT<S> frames_of(const S& scene) {
     FramesT<S> frames;
-    std::size_t type = 0;
+    std::size_t kind = 0;
     const auto add = [&](const auto& list) {
         if constexpr (is_plane<
                           typename std::remove_cvref_t<decltype(list)>::value_type>)
             for (std::size_t i = 0; i < list.size(); ++i) {
                 const auto n = normal(list[i]);
-                frames[type].push_back(
-                    frame_around(scene.objects[type][i].inside_out ? -n : n));
+                frames[kind].push_back(
+                    frame_around(scene.objects[kind][i].inside_out ? -n : n));
             }
-        ++type;
+        ++kind;
     };
     std::apply([&](const auto&... lists) { (add(lists), ...); }, scene.shapes);
     return frames;
