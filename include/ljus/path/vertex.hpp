@@ -62,6 +62,7 @@ inline constexpr bool has_frames = requires(const S& scene) {
 /// \param vertex  Its point and its object are set.
 /// \param ray     The ray that hit.
 /// \param normal  The shading normal, as the shape has it.
+// [set_frame]
 template <std::floating_point T>
 inline void set_frame(VertexT<T>& vertex, const RayT<T>& ray, Vec3T<T> normal) {
     Vec3T<T>& geometric = vertex.point.normal;
@@ -77,6 +78,7 @@ inline void set_frame(VertexT<T>& vertex, const RayT<T>& ray, Vec3T<T> normal) {
     }
     vertex.frame = frame_around(vertex.turned ? geometric : normal);
 }
+// [set_frame]
 
 /// Sets a vertex to what vertex_at() returns. next_vertex() has the vertex in the
 /// optional that it returns: a copy of these 160 bytes for each ray is slow.
@@ -84,7 +86,6 @@ inline void set_frame(VertexT<T>& vertex, const RayT<T>& ray, Vec3T<T> normal) {
 /// \param scene   The scene.
 /// \param ray     The ray that hit; its direction of unit length.
 /// \param hit     What closest_hit() returned.
-// [vertex_at]
 template <SceneLike S, std::floating_point T>
 inline void fill_vertex(VertexT<T>& vertex, const S& scene, const RayT<T>& ray,
                         const SceneHitT<T>& hit) {
@@ -110,7 +111,6 @@ inline void fill_vertex(VertexT<T>& vertex, const S& scene, const RayT<T>& ray,
     });
     vertex.wo = to_local(vertex.frame, -ray.direction);
 }
-// [vertex_at]
 
 } // namespace detail
 
