@@ -6,6 +6,7 @@
 #include "ljus/geometry/moving.hpp"
 #include "ljus/path/continue_path.hpp"
 #include "ljus/path/next_vertex.hpp"
+#include "ljus/scene/index.hpp"
 #include "ljus/scene/make_scene.hpp"
 #include "support/mean.hpp"
 #include "support/rooms.hpp"
@@ -492,4 +493,54 @@ TEST_CASE("vertex: a path has a time if something can move, and draws it once") 
         REQUIRE(next_1d<float>(other) == next_1d<float>(same));
     }
     CHECK(std::abs(sum / 1000 - 0.5) < 5 / std::sqrt(12000.0));
+}
+
+TEST_CASE("vertex: an index knows the frames of flat shapes") {
+    // What it has worked out once is what a scene works out for each ray.
+    Scene<Shapes<Quad, Sphere, Triangle>, Materials<Lambertian>> room;
+    const auto matt = room.add(Lambertian{});
+    for (const bool inside_out : {false, true}) {
+        const float x = inside_out ? 3.0f : 0.0f;
+        room.add(Quad{.corner{x, 0, 0}, .edge_u{1, 0, 0.2f}, .edge_v{0.1f, 1, 0}}, matt,
+                 Rgb{2}, inside_out);
+        room.add(Sphere{.center{x + 2, 0, 0}, .radius = 0.5f}, matt, Rgb{}, inside_out);
+        room.add(Triangle{{x, -2, 0.5f}, {x + 1, -2, 0}, {x, -1, 0.3f}}, matt, Rgb{},
+                 inside_out);
+    }
+    const auto indexed = index_scene(room);
+    RandomStream numbers = random_stream(7, Pass::user, 0, 0);
+    int hits = 0;
+    for (int i = 0; i < 400; ++i) {
+        const Vec2 u = next_2d(numbers);
+        const float side = i % 2 == 0 ? 5.0f : -5.0f;
+        const Ray ray{.origin{7 * u.x - 0.5f, 4 * u.y - 2.5f, side},
+                      .direction{0, 0, -side / 5}};
+        const auto hit = closest_hit(room, ray);
+        if (!hit) continue;
+        ++hits;
+        const Vertex one = vertex_at(room, ray, *hit);
+        const Vertex other = vertex_at(indexed, ray, *hit);
+        REQUIRE(one.point.position == other.point.position);
+        REQUIRE(one.point.normal == other.point.normal);
+        REQUIRE(one.point.error == other.point.error);
+        REQUIRE(one.frame.tangent == other.frame.tangent);
+        REQUIRE(one.frame.bitangent == other.frame.bitangent);
+        REQUIRE(one.frame.normal == other.frame.normal);
+        REQUIRE(one.wo == other.wo);
+        REQUIRE(one.emits() == other.emits());
+    }
+    CHECK(hits > 50);
+    // A lamp's normal and area, too.
+    const auto& lamp = std::get<std::vector<Quad>>(room.shapes)[0];
+    CHECK(room.lights[0].direction == normal(lamp));
+    CHECK(room.lights[0].area == area(lamp));
+    Light unknown = room.lights[0];
+    unknown.area = 0;
+    const Vec3 from{0.3f, 0.2f, 2};
+    const auto known = sample_light(room, room.lights[0], from, Vec2{0.3f, 0.8f});
+    const auto worked_out = sample_light(room, unknown, from, Vec2{0.3f, 0.8f});
+    REQUIRE((known && worked_out));
+    CHECK(known->pdf == worked_out->pdf);
+    CHECK(known->weight == worked_out->weight);
+    CHECK(known->point.normal == worked_out->point.normal);
 }

@@ -27,3 +27,15 @@ ljus_break_it(NAME vertex-begins-inside HEADER path/next_vertex.hpp TEST vertex
     FROM "path.depth == 1 && from_behind"
     TO   "false"
     CASES "vertex: a path that begins in glass*")
+
+# A shape that is turned inside out keeps its frame in the index.
+ljus_break_it(NAME vertex-known_frame HEADER scene/index.hpp TEST vertex
+    FROM "inside_out ? -n : n"
+    TO   "inside_out ? n : n"
+    CASES "vertex: an index knows*")
+
+# A lamp's area counts half.
+ljus_break_it(NAME vertex-known_area HEADER scene/scene.hpp TEST vertex
+    FROM "lights.back().area = area(shape)"
+    TO   "lights.back().area = area(shape) / 2"
+    CASES "vertex: an index knows*")

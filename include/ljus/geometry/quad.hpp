@@ -77,30 +77,46 @@ template <std::floating_point T>
     return static_cast<T>(glm::length(detail::cross_of_edges(quad)));
 }
 
-/// The point of a quad at u, v.
-/// \param quad  The quad.
-/// \param u     Coordinate along the first edge.
-/// \param v     Coordinate along the second edge.
+/// The point of a quad at u, v, if its normal is known.
+/// \param quad    The quad.
+/// \param u       Coordinate along the first edge.
+/// \param v       Coordinate along the second edge.
+/// \param normal  What normal() returned.
 /// \return Position, its error bound, the normal.
 template <std::floating_point T>
-[[nodiscard]] inline SurfacePointT<T> point_at(const QuadT<T>& quad, T u,
-                                               T v) noexcept {
+[[nodiscard]] inline SurfacePointT<T> point_at(const QuadT<T>& quad, T u, T v,
+                                               const Vec3T<T>& normal) noexcept {
     const Vec3T<T> b = u * quad.edge_u;
     const Vec3T<T> c = v * quad.edge_v;
     return {.position = quad.corner + b + c,
             .error = detail::rounding_bound<T>(5) *
                      (detail::sizes(quad.corner) + detail::sizes(b) + detail::sizes(c)),
-            .normal = normal(quad)};
+            .normal = normal};
+}
+
+/// The point of a quad at u, v.
+template <std::floating_point T>
+[[nodiscard]] inline SurfacePointT<T> point_at(const QuadT<T>& quad, T u,
+                                               T v) noexcept {
+    return point_at(quad, u, v, normal(quad));
 }
 
 /// A point of a quad, uniform over its area.
-/// \param quad  A quad with an area.
-/// \param u     Point of the unit square.
+/// \param quad    A quad with an area.
+/// \param u       Point of the unit square.
+/// \param normal  What normal() returned.
 /// \return The point; density 1 / area per squared scene unit.
+template <std::floating_point T>
+[[nodiscard]] SurfacePointT<T> sample_area(const QuadT<T>& quad, const Vec2T<T>& u,
+                                           const Vec3T<T>& normal) noexcept {
+    return point_at(quad, u.x, u.y, normal);
+}
+
+/// The same, if the normal is not known.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const QuadT<T>& quad,
                                            const Vec2T<T>& u) noexcept {
-    return point_at(quad, u.x, u.y);
+    return sample_area(quad, u, normal(quad));
 }
 
 /// \}

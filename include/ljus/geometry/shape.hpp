@@ -83,9 +83,9 @@ template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const SphereT<T>& sphere,
                                            const Vec2T<T>& u) noexcept {
     const Vec3T<T> n = sample_uniform_sphere(u);
+    const Vec3T<T> sizes = detail::sizes(sphere.center) + sphere.radius;
     return {.position = sphere.center + sphere.radius * n,
-            .error = detail::rounding_bound<T>(5) *
-                     (detail::sizes(sphere.center) + sphere.radius),
+            .error = detail::rounding_bound<T>(5) * sizes,
             .normal = n};
 }
 
@@ -161,6 +161,13 @@ inline constexpr bool is_flat<TriangleT<T>> = true;
 /// A quad is flat.
 template <std::floating_point T>
 inline constexpr bool is_flat<QuadT<T>> = true;
+
+/// Whether a shape has one normal(), and does not work it out again if it is told it.
+template <typename S>
+inline constexpr bool is_plane = requires(const S& shape, Vec2T<ScalarOf<S>> u) {
+    point_at(shape, u.x, u.y, normal(shape));
+    sample_area(shape, u, normal(shape));
+};
 
 } // namespace detail
 

@@ -195,28 +195,45 @@ template <std::floating_point T>
 /// \param triangle  The triangle.
 /// \param u         Weight of the second vertex.
 /// \param v         Weight of the third vertex.
+/// \param normal    What normal() returned.
 /// \return Position, its error bound, the normal.
 template <std::floating_point T>
-[[nodiscard]] SurfacePointT<T> point_at(const TriangleT<T>& triangle, T u,
-                                        T v) noexcept {
+[[nodiscard]] SurfacePointT<T> point_at(const TriangleT<T>& triangle, T u, T v,
+                                        const Vec3T<T>& normal) noexcept {
     const Vec3T<T> a = (T(1) - u - v) * triangle.v1;
     const Vec3T<T> b = u * triangle.v2;
     const Vec3T<T> c = v * triangle.v3;
     return {.position = a + b + c,
             .error = detail::rounding_bound<T>(7) *
                      (detail::sizes(a) + detail::sizes(b) + detail::sizes(c)),
-            .normal = normal(triangle)};
+            .normal = normal};
+}
+
+/// The point of a triangle, if its normal is not known.
+template <std::floating_point T>
+[[nodiscard]] SurfacePointT<T> point_at(const TriangleT<T>& triangle, T u,
+                                        T v) noexcept {
+    return point_at(triangle, u, v, normal(triangle));
 }
 
 /// A point of a triangle, uniform over its area.
 /// \param triangle  A triangle with an area.
 /// \param u         Point of the unit square.
+/// \param normal    What normal() returned.
 /// \return The point; density 1 / area per squared scene unit.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const TriangleT<T>& triangle,
-                                           const Vec2T<T>& u) noexcept {
+                                           const Vec2T<T>& u,
+                                           const Vec3T<T>& normal) noexcept {
     const T root = std::sqrt(u.x);
-    return point_at(triangle, T(1) - root, u.y * root);
+    return point_at(triangle, T(1) - root, u.y * root, normal);
+}
+
+/// The same, if the normal is not known.
+template <std::floating_point T>
+[[nodiscard]] SurfacePointT<T> sample_area(const TriangleT<T>& triangle,
+                                           const Vec2T<T>& u) noexcept {
+    return sample_area(triangle, u, normal(triangle));
 }
 
 /// \}

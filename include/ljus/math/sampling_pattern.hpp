@@ -4,6 +4,7 @@
 /// \brief Where the rays of a pixel go through it: four patterns for any
 /// number.
 
+#include <bit>
 #include <cstdint>
 
 #include "ljus/math/low_discrepancy.hpp"
@@ -46,15 +47,14 @@ struct Strata {
 /// then all places are moved on by the same random step, because the scramble alone
 /// favours some places by half.
 /// \param i      In [0, count).
-/// \param count  At least 1.
+/// \param count  At least 1, and at most 2^31.
 /// \param key    Which order.
 /// \return The place; each place once, and each as often as any over the keys.
 /// \cost At most two scrambles in the mean.
 /// \cite kensler2013
 [[nodiscard]] constexpr std::uint32_t shuffled(std::uint32_t i, std::uint32_t count,
                                                std::uint64_t key) noexcept {
-    std::uint32_t mask = count - 1;
-    for (unsigned shift = 1; shift < 32; shift *= 2) mask |= mask >> shift;
+    const std::uint32_t mask = std::bit_ceil(count) - 1;
     const std::uint64_t bits = mix_bits(key);
     const auto offset = static_cast<std::uint32_t>(bits);
     const auto factor = static_cast<std::uint32_t>(bits >> 32) | 1u;

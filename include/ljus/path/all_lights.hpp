@@ -161,7 +161,7 @@ template <SceneLike S, std::floating_point T, Material M, typename Stream,
     constexpr bool lambertian = std::same_as<M, LambertianT<T>>;
     const bool both =
         how == DirectLight::mis || (how == DirectLight::analytic && !lambertian);
-    const Strata strata = strata_for(rays);
+    const Strata strata = rays > 1 ? strata_for(rays) : Strata{};
     const auto weigh = [&](const LightSampleT<T>& light, const Vec3T<T>& wi) {
         if (!both || light.pdf == T(0)) return T(1); // no path meets a point light
         return balance_heuristic(T(rays) * light.pdf,
@@ -176,9 +176,10 @@ template <SceneLike S, std::floating_point T, Material M, typename Stream,
             counts.skipped_rays += std::uint64_t(rays);
             continue;
         }
-        const std::uint64_t key = stream.key + std::uint64_t(u.x * T(0x1p24));
-        const auto place = [&](int i) {
-            return rays > 1 ? stratified(strata, i, key, u) : u;
+        const auto place = [&](int i) { // a single ray needs no cells
+            if (rays == 1) return u;
+            const std::uint64_t key = stream.key + std::uint32_t(u.x * T(0x1p24));
+            return stratified(strata, i, key, u);
         };
         if constexpr (lambertian)
             if (how == DirectLight::analytic)

@@ -52,30 +52,20 @@ template <SceneLike S>
         return false;
 }
 
-/// Sets a vertex to what vertex_at() returns. next_vertex() has the vertex in the
-/// optional that it returns: a copy of these 160 bytes for each ray is slow.
-/// \param vertex  A new one; all but its medium is set.
-/// \param scene   The scene.
-/// \param ray     The ray that hit; its direction of unit length.
-/// \param hit     What closest_hit() returned.
-// [vertex_at]
-template <SceneLike S, std::floating_point T>
-inline void fill_vertex(VertexT<T>& vertex, const S& scene, const RayT<T>& ray,
-                        const SceneHitT<T>& hit) {
-    vertex.id = hit.object;
-    vertex.object = scene.object(hit.object);
-    vertex.distance = hit.at.t;
-    vertex.time = ray.time;
+/// Whether a scene knows the frames of its flat shapes, as an IndexedScene does.
+template <typename S>
+inline constexpr bool has_frames = requires(const S& scene) {
+    scene.frames;
+};
+
+/// Sets the frame of a vertex where two normals may differ.
+/// \param vertex  Its point and its object are set.
+/// \param ray     The ray that hit.
+/// \param normal  The shading normal, as the shape has it.
+// [set_frame]
+template <std::floating_point T>
+inline void set_frame(VertexT<T>& vertex, const RayT<T>& ray, Vec3T<T> normal) {
     Vec3T<T>& geometric = vertex.point.normal;
-    Vec3T<T> normal = scene.visit_shape(hit.object, [&](const auto& shape) {
-        vertex.point = surface_point(shape, ray, hit.at);
-        if (detail::uses_uv(scene, vertex.object.material))
-            vertex.uv = texture_coordinates(shape, hit.at, vertex.point);
-        if constexpr (requires { shading_normal(shape, hit.at, geometric); })
-            return shading_normal(shape, hit.at, geometric);
-        else
-            return geometric;
-    });
     vertex.smooth = normal != geometric;
     if (vertex.object.inside_out) {
         geometric = -geometric;
@@ -87,9 +77,40 @@ inline void fill_vertex(VertexT<T>& vertex, const S& scene, const RayT<T>& ray,
         vertex.smooth = !vertex.turned;
     }
     vertex.frame = frame_around(vertex.turned ? geometric : normal);
+}
+// [set_frame]
+
+/// Sets a vertex to what vertex_at() returns. next_vertex() has the vertex in the
+/// optional that it returns: a copy of these 160 bytes for each ray is slow.
+/// \param vertex  A new one; all but its medium is set.
+/// \param scene   The scene.
+/// \param ray     The ray that hit; its direction of unit length.
+/// \param hit     What closest_hit() returned.
+template <SceneLike S, std::floating_point T>
+inline void fill_vertex(VertexT<T>& vertex, const S& scene, const RayT<T>& ray,
+                        const SceneHitT<T>& hit) {
+    vertex.id = hit.object;
+    vertex.object = scene.object(hit.object);
+    vertex.distance = hit.at.t;
+    vertex.time = ray.time;
+    const Vec3T<T>& geometric = vertex.point.normal;
+    scene.visit_shape(hit.object, [&]<typename G>(const G& shape) {
+        constexpr bool one_frame = has_frames<S> && is_plane<G>;
+        if constexpr (one_frame) {
+            vertex.frame = scene.frames[hit.object.type][hit.object.index];
+            vertex.point = point_at(shape, hit.at.u, hit.at.v, vertex.frame.normal);
+        } else {
+            vertex.point = surface_point(shape, ray, hit.at);
+        }
+        if (detail::uses_uv(scene, vertex.object.material))
+            vertex.uv = texture_coordinates(shape, hit.at, vertex.point);
+        if constexpr (requires { shading_normal(shape, hit.at, geometric); })
+            set_frame(vertex, ray, shading_normal(shape, hit.at, geometric));
+        else if constexpr (!one_frame)
+            set_frame(vertex, ray, geometric);
+    });
     vertex.wo = to_local(vertex.frame, -ray.direction);
 }
-// [vertex_at]
 
 } // namespace detail
 

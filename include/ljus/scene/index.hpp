@@ -4,6 +4,7 @@
 /// \brief A scene that knows where its shapes are: the fast way to the first hit.
 
 #include "ljus/accel/bvh8.hpp"
+#include "ljus/math/frame.hpp"
 #include "ljus/scene/query.hpp"
 
 namespace ljus {
@@ -37,6 +38,33 @@ template <Shape S>
         return bounds(bounding_sphere(shape));
 }
 
+/// Frames by the number of an object; of no use for a shape that is not flat.
+template <typename S>
+using FramesT = std::array<std::vector<FrameT<typename S::Scalar>>,
+                           std::tuple_size_v<decltype(S::shapes)>>;
+
+/// The frames of a scene's flat shapes: a normal takes a cross product in double and a
+/// square root, which is worth doing once.
+/// \param scene  The scene.
+/// \return Around the normal that object() says is the outer one.
+template <typename S>
+[[nodiscard]] FramesT<S> frames_of(const S& scene) {
+    FramesT<S> frames;
+    std::size_t kind = 0;
+    const auto add = [&](const auto& list) {
+        if constexpr (is_plane<
+                          typename std::remove_cvref_t<decltype(list)>::value_type>)
+            for (std::size_t i = 0; i < list.size(); ++i) {
+                const auto n = normal(list[i]);
+                frames[kind].push_back(
+                    frame_around(scene.objects[kind][i].inside_out ? -n : n));
+            }
+        ++kind;
+    };
+    std::apply([&](const auto&... lists) { (add(lists), ...); }, scene.shapes);
+    return frames;
+}
+
 } // namespace detail
 
 /// A scene with an index over all its shapes, of all types \cite rubin1980. It stands
@@ -57,7 +85,7 @@ struct IndexedScene {
     /// \param of  Must outlive the index.
     IndexedScene(const S& of)
         : scene(of), shapes(of.shapes), objects(of.objects), materials(of.materials),
-          lights(of.lights) {
+          lights(of.lights), frames(detail::frames_of(of)) {
         if (!detail::needs_tree(scene.size())) return;
         std::vector<BoxT<Scalar>> boxes(scene.size());
         std::vector<ObjectId> all(scene.size());
@@ -85,6 +113,7 @@ struct IndexedScene {
     const decltype(S::objects)& objects;     ///< As the scene has them.
     const decltype(S::materials)& materials; ///< As the scene has them.
     const decltype(S::lights)& lights;       ///< As the scene has them.
+    detail::FramesT<S> frames;   ///< Around the normals of what is flat, by object.
     Tree tree{};                 ///< Over all shapes; empty for the flat loop.
     std::vector<ObjectId> ids{}; ///< Of the shapes, in the tree's order.
 

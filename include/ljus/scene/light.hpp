@@ -66,10 +66,12 @@ struct LightT {
                              ///< irradiance of a sun.
     RgbT<T> flux{T(0)}; ///< W that leave the light in all; of a sun, that fall into the
                         ///< sphere around the scene.
-    Vec3T<T> direction{T(0)}; ///< Unit; where a spot or a sun shines to.
+    Vec3T<T> direction{T(0)}; ///< Unit; where a spot or a sun shines to; of a flat
+                              ///< object, its shape's normal.
     T inner = T(0);           ///< 1 - cos of a spot's inner angle.
     T outer = T(0);           ///< 1 - cos of a spot's outer angle.
     T radius = T(0);          ///< Of the sphere around the scene, for a sun.
+    T area = T(0);            ///< Of a flat object; else 0.
 };
 using Light = LightT<float>; ///< LightT in float.
 
@@ -159,9 +161,17 @@ sample_light(const S& scene, const LightT<T>& light, const Vec3T<T>& from,
                                .wi = wi,
                                .weight = share * light.emission / distance2};
     }
-    SeenPointT<T> seen = scene.visit_shape(*light.object, [&](const auto& shape) {
-        return sample_towards(at_time(shape, time), from, u);
-    });
+    SeenPointT<T> seen =
+        scene.visit_shape(*light.object, [&]<typename G>(const G& shape) {
+            if constexpr (detail::is_plane<G>)
+                if (light.area > T(0)) { // what add() has worked out once
+                    const SurfacePointT<T> point =
+                        sample_area(shape, u, light.direction);
+                    return SeenPointT<T>{
+                        point, detail::pdf_from_area(from, point, light.area)};
+                }
+            return sample_towards(at_time(shape, time), from, u);
+        });
     if (scene.object(*light.object).inside_out) seen.point.normal = -seen.point.normal;
 
     const Vec3T<T> wi = glm::normalize(seen.point.position - from);

@@ -103,8 +103,13 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
         if constexpr (!HasArea<G>)
             require(is_black(radiance), "the radiance of a shape of unknown area",
                     radiance, "black: it can be lit, but cannot be a light");
-        else if (!is_black(radiance))
+        else if (!is_black(radiance)) {
             add_light(id, radiance, area(shape));
+            if constexpr (detail::is_plane<G>) {
+                lights.back().direction = normal(shape);
+                lights.back().area = area(shape);
+            }
+        }
         reach(bounding_sphere(shape));
         array.push_back(shape);
         const std::uint32_t light = is_black(radiance)
