@@ -110,25 +110,69 @@ TEST_CASE_TEMPLATE("sampling_pattern: any count has its points, within the pixel
         }
 }
 
-TEST_CASE("sampling_pattern: multi-jittered, each count: one point in each of n rows, "
-          "no two in one of the columns' parts, and a grid of cells") {
-    for (int count = 1; count <= 400; ++count) {
+TEST_CASE("sampling_pattern: multi-jittered, each count: one point in each of n strips "
+          "of x and of y, and a grid of cells") {
+    std::vector<int> counts(400);
+    for (int i = 0; i < 400; ++i) counts[std::size_t(i)] = i + 1;
+    for (const int more : {997, 1000, 1009, 4095, 4096, 4097, 65537})
+        counts.push_back(more);
+    for (const int count : counts) {
         const Pattern pattern = make_pattern(Sampling::multi_jittered, count);
         const int m = pattern.strata.columns, n = pattern.strata.rows;
         CAPTURE(count);
-        REQUIRE((m * m <= count && (m + 1) * (m + 1) > count)); // as square as can be
         REQUIRE((m * n >= count && m * (n - 1) < count));
-        std::vector<int> fine_x(static_cast<std::size_t>(m * n)),
-            fine_y(static_cast<std::size_t>(count)), cells(fine_x.size());
-        for (int i = 0; i < count; ++i) {
-            const auto p = detail::spread(pattern, i, 42, Vec2T<double>{0.5});
-            ++fine_x[std::size_t(p.x * m * n)];
-            ++fine_y[std::size_t(p.y * count)];
-            ++cells[std::size_t(int(p.y * count) / m * m + int(p.x * m))];
+        REQUIRE((m <= n && n <= 2 * m + 2)); // not far from square
+        for (const std::uint64_t key : {42u, 43u, 44u}) {
+            std::vector<int> of_x(std::size_t(count), -1), of_y = of_x;
+            for (int i = 0; i < count; ++i) {
+                const auto p = detail::spread(pattern, i, key, Vec2T<double>{0.5});
+                // In the middle of its strip, so that no rounding can move it out.
+                int& column = of_x[std::size_t(p.x * count)];
+                int& row = of_y[std::size_t(p.y * count)];
+                REQUIRE((column == -1 && row == -1)); // so that each has one
+                column = row = i;
+            }
+            // The m points of a row of cells stand in m columns: the next one is never
+            // farther than two columns.
+            for (int row = 0; row * m + m <= count; ++row) {
+                int gap = 0, worst = 0, seen = 0;
+                for (int x = 0; x < 2 * count; ++x) {
+                    const bool here = of_x[std::size_t(x % count)] / m == row;
+                    seen += here;
+                    gap = here ? 0 : gap + 1;
+                    worst = std::max(worst, gap);
+                }
+                REQUIRE((seen == 2 * m && worst <= 2 * n));
+                if (count > 400) break; // one row will do
+            }
         }
-        REQUIRE(*std::max_element(fine_x.begin(), fine_x.end()) == 1);
-        REQUIRE(*std::min_element(fine_y.begin(), fine_y.end()) == 1);
-        REQUIRE(*std::max_element(cells.begin(), cells.end()) == 1);
+    }
+    // A grid without a remainder where one is near to a square.
+    const auto cells = [](int count) {
+        const auto strata = make_pattern(Sampling::multi_jittered, count).strata;
+        return std::array<int, 2>{strata.columns, strata.rows};
+    };
+    CHECK(cells(32) == std::array<int, 2>{4, 8});
+    CHECK(cells(200) == std::array<int, 2>{10, 20});
+    CHECK(cells(1000) == std::array<int, 2>{25, 40});
+    CHECK(cells(61) == std::array<int, 2>{7, 9}); // a prime: 5 of 7 in the last row
+}
+
+TEST_CASE(
+    "sampling_pattern: multi-jittered with a broken row: a strip holds each row as "
+    "often as any other does") {
+    // Over the keys, each strip of x with each strip of y: else a mean would be off.
+    for (const int count : {5, 7, 11, 13}) {
+        const Pattern pattern = make_pattern(Sampling::multi_jittered, count);
+        std::vector<int> pairs(std::size_t(count * count));
+        for (std::uint64_t key = 0; key < 60000; ++key)
+            for (int i = 0; i < count; ++i) {
+                const auto p = detail::spread(pattern, i, key, Vec2T<double>{0.5});
+                ++pairs[std::size_t(p.x * count) * std::size_t(count) + std::size_t(i)];
+            }
+        CAPTURE(count);
+        // A table with all sums of rows and columns fixed has (n - 1)^2 degrees.
+        CHECK(chi_square(pairs) < chi_square_limit((count - 1) * (count - 1)));
     }
 }
 
