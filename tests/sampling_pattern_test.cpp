@@ -110,7 +110,7 @@ TEST_CASE_TEMPLATE("sampling_pattern: any count has its points, within the pixel
         }
 }
 
-TEST_CASE("sampling_pattern: multi-jittered, each count: one point in each of n strips "
+TEST_CASE("sampling_pattern: multi-jittered with any count: one point in each of n strips "
           "of x and of y, and a grid of cells") {
     std::vector<int> counts(400);
     for (int i = 0; i < 400; ++i) counts[std::size_t(i)] = i + 1;

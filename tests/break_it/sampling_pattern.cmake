@@ -17,7 +17,7 @@ ljus_break_it(NAME pattern-broken-row HEADER math/sampling_pattern.hpp
     TEST sampling_pattern
     FROM "(points - 1) / columns + 1"
     TO   "points / columns"
-    CASES "sampling_pattern: multi-jittered*")
+    CASES "sampling_pattern: multi-jittered with any*")
 
 # The second dimension of a pixel is the first of its neighbour.
 ljus_break_it(NAME pattern-sobol-key HEADER math/sampling_pattern.hpp
@@ -38,14 +38,14 @@ ljus_break_it(NAME pattern-empty-strips HEADER math/sampling_pattern.hpp
     TEST sampling_pattern
     FROM "(T(strip) + u.x) / T(pattern.points)"
     TO   "(T(strip) + u.x) / T(m * n)"
-    CASES "sampling_pattern: multi-jittered, each count*")
+    CASES "sampling_pattern: multi-jittered with any*")
 
 # 32 as 5 x 7 less 3, though 4 x 8 is at hand.
 ljus_break_it(NAME pattern-exact-grid HEADER math/sampling_pattern.hpp
     TEST sampling_pattern
     FROM "pattern.strata.rows > 2 * columns"
     TO   "true"
-    CASES "sampling_pattern: multi-jittered, each count*")
+    CASES "sampling_pattern: multi-jittered with any*")
 
 # The wide columns not moved on: the first strip is in one of them too seldom.
 ljus_break_it(NAME pattern-step HEADER math/sampling_pattern.hpp

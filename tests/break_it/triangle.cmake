@@ -48,7 +48,7 @@ ljus_break_it(NAME triangle-normal HEADER geometry/triangle.hpp TEST triangle
 
 # In double, without a border as wide as the rounding: ties are lost.
 ljus_break_it(NAME triangle-open HEADER geometry/triangle.hpp TEST watertight
-    FROM "!within(detail::border_of_rounding(d, to, e1, e2, inverse))"
+    FROM "!within(detail::border_of_rounding(d, to, e1, e2, inverse, near))"
     TO   "true"
     CASES "watertight: rays that meet*")
 
@@ -61,3 +61,15 @@ ljus_break_it(NAME triangle-default HEADER geometry/triangle.hpp TEST tree_leaks
     FROM "using C = ComputeT<Compute, WideT<T>>;"
     TO   "using C = ComputeT<Compute, T>;"
     CASES "tree leaks: half a million*")
+
+# Doubles in a line span what rounding leaves of 0.
+ljus_break_it(NAME triangle-no-area-rounded HEADER geometry/triangle.hpp TEST triangle
+    FROM "bound * (std::abs(p) + std::abs(q))"
+    TO   "0 * bound"
+    CASES "triangle: no area in data*")
+
+# A border of up to 1/128 of a sliver: what lies beside it is hit.
+ljus_break_it(NAME triangle-wide-border HEADER geometry/triangle.hpp TEST triangle
+    FROM "C(std::numeric_limits<T>::epsilon())"
+    TO   "C(1) / C(128)"
+    CASES "triangle: a hit does not lie beside*")
