@@ -16,10 +16,12 @@
 #include <vector>
 
 #include "support/numbers.hpp"
+#include "support/seed.hpp"
 
 using namespace ljus;
 using ljus_test::chi_square;
 using ljus_test::chi_square_limit;
+using ljus_test::test_seed;
 
 namespace {
 
@@ -59,14 +61,14 @@ Errors errors(Sampling sampling, int count, int keys = 400) {
     const double exact = (std::numbers::e - 1) / 2 + 0.25; // of e^x y + x y
     Errors sum;
     for (std::uint64_t key = 0; key < std::uint64_t(keys); ++key) {
-        RandomStream stream = random_stream(5, Pass::user, 0, key);
+        RandomStream stream = random_stream(test_seed(5), Pass::user, 0, key);
         const double angle = 2 * std::numbers::pi * next_1d<double>(stream);
         const double offset = 0.6 * (next_1d<double>(stream) - 0.5);
         const double c = std::cos(angle), s = std::sin(angle);
         double smooth = 0, below = 0;
         for (int i = 0; i < count; ++i) {
             const Vec2T<double> p =
-                detail::spread(pattern, i, key, next_2d<double>(stream));
+                detail::spread(pattern, i, test_seed(key), next_2d<double>(stream));
             smooth += (std::exp(p.x) + p.x) * p.y;
             below += (p.x - 0.5) * c + (p.y - 0.5) * s < offset;
         }
@@ -110,8 +112,9 @@ TEST_CASE_TEMPLATE("sampling_pattern: any count has its points, within the pixel
         }
 }
 
-TEST_CASE("sampling_pattern: multi-jittered with any count: one point in each of n strips "
-          "of x and of y, and a grid of cells") {
+TEST_CASE(
+    "sampling_pattern: multi-jittered with any count: one point in each of n strips "
+    "of x and of y, and a grid of cells") {
     std::vector<int> counts(400);
     for (int i = 0; i < 400; ++i) counts[std::size_t(i)] = i + 1;
     for (const int more : {997, 1000, 1009, 4095, 4096, 4097, 65537})
@@ -167,7 +170,8 @@ TEST_CASE(
         std::vector<int> pairs(std::size_t(count * count));
         for (std::uint64_t key = 0; key < 60000; ++key)
             for (int i = 0; i < count; ++i) {
-                const auto p = detail::spread(pattern, i, key, Vec2T<double>{0.5});
+                const auto p =
+                    detail::spread(pattern, i, test_seed(key), Vec2T<double>{0.5});
                 ++pairs[std::size_t(p.x * count) * std::size_t(count) + std::size_t(i)];
             }
         CAPTURE(count);
@@ -202,9 +206,10 @@ TEST_CASE("sampling_pattern: each point is uniform over the pixels, and all toge
             const Pattern pattern = make_pattern(sampling, count);
             std::vector<int> together(400), last(400);
             for (std::uint64_t key = 0; key < 40000; ++key) {
-                RandomStream stream = random_stream(1, Pass::user, 0, key);
+                RandomStream stream = random_stream(test_seed(1), Pass::user, 0, key);
                 for (int i = 0; i < count; ++i) {
-                    const Vec2 p = detail::spread(pattern, i, key, next_2d(stream));
+                    const Vec2 p =
+                        detail::spread(pattern, i, test_seed(key), next_2d(stream));
                     const int x = std::min(19, int(p.x * 20)),
                               y = std::min(19, int(p.y * 20));
                     ++together[std::size_t(20 * y + x)];
@@ -238,10 +243,11 @@ TEST_CASE("sampling_pattern: neighbouring pixels do not repeat each other") {
         int equal = 0;
         double before = 0;
         for (std::uint64_t key = 0; key <= 4000; ++key) {
-            RandomStream stream = random_stream(2, Pass::user, 0, key);
+            RandomStream stream = random_stream(test_seed(2), Pass::user, 0, key);
             double sum = -13.0 / 4; // the mean of a product is 1/4
             for (int i = 0; i < 13; ++i) {
-                const auto p = detail::spread(pattern, i, key, next_2d<double>(stream));
+                const auto p =
+                    detail::spread(pattern, i, test_seed(key), next_2d<double>(stream));
                 sum += p.x * p.y;
             }
             equal += sum * before > 0;
