@@ -62,7 +62,7 @@ L printed(RoughModel model, L rho, L sigma, const Angles& at) {
             (1 - std::abs(std::cos(at.phi))) * c3 * std::tan((alpha + beta) / 2);
         const L twice = 0.17L * s2 / (s2 + 0.13L) *
                         (1 - std::cos(at.phi) * std::pow(2 * beta / pi, 2));
-        return rho * once + rho * rho * twice;
+        return std::max(L(0), rho * once + rho * rho * twice); // cut off at 0
     }
     case RoughModel::fujii:
         return rho * (a + 0.17L * rho * s2 / (s2 + 0.13L) + b * s / t);

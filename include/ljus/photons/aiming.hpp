@@ -233,7 +233,7 @@ aim(const S& scene, const LightChoice& choice, std::span<const ObjectId> targets
         pdf = seen.pdf;
     }
     pdf *= at.size / aimed->sum; // of the choice
-    if (!(pdf < std::numeric_limits<T>::infinity())) return std::nullopt; // edge-on
+    if (!(pdf > T(0) && std::isfinite(pdf))) return std::nullopt; // edge-on, or at it
     const T emitted = detail::emitted_share(light, point, direction);
     if (!(emitted > T(0))) return std::nullopt;
     photon.flux = light.flux * (emitted / (pdf * chosen.probability));
