@@ -56,7 +56,7 @@ ljus_break_it(NAME photon-map-kinds HEADER photons/density_estimate.hpp TEST pho
 
 # 0/0 where all photons lie in one point.
 ljus_break_it(NAME photon-map-one-point HEADER photons/density_estimate.hpp TEST photon_map
-    FROM "if (!(radius2 > 1e-30)) return RgbT<T>{T(0)};"
+    FROM "if (!(radius2 > 1e-30 * widest2)) return RgbT<T>{T(0)};"
     TO   ""
     CASES "photon_map: photons that all*")
 
