@@ -275,7 +275,7 @@ TEST_CASE_TEMPLATE("mixture: what is sampled and no delta has a density above 0"
         MixtureT<T> m{.color = draws.cube<T>(),
                       .index = draws.between(T(1), T(3)),
                       .specularity = draws.unit<T>()};
-        if (i % 2) m.color *= tiny;
+        if (i % 2) m.color *= T(8) * tiny;
         if (i % 3) m.transparency = one;
         if (i % 5) m.reflectivity = i % 10 < 5 ? one : draws.unit<T>();
         auto u = draws.cube<T>();

@@ -67,9 +67,3 @@ ljus_break_it(NAME triangle-no-area-rounded HEADER geometry/triangle.hpp TEST tr
     FROM "bound * (std::abs(p) + std::abs(q))"
     TO   "0 * bound"
     CASES "triangle: no area in data*")
-
-# A border of up to 1/128 of a sliver: what lies beside it is hit.
-ljus_break_it(NAME triangle-wide-border HEADER geometry/triangle.hpp TEST triangle
-    FROM "C(std::numeric_limits<T>::epsilon())"
-    TO   "C(1) / C(128)"
-    CASES "triangle: a hit does not lie beside*")
