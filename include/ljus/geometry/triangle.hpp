@@ -150,7 +150,6 @@ template <std::floating_point T>
 /// another, or none if it is fused with the subtraction: together 3 units of roundoff.
 /// \param a, b  The edges, in double; lengths between 1e-150 and 1e150.
 /// \return False for parallel ones, and for those whose sine is below 1e-15.
-// [span_area]
 template <std::floating_point W>
 [[nodiscard]] bool span_area(const Vec3T<W>& a, const Vec3T<W>& b) noexcept {
     constexpr W bound = W(1.75) * std::numeric_limits<W>::epsilon();
@@ -160,7 +159,6 @@ template <std::floating_point W>
     return differ(a.y * b.z, a.z * b.y) || differ(a.z * b.x, a.x * b.z) ||
            differ(a.x * b.y, a.y * b.x);
 }
-// [span_area]
 
 /// Whether a triangle has an area: see span_area().
 /// \param triangle  Any triangle.
