@@ -153,7 +153,9 @@ void draw_patterns(const std::string& folder) {
             const examples::Pen thin{.color = "#80808060", .width = 0.8};
             const bool cells = column == 1 ? row == 0 : column == 2;
             const int columns = pattern.strata.columns;
-            for (int i = 1; cells && i < columns; ++i)
+            // With a broken row the columns are of two widths, and begin anywhere.
+            const bool whole = columns * pattern.strata.rows == count;
+            for (int i = 1; cells && whole && i < columns; ++i)
                 draw_line(drawing,
                           {at(double(i) / columns, 0), at(double(i) / columns, 1)},
                           thin);

@@ -23,6 +23,7 @@
 #include "support/ball_caustic.hpp"
 #include "support/mean.hpp"
 #include "support/photon_samples.hpp"
+#include "support/within.hpp"
 
 using namespace ljus;
 using ljus_test::apart;
@@ -175,7 +176,7 @@ TEST_CASE("caustics: the estimate is the kernel's mean of the closed form") {
         // Away from the fold it is the ratio of areas itself.
         const double exact = ball.irradiance(places[i]);
         CAPTURE(exact);
-        CHECK(right[i] == doctest::Approx(exact).epsilon(0.08));
+        CHECK(right[i] == ljus_test::within(exact, 0.08));
     }
 }
 
@@ -448,7 +449,7 @@ TEST_CASE("caustics: 0, 1, k - 1 and k photons, and a radius larger than the roo
         const DensityEstimateSettings all{.radius = 1e6f, .kernel = Kernel::box};
         // Everything, over the area that was asked for.
         CHECK(irradiance(map, {0, -1, 0}, all) ==
-              doctest::Approx(power(photons) / (pi * 1e12)).epsilon(1e-5));
+              ljus_test::within(power(photons) / (pi * 1e12), 1e-5));
         // Fewer than k are that, too; of k the farthest sets the radius.
         DensityEstimateSettings nearest = all;
         nearest.nearest = 5;
@@ -464,9 +465,9 @@ TEST_CASE("caustics: 0, 1, k - 1 and k photons, and a radius larger than the roo
                 farthest = d;
                 flux_there = double(photon.flux.x);
             }
-            CHECK(found == doctest::Approx((power(photons) - flux_there) /
-                                           (pi * farthest * farthest))
-                               .epsilon(1e-4));
+            CHECK(found == ljus_test::within((power(photons) - flux_there) /
+                                                 (pi * farthest * farthest),
+                                             1e-4));
         }
         // The largest float that check() lets pass.
         const DensityEstimateSettings huge{.radius = 3e38f};

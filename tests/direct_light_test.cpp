@@ -7,6 +7,7 @@
 #include "ljus/scene/make_scene.hpp"
 #include "support/mean.hpp"
 #include "support/rooms.hpp"
+#include "support/within.hpp"
 
 using namespace ljus;
 using namespace ljus_test;
@@ -108,7 +109,7 @@ TEST_CASE("direct light: two lamps are added, not averaged") {
     const double one = direct(room, ray, Lambertian{}, 1, counts).mean;
     room.add(PointLight{.position{0, 2, 0}, .intensity = Rgb{3}});
     CHECK(direct(room, ray, Lambertian{}, 1, counts).mean ==
-          doctest::Approx(4 * one).epsilon(1e-6));
+          ljus_test::within(4 * one, 1e-6));
 }
 
 TEST_CASE("direct light: what stands between hides the light, glass and mirrors too") {
@@ -126,7 +127,7 @@ TEST_CASE("direct light: what stands between hides the light, glass and mirrors 
         for (const Vec3 center : {Vec3{0, 6, 0}, Vec3{1, 2, 0}}) {
             std::get<0>(room.shapes)[0].center = center;
             CHECK(direct(room, ray, Lambertian{}, 10, counts).mean ==
-                  doctest::Approx(0.5 / pi / 25).epsilon(1e-5));
+                  ljus_test::within(0.5 / pi / 25, 1e-5));
         }
     }
 }
@@ -169,7 +170,7 @@ TEST_CASE("direct light: within a medium it is absorbed along the way") {
     Counts counts;
     const double clear = direct(room, ray, Lambertian{}, 1, counts).mean;
     const double dim = direct(room, ray, Lambertian{}, 1, counts, Rgb{0.7f}).mean;
-    CHECK(dim == doctest::Approx(clear * std::exp(-1.4)).epsilon(1e-5));
+    CHECK(dim == ljus_test::within(clear * std::exp(-1.4), 1e-5));
 }
 
 TEST_CASE("direct light: every factor once, in colours, from both sides") {
@@ -224,10 +225,10 @@ TEST_CASE("direct light: a pane in the way takes its part, a wall all of it") {
     const QuadT<double> higher{{-1, 1.5, 1}, {2, 0, 0}, {0, 0, -2}};
     // Head on R = 0.04 at each boundary; all turns within: T = (1 - R) / (1 + R).
     const double open = 0.5 / pi * 8 / 4, t = 0.96 / 1.04;
-    CHECK(lit() == doctest::Approx(open).epsilon(1e-9));
-    CHECK(lit(placed(across, glass)) == doctest::Approx(t * open).epsilon(1e-9));
+    CHECK(lit() == ljus_test::within(open, 1e-9));
+    CHECK(lit(placed(across, glass)) == ljus_test::within(t * open, 1e-9));
     CHECK(lit(placed(across, glass), placed(higher, glass)) ==
-          doctest::Approx(t * t * open).epsilon(1e-9));
+          ljus_test::within(t * t * open, 1e-9));
     CHECK(lit(placed(across, glass), placed(higher, LambertianT<double>{})) == 0);
     CHECK(lit(placed(across, LambertianT<double>{})) == 0);
 }

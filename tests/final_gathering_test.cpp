@@ -7,6 +7,7 @@
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/scenes/furnaces.hpp"
 #include "support/mean.hpp"
+#include "support/within.hpp"
 
 using namespace ljus;
 using namespace ljus_test;
@@ -150,7 +151,7 @@ TEST_CASE("final gathering: a radius from the photons") {
     const PhotonMap map = even_photons(50000, 3);
     for (const std::size_t k : {8u, 32u, 200u})
         CHECK(double(typical_radius(map, k)) ==
-              doctest::Approx(std::sqrt(double(k) / (pi * 50000))).epsilon(0.05));
+              ljus_test::within(std::sqrt(double(k) / (pi * 50000)), 0.05));
     CHECK(typical_radius(PhotonMap{}, 32) == 1);
     CHECK(typical_radius(even_photons(1, 1), 32) == 1);
     CHECK(typical_radius(make_photon_map(std::vector<Photon>(40)), 32) == 1);

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
@@ -8,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "ljus/math/frame.hpp"
+#include "support/draws.hpp"
 
 using namespace ljus;
 
@@ -98,4 +100,35 @@ TEST_CASE("frame: the local z axis is the normal") {
     CHECK(to_local(frame, n).z == doctest::Approx(1.0f));
     CHECK(to_local(frame, n).x == doctest::Approx(0.0f));
     CHECK(to_local(frame, n).y == doctest::Approx(0.0f));
+}
+
+TEST_CASE_TEMPLATE("frame: orthonormal within the units that the doc names", T, float,
+                   double) {
+    // In long double, of normals all around, and of such with a small x.
+    using L = long double;
+    ljus_test::Draws draws{59};
+    const auto dot = [](const Vec3T<T>& a, const Vec3T<T>& b) {
+        return L(a.x) * L(b.x) + L(a.y) * L(b.y) + L(a.z) * L(b.z);
+    };
+    L length[2] = {}, product[2] = {};
+    for (int i = 0; i < 400000; ++i) {
+        auto n = draws.direction<T>();
+        const int kind = i % 2;
+        if (kind == 1) {
+            if (i % 4 == 1) n.x *= std::pow(T(10), draws.between(T(-8), T(0)));
+            n = glm::normalize(draws.between(T(1), T(2)) * n);
+        }
+        const FrameT<T> f = frame_around(n);
+        const L unit = std::numeric_limits<T>::epsilon() / 2;
+        for (const auto* v : {&f.tangent, &f.bitangent})
+            length[kind] =
+                std::max(length[kind], std::abs(std::sqrt(dot(*v, *v)) - 1) / unit);
+        for (const L p : {dot(f.tangent, f.bitangent), dot(f.tangent, f.normal),
+                          dot(f.bitangent, f.normal)})
+            product[kind] = std::max(product[kind], std::abs(p) / unit);
+    }
+    CHECK(length[0] < 2);
+    CHECK(product[0] < 4);
+    CHECK(length[1] < 3);
+    CHECK(product[1] < 8);
 }

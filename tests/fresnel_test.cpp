@@ -109,3 +109,21 @@ TEST_CASE("fresnel: Schlick's curve depends on the ratio of the indices alone") 
                   doctest::Approx(ljus::schlick_dielectric(c, 1.0, 1.5)));
         }
 }
+
+TEST_CASE_TEMPLATE("fresnel: a share of light for all indices of its range", T, float,
+                   double) {
+    Draws draws{53};
+    int wrong = 0;
+    for (int i = 0; i < 200000; ++i) {
+        const auto index = [&](int k) {
+            if (i % 5 == k) return T(i % 2 ? 1e-9 : 1e9); // its ends
+            return T(std::pow(10.0, draws.between(-9.0, 9.0)));
+        };
+        const T n_i = index(0), n_t = index(1);
+        const T c = i % 3 ? draws.unit<T>() : T(i % 2);
+        for (const T r : {fresnel(c, n_i, n_t), ljus::schlick_dielectric(c, n_i, n_t),
+                          ljus::schlick_r0(n_i, n_t)})
+            wrong += !(r >= 0 && r <= 1);
+    }
+    CHECK(wrong == 0);
+}

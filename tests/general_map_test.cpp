@@ -19,6 +19,7 @@
 #include "support/mean.hpp"
 #include "support/photon_samples.hpp"
 #include "support/rooms.hpp"
+#include "support/within.hpp"
 
 using namespace ljus;
 using namespace ljus_test;
@@ -168,8 +169,8 @@ TEST_CASE("general map: direct and indirect photons of a box are its radiosity")
     for (std::size_t i = 0; i < 24; ++i) {
         direct[i] = (4 * direct_18[i] - direct_9[i]) / 3; // the error falls with h^2
         total[i] = (4 * total_18[i] - total_9[i]) / 3;
-        CHECK(direct_18[i] == doctest::Approx(direct[i]).epsilon(0.002));
-        CHECK(total_18[i] == doctest::Approx(total[i]).epsilon(0.004));
+        CHECK(direct_18[i] == ljus_test::within(direct[i], 0.002));
+        CHECK(total_18[i] == ljus_test::within(total[i], 0.004));
     }
     for (const bool turned : {false, true}) {
         const RoomT<float> scene = box_scene(turned);
@@ -538,7 +539,7 @@ TEST_CASE("general map: variance falls with 1/(N r^2), bias^2 grows with r^4, an
         log_best.push_back(std::log(best));
     }
     for (const double value : scaled_variance)
-        CHECK(value == doctest::Approx(scaled_variance.front()).epsilon(0.35));
+        CHECK(value == ljus_test::within(scaled_variance.front(), 0.35));
     CHECK(slope(log_number, log_best) == doctest::Approx(-2.0 / 3).epsilon(0.1));
 }
 

@@ -141,7 +141,6 @@ TEST_CASE_TEMPLATE("stratified stream: in each draw each ray of a pixel has a ce
                    T, float, double) {
     for (const int rays : {1, 2, 5, 10, 16, 37, 64, 1000}) {
         const Pattern pattern = make_pattern(Sampling::multi_jittered, rays);
-        const int columns = pattern.strata.columns * pattern.strata.rows;
         std::vector<std::set<int>> lines(6), across(6), up(6);
         for (int ray = 0; ray < rays; ++ray) {
             StratifiedStream stream;
@@ -153,7 +152,7 @@ TEST_CASE_TEMPLATE("stratified stream: in each draw each ray of a pixel has a ce
                 REQUIRE(
                     (x >= 0 && x < 1 && u.x >= 0 && u.x < 1 && u.y >= 0 && u.y < 1));
                 lines[draw].insert(static_cast<int>(double(x) * rays));
-                across[draw].insert(static_cast<int>(double(u.x) * columns));
+                across[draw].insert(static_cast<int>(double(u.x) * rays));
                 up[draw].insert(static_cast<int>(double(u.y) * rays));
             }
         }

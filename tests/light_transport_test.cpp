@@ -16,6 +16,7 @@
 #include "ljus/scenes/cornell_box.hpp"
 #include "ljus/scenes/furnaces.hpp"
 #include "support/numbers.hpp"
+#include "support/within.hpp"
 
 using namespace ljus;
 using doctest::Approx;
@@ -199,9 +200,9 @@ TEST_CASE("light_transport: in a furnace each bounce has its power of the albedo
         Rgb mean{0};
         for (const Rgb& c : image.pixels) mean += c / 256.0f;
         CAPTURE(bounce);
-        CHECK(double(mean.x) == Approx(std::pow(0.9, bounce)).epsilon(0.19));
-        CHECK(double(mean.y) == Approx(std::pow(0.5, bounce)).epsilon(0.19));
-        CHECK(double(mean.z) == Approx(std::pow(0.1, bounce)).epsilon(0.19));
+        CHECK(double(mean.x) == ljus_test::within(std::pow(0.9, bounce), 0.19));
+        CHECK(double(mean.y) == ljus_test::within(std::pow(0.5, bounce), 0.19));
+        CHECK(double(mean.z) == ljus_test::within(std::pow(0.1, bounce), 0.19));
         words += "D";
     }
 }

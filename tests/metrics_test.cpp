@@ -8,6 +8,7 @@
 
 #include "ljus/inspect/bias_variance.hpp"
 #include "ljus/inspect/metrics.hpp"
+#include "support/within.hpp"
 
 namespace {
 
@@ -70,8 +71,8 @@ TEST_CASE("metrics: blocks of 10 x 10 weaken independent noise by 100") {
     // degree: 6 sqrt(2 / 1200) = 0.24.
     const ImageD r = ljus::make_image<double>(200, 200, RgbD(1.0));
     const ImageD x = noisy(200, 200, 1.0, 0.5, 1);
-    CHECK(ljus::rel_mse(x, r) == Approx(0.25 / 1.01).epsilon(0.02));
-    CHECK(ljus::block_error(x, r) == Approx(0.0025 / 1.01).epsilon(0.24));
+    CHECK(ljus::rel_mse(x, r) == ljus_test::within(0.25 / 1.01, 0.025));
+    CHECK(ljus::block_error(x, r) == ljus_test::within(0.0025 / 1.01, 0.24));
 }
 
 TEST_CASE("metrics: a partial block takes the mean of the pixels it has") {
@@ -134,7 +135,8 @@ TEST_CASE("metrics: bias and variance of runs with known ones") {
     for (const ImageD& run : runs)
         mse +=
             std::pow(ljus::rmse(run, ljus::make_image<double>(100, 100, RgbD(1.0))), 2);
-    CHECK(measured.variance + measured.bias_squared == Approx(mse / 16).epsilon(1e-9));
+    CHECK(measured.variance + measured.bias_squared ==
+          ljus_test::within(mse / 16, 1e-9));
 }
 
 TEST_CASE("metrics: large numbers are summed in double") {

@@ -264,3 +264,28 @@ TEST_CASE("mixture: every slider outside its range is refused by name and value"
     CHECK(refusal(Mixture{.sigma = -1}).find("mixture.sigma") == 0);
     CHECK(refusal(Mixture{.absorption = {0, 0, -1}}).find("mixture.absorption") == 0);
 }
+
+TEST_CASE_TEMPLATE("mixture: what is sampled and no delta has a density above 0", T,
+                   float, double) {
+    // Hardest beside a gloss that takes nearly all, with a colour that is nearly 0.
+    Draws draws{47};
+    const T tiny = std::numeric_limits<T>::min(), one = std::nextafter(T(1), T(0));
+    int matt = 0, without = 0;
+    for (int i = 0; i < 200000; ++i) {
+        MixtureT<T> m{.color = draws.cube<T>(),
+                      .index = draws.between(T(1), T(3)),
+                      .specularity = draws.unit<T>()};
+        if (i % 2) m.color *= T(8) * tiny;
+        if (i % 3) m.transparency = one;
+        if (i % 5) m.reflectivity = i % 10 < 5 ? one : draws.unit<T>();
+        auto u = draws.cube<T>();
+        u.z = i % 7 ? T(0) : u.z;
+        const auto wo = draws.above<T>();
+        const auto s = sample(m, wo, u, Transport::radiance);
+        if (!s || s->specular) continue;
+        ++matt;
+        without += !(s->pdf > 0) || !(pdf(m, wo, s->wi) > 0);
+    }
+    CHECK(matt > 10000);
+    CHECK(without == 0);
+}

@@ -191,3 +191,17 @@ TEST_CASE("oren_nayar: what is no angle is refused by name and value") {
     CHECK(refusal(OrenNayar{.sigma = NAN}).find("oren_nayar.sigma is NaN") == 0);
     CHECK(refusal(OrenNayar{.albedo = {1, 1, 2}}).find("oren_nayar.albedo") == 0);
 }
+
+TEST_CASE_TEMPLATE("oren_nayar: finite where both directions are on the horizon", T,
+                   float, double) {
+    const T least = std::numeric_limits<T>::denorm_min();
+    for (const T a : {least, T(3) * least, std::numeric_limits<T>::min(), T(1e-30)})
+        for (const T b : {least, T(5) * least, T(1e-20)}) {
+            const Vec3T<T> wo{T(1), T(0), a}, wi{T(1), T(0), b}, back{T(-1), T(0), b};
+            const ljus::OrenNayarT<T> m{.sigma = T(1)};
+            // A lamp of 1e20 W/(m^2 sr) is still a number.
+            CHECK(std::isfinite(evaluate(m, wo, wi).x * T(1e20)));
+            CHECK(evaluate(m, wo, wi).x > 0);
+            CHECK(std::isfinite(evaluate(m, wo, back).x));
+        }
+}

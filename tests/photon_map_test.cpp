@@ -306,6 +306,10 @@ TEST_CASE("photon_map: photons that all lie in one point give no NaN") {
     const auto map = ljus::make_photon_map(photons);
     // At the point itself the k-th distance is 0: no area, no estimate.
     CHECK(estimate(map, {.radius = 1, .nearest = 5}) == Rgb{0});
+    // Nor is there one so near to the point that no float holds what it says.
+    for (Photon& photon : photons) photon.position.x = 1e-20f;
+    CHECK(estimate(ljus::make_photon_map(photons), {.radius = 1, .nearest = 5}) ==
+          Rgb{0});
     // With more room than photons, the radius that was asked for is the disc.
     const double one = double(matt.albedo.x) / std::numbers::pi / std::numbers::pi;
     CHECK(
@@ -622,10 +626,17 @@ TEST_CASE("photon_map: a way to gather that gives no estimate is refused") {
         CHECK_THROWS_AS(ljus::check(DensityEstimateSettings{.thickness = bad}),
                         std::invalid_argument);
     }
-    CHECK_THROWS_WITH(ljus::check(DensityEstimateSettings{.radius = 0}),
-                      "gather.radius is 0; it must be finite and above 0.");
+    CHECK_THROWS_WITH(
+        ljus::check(DensityEstimateSettings{.radius = 0}),
+        "gather.radius is 0; it must be within [1e-15, 1e15], or no float "
+        "holds the radiance.");
     CHECK_THROWS_WITH(ljus::check(DensityEstimateSettings{.radius = nan}),
-                      "gather.radius is NaN; it must be finite and above 0.");
+                      "gather.radius is NaN; it must be within [1e-15, 1e15], or no "
+                      "float holds the radiance.");
+    CHECK_THROWS_AS(ljus::check(DensityEstimateSettings{.radius = 1e-30f}),
+                    std::invalid_argument);
+    CHECK_NOTHROW(ljus::check(DensityEstimateSettings{.radius = 1e-15f}));
+    CHECK_NOTHROW(ljus::check(DensityEstimateSettings{.radius = 1e15f}));
     for (const std::size_t bad : {std::size_t(1), std::size_t(513)})
         CHECK_THROWS_AS(ljus::check(DensityEstimateSettings{.nearest = bad}),
                         std::invalid_argument);

@@ -9,6 +9,7 @@
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/render.hpp"
 #include "support/rooms.hpp"
+#include "support/within.hpp"
 
 using namespace ljus;
 using namespace ljus_test;
@@ -97,8 +98,7 @@ TEST_CASE("render: the rays of a pixel are spread as the picture says") {
         return sum / 400;
     };
     const double chance = error(Sampling::random);
-    CHECK(chance ==
-          doctest::Approx(std::sqrt(std::atan(1) * 2 / 12 / 61)).epsilon(0.1));
+    CHECK(chance == ljus_test::within(std::sqrt(std::atan(1) * 2 / 12 / 61), 0.1));
     // Rooks stand evenly along both sides, which is all that this mean asks for.
     CHECK(error(Sampling::jittered) < 0.05 * chance);
     CHECK(error(Sampling::multi_jittered) < 0.15 * chance);

@@ -62,7 +62,7 @@ L printed(RoughModel model, L rho, L sigma, const Angles& at) {
             (1 - std::abs(std::cos(at.phi))) * c3 * std::tan((alpha + beta) / 2);
         const L twice = 0.17L * s2 / (s2 + 0.13L) *
                         (1 - std::cos(at.phi) * std::pow(2 * beta / pi, 2));
-        return rho * once + rho * rho * twice;
+        return std::max(L(0), rho * once + rho * rho * twice); // cut off at 0
     }
     case RoughModel::fujii:
         return rho * (a + 0.17L * rho * s2 / (s2 + 0.13L) + b * s / t);
@@ -168,4 +168,43 @@ TEST_CASE("rough_diffuse: what is no albedo and no roughness is refused") {
     CHECK(refusal(RoughDiffuse{.sigma = 2, .model = RoughModel::full}).empty());
     CHECK(refusal(RoughDiffuse{.sigma = -1, .model = RoughModel::full})
               .find("rough_diffuse.sigma") == 0);
+}
+
+TEST_CASE_TEMPLATE("rough_diffuse: light is never negative, and finite down to the "
+                   "horizon",
+                   T, float, double) {
+    // Grazing and opposed, where the model of 1994 is below 0; and cosines of which the
+    // smallest numbers are made.
+    Draws draws{37};
+    const double least = sizeof(T) == 4 ? -45 : -320;
+    int negative = 0, endless = 0, cut = 0;
+    for (const RoughModel model : models)
+        for (int i = 0; i < 40000; ++i) {
+            const auto at = [&](T cosine, double phi) {
+                const T sine = std::sqrt((T(1) - cosine) * (T(1) + cosine));
+                return Vec3T<T>{sine * T(std::cos(phi)), sine * T(std::sin(phi)),
+                                cosine};
+            };
+            const auto small = [&] {
+                return T(std::pow(10.0, draws.between(i % 2 ? least : -4.0, 0.0)));
+            };
+            const double turn = i % 3 ? 3.141592653589793 : draws.between(0.0, 6.28);
+            const double phi = draws.between(0.0, 6.28);
+            const Vec3T<T> wo = at(small(), phi), wi = at(small(), phi + turn);
+            const T sigma = i % 5 ? draws.between(T(0), T(1)) : T(1);
+            const RoughDiffuseT<T> m{ljus::RgbT<T>{T(0.1)}, sigma, model};
+            const T weight = ljus::detail::rough_weight(m, wo, wi).x;
+            const T f = evaluate(m, wo, wi).x;
+            negative += weight < 0 || f < 0;
+            endless += !std::isfinite(weight) || !std::isfinite(f);
+            cut += model == RoughModel::full && weight == 0;
+        }
+    CHECK(negative == 0);
+    CHECK(endless == 0);
+    CHECK(cut > 1000); // so that the hard place was found
+    // How far it is below 0 where it is: as the doc text says.
+    const Vec3T<T> wo{T(1), T(0), T(0.001)}, wi{T(-1), T(0), T(0.001)};
+    const auto raw = ljus::detail::rough_full(T(1), wo, wi);
+    CHECK(double(raw.single + T(0.1) * raw.twice) ==
+          doctest::Approx(-0.134).epsilon(0.02));
 }

@@ -16,10 +16,12 @@
 #include <vector>
 
 #include "support/numbers.hpp"
+#include "support/seed.hpp"
 
 using namespace ljus;
 using ljus_test::chi_square;
 using ljus_test::chi_square_limit;
+using ljus_test::test_seed;
 
 namespace {
 
@@ -59,14 +61,14 @@ Errors errors(Sampling sampling, int count, int keys = 400) {
     const double exact = (std::numbers::e - 1) / 2 + 0.25; // of e^x y + x y
     Errors sum;
     for (std::uint64_t key = 0; key < std::uint64_t(keys); ++key) {
-        RandomStream stream = random_stream(5, Pass::user, 0, key);
+        RandomStream stream = random_stream(test_seed(5), Pass::user, 0, key);
         const double angle = 2 * std::numbers::pi * next_1d<double>(stream);
         const double offset = 0.6 * (next_1d<double>(stream) - 0.5);
         const double c = std::cos(angle), s = std::sin(angle);
         double smooth = 0, below = 0;
         for (int i = 0; i < count; ++i) {
             const Vec2T<double> p =
-                detail::spread(pattern, i, key, next_2d<double>(stream));
+                detail::spread(pattern, i, test_seed(key), next_2d<double>(stream));
             smooth += (std::exp(p.x) + p.x) * p.y;
             below += (p.x - 0.5) * c + (p.y - 0.5) * s < offset;
         }
@@ -110,25 +112,71 @@ TEST_CASE_TEMPLATE("sampling_pattern: any count has its points, within the pixel
         }
 }
 
-TEST_CASE("sampling_pattern: multi-jittered, each count: one point in each of n rows, "
-          "no two in one of the columns' parts, and a grid of cells") {
-    for (int count = 1; count <= 400; ++count) {
+TEST_CASE(
+    "sampling_pattern: multi-jittered with any count: one point in each of n strips "
+    "of x and of y, and a grid of cells") {
+    std::vector<int> counts(400);
+    for (int i = 0; i < 400; ++i) counts[std::size_t(i)] = i + 1;
+    for (const int more : {997, 1000, 1009, 4095, 4096, 4097, 65537})
+        counts.push_back(more);
+    for (const int count : counts) {
         const Pattern pattern = make_pattern(Sampling::multi_jittered, count);
         const int m = pattern.strata.columns, n = pattern.strata.rows;
         CAPTURE(count);
-        REQUIRE((m * m <= count && (m + 1) * (m + 1) > count)); // as square as can be
         REQUIRE((m * n >= count && m * (n - 1) < count));
-        std::vector<int> fine_x(static_cast<std::size_t>(m * n)),
-            fine_y(static_cast<std::size_t>(count)), cells(fine_x.size());
-        for (int i = 0; i < count; ++i) {
-            const auto p = detail::spread(pattern, i, 42, Vec2T<double>{0.5});
-            ++fine_x[std::size_t(p.x * m * n)];
-            ++fine_y[std::size_t(p.y * count)];
-            ++cells[std::size_t(int(p.y * count) / m * m + int(p.x * m))];
+        REQUIRE((m <= n && n <= 2 * m + 2)); // not far from square
+        for (const std::uint64_t key : {42u, 43u, 44u}) {
+            std::vector<int> of_x(std::size_t(count), -1), of_y = of_x;
+            for (int i = 0; i < count; ++i) {
+                const auto p = detail::spread(pattern, i, key, Vec2T<double>{0.5});
+                // In the middle of its strip, so that no rounding can move it out.
+                int& column = of_x[std::size_t(p.x * count)];
+                int& row = of_y[std::size_t(p.y * count)];
+                REQUIRE((column == -1 && row == -1)); // so that each has one
+                column = row = i;
+            }
+            // The m points of a row of cells stand in m columns: the next one is never
+            // farther than two columns.
+            for (int row = 0; row * m + m <= count; ++row) {
+                int gap = 0, worst = 0, seen = 0;
+                for (int x = 0; x < 2 * count; ++x) {
+                    const bool here = of_x[std::size_t(x % count)] / m == row;
+                    seen += here;
+                    gap = here ? 0 : gap + 1;
+                    worst = std::max(worst, gap);
+                }
+                REQUIRE((seen == 2 * m && worst <= 2 * n));
+                if (count > 400) break; // one row will do
+            }
         }
-        REQUIRE(*std::max_element(fine_x.begin(), fine_x.end()) == 1);
-        REQUIRE(*std::min_element(fine_y.begin(), fine_y.end()) == 1);
-        REQUIRE(*std::max_element(cells.begin(), cells.end()) == 1);
+    }
+    // A grid without a remainder where one is near to a square.
+    const auto cells = [](int count) {
+        const auto strata = make_pattern(Sampling::multi_jittered, count).strata;
+        return std::array<int, 2>{strata.columns, strata.rows};
+    };
+    CHECK(cells(32) == std::array<int, 2>{4, 8});
+    CHECK(cells(200) == std::array<int, 2>{10, 20});
+    CHECK(cells(1000) == std::array<int, 2>{25, 40});
+    CHECK(cells(61) == std::array<int, 2>{7, 9}); // a prime: 5 of 7 in the last row
+}
+
+TEST_CASE(
+    "sampling_pattern: multi-jittered with a broken row: a strip holds each row as "
+    "often as any other does") {
+    // Over the keys, each strip of x with each strip of y: else a mean would be off.
+    for (const int count : {5, 7, 11, 13}) {
+        const Pattern pattern = make_pattern(Sampling::multi_jittered, count);
+        std::vector<int> pairs(std::size_t(count * count));
+        for (std::uint64_t key = 0; key < 60000; ++key)
+            for (int i = 0; i < count; ++i) {
+                const auto p =
+                    detail::spread(pattern, i, test_seed(key), Vec2T<double>{0.5});
+                ++pairs[std::size_t(p.x * count) * std::size_t(count) + std::size_t(i)];
+            }
+        CAPTURE(count);
+        // A table with all sums of rows and columns fixed has (n - 1)^2 degrees.
+        CHECK(chi_square(pairs) < chi_square_limit((count - 1) * (count - 1)));
     }
 }
 
@@ -158,9 +206,10 @@ TEST_CASE("sampling_pattern: each point is uniform over the pixels, and all toge
             const Pattern pattern = make_pattern(sampling, count);
             std::vector<int> together(400), last(400);
             for (std::uint64_t key = 0; key < 40000; ++key) {
-                RandomStream stream = random_stream(1, Pass::user, 0, key);
+                RandomStream stream = random_stream(test_seed(1), Pass::user, 0, key);
                 for (int i = 0; i < count; ++i) {
-                    const Vec2 p = detail::spread(pattern, i, key, next_2d(stream));
+                    const Vec2 p =
+                        detail::spread(pattern, i, test_seed(key), next_2d(stream));
                     const int x = std::min(19, int(p.x * 20)),
                               y = std::min(19, int(p.y * 20));
                     ++together[std::size_t(20 * y + x)];
@@ -194,10 +243,11 @@ TEST_CASE("sampling_pattern: neighbouring pixels do not repeat each other") {
         int equal = 0;
         double before = 0;
         for (std::uint64_t key = 0; key <= 4000; ++key) {
-            RandomStream stream = random_stream(2, Pass::user, 0, key);
+            RandomStream stream = random_stream(test_seed(2), Pass::user, 0, key);
             double sum = -13.0 / 4; // the mean of a product is 1/4
             for (int i = 0; i < 13; ++i) {
-                const auto p = detail::spread(pattern, i, key, next_2d<double>(stream));
+                const auto p =
+                    detail::spread(pattern, i, test_seed(key), next_2d<double>(stream));
                 sum += p.x * p.y;
             }
             equal += sum * before > 0;

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -13,7 +14,9 @@
 #include <vector>
 
 #include "support/draws.hpp"
+#include "support/seed.hpp"
 #include "support/statistics.hpp"
+#include "support/within.hpp"
 
 using ljus::Vec2T, ljus::Vec3T;
 using ljus_test::Draws;
@@ -69,7 +72,7 @@ int failures(double z_low, double z_high, Sample sample, Pdf pdf) {
         }
     int failed = 0;
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
-        Draws draws{seed * 7919 + 1};
+        Draws draws{ljus_test::test_seed(seed * 7919 + 1)};
         std::vector<double> counts(expected.size());
         for (int i = 0; i < count; ++i) {
             const Vec3T<T> d = sample(draws.square<T>());
@@ -127,7 +130,7 @@ TEST_CASE_TEMPLATE("sampling: points of disc and triangle are uniform in area ov
         return index(a) * cells + index(b);
     };
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
-        Draws draws{seed * 104729 + 3};
+        Draws draws{ljus_test::test_seed(seed * 104729 + 3)};
         std::vector<double> disc(cells * cells), triangle(cells * cells);
         for (int i = 0; i < count; ++i) {
             const auto p = ljus::sample_concentric_disc(draws.square<T>());
@@ -248,17 +251,17 @@ TEST_CASE_TEMPLATE("sampling: a cone as narrow as a star's is filled evenly", T,
         CAPTURE(sine);
         const T m = ljus::detail::one_minus_cosine(static_cast<T>(sine * sine));
         const double exact = sine * sine / 2 * (1 + sine * sine / 4);
-        CHECK(double(m) == doctest::Approx(exact).epsilon(4e-7));
+        CHECK(double(m) == ljus_test::within(exact, 4e-7));
         // u.x is the share of the solid angle, so the sine goes as its root.
         for (const double share : {0.0, 0.01, 0.25, 0.81}) {
             const auto d = ljus::sample_uniform_cone(Vec2T<T>{T(share), T(0.125)}, m);
             CHECK(std::sqrt(double(d.x * d.x + d.y * d.y)) ==
-                  doctest::Approx(std::sqrt(share) * sine).epsilon(1e-4));
+                  ljus_test::within(std::sqrt(share) * sine, 1e-4));
             CHECK(std::abs(glm::length(d) - 1) <=
                   2 * std::numeric_limits<T>::epsilon());
         }
         CHECK(double(ljus::pdf_uniform_cone(m)) ==
-              doctest::Approx(1 / (2 * pi * exact)).epsilon(1e-6));
+              ljus_test::within(1 / (2 * pi * exact), 1e-6));
     }
     CHECK(ljus::detail::one_minus_cosine(T(1)) == 1);
     CHECK(ljus::detail::one_minus_cosine(T(0)) == 0);
@@ -273,4 +276,24 @@ TEST_CASE("sampling: the triangle's map keeps neighbours together") {
     }
     static_assert(ljus::sample_uniform_triangle(ljus::Vec2{0.5f, 0.25f}) ==
                   ljus::Vec3{0.375f, 0.125f, 0.5f});
+}
+
+TEST_CASE_TEMPLATE("sampling: a point of the disc has a density, on its border too", T,
+                   float, double) {
+    // The border of the square is that of the disc: there rounding decides.
+    Draws draws{31};
+    const T last = std::nextafter(T(1), T(0));
+    int outside = 0;
+    for (int i = 0; i < 400000; ++i) {
+        auto u = draws.square<T>();
+        const T edge = std::array<T, 4>{T(0), last, draws.unit<T>() * T(1e-6),
+                                        T(1) - draws.unit<T>() * T(1e-6)}[i % 4u];
+        (i % 3 ? u.x : u.y) = std::min(edge, last);
+        const auto p = ljus::sample_concentric_disc(u);
+        outside += !(ljus::pdf_concentric_disc(p) > 0);
+    }
+    CHECK(outside == 0);
+    // Found from outside.
+    CHECK(ljus::pdf_concentric_disc(
+              ljus::sample_concentric_disc(Vec2T<T>{T(0.40372324), T(0)})) > 0);
 }

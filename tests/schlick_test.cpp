@@ -13,6 +13,7 @@ static_assert(ljus::schlick(0.04f, 1.0f) == 0.04f);
 #include <cmath>
 
 #include "ljus/optics/fresnel.hpp"
+#include "support/within.hpp"
 
 namespace {
 
@@ -55,11 +56,11 @@ TEST_CASE("schlick: the largest error against Fresnel is as measured before") {
         CAPTURE(n);
         const auto in = largest(
             1, n, [n](double c) { return ljus::schlick_dielectric(c, 1.0, n); });
-        CHECK(in.error == doctest::Approx(error).epsilon(0.02));
+        CHECK(in.error == ljus_test::within(error, 0.02));
         // From inside the same curve is run through, with the angles of Snell's law.
         const auto out = largest(
             n, 1, [n](double c) { return ljus::schlick_dielectric(c, n, 1.0); });
-        CHECK(out.error == doctest::Approx(error).epsilon(0.02));
+        CHECK(out.error == ljus_test::within(error, 0.02));
     }
     CHECK(largest(1, 1.15, [](double c) {
               return ljus::schlick_dielectric(c, 1.0, 1.15);
@@ -84,8 +85,8 @@ TEST_CASE(
         schlick += 2 * c * ljus::schlick_dielectric(c, 1.0, 1.5) / n;
         fresnel += 2 * c * ljus::fresnel(c, 1.0, 1.5) / n;
     }
-    CHECK(schlick == doctest::Approx(0.0857).epsilon(0.001));
-    CHECK(fresnel == doctest::Approx(0.0918).epsilon(0.001));
+    CHECK(schlick == ljus_test::within(0.0857, 0.001));
+    CHECK(fresnel == ljus_test::within(0.0918, 0.001));
 }
 
 TEST_CASE("schlick: with both cosines at hand it is the same, without a square root") {

@@ -17,6 +17,7 @@
 #include "ljus/render/whitted.hpp"
 #include "ljus/scenes/cornell_box.hpp"
 #include "support/mean.hpp"
+#include "support/within.hpp"
 
 using namespace ljus;
 using ljus_test::Mean;
@@ -257,8 +258,8 @@ TEST_CASE("side_by_side: what maps hold does not know who looks") {
             first_patch = of_patch;
         }
         CHECK(of_map > 0);
-        CHECK(of_map == doctest::Approx(first_map).epsilon(1e-4));
-        CHECK(of_patch == doctest::Approx(first_patch).epsilon(1e-4));
+        CHECK(of_map == ljus_test::within(first_map, 1e-4));
+        CHECK(of_patch == ljus_test::within(first_patch, 1e-4));
     }
 }
 
@@ -299,15 +300,15 @@ TEST_CASE("side_by_side: bias and noise of known sizes add up to relMSE") {
         runs.push_back(run);
     }
     const auto split = examples::relative_split(runs, truth);
-    CHECK(split.bias_squared == doctest::Approx(0.01).epsilon(0.03));
-    CHECK(split.variance == doctest::Approx(0.04).epsilon(0.03));
+    CHECK(split.bias_squared == ljus_test::within(0.01, 0.03));
+    CHECK(split.variance == ljus_test::within(0.04, 0.03));
     double mean = 0;
     for (const Image& run : runs) mean += rel_mse(run, truth) / 40;
-    CHECK(split.bias_squared + split.variance == doctest::Approx(mean).epsilon(1e-9));
+    CHECK(split.bias_squared + split.variance == ljus_test::within(mean, 1e-9));
     // In blocks of 10 x 10 noise has a hundredth of its variance, bias all of it.
     const auto broad = examples::relative_split(runs, truth, 0, 10);
-    CHECK(broad.bias_squared == doctest::Approx(0.01).epsilon(0.1));
-    CHECK(broad.variance == doctest::Approx(0.0004).epsilon(0.3));
+    CHECK(broad.bias_squared == ljus_test::within(0.01, 0.1));
+    CHECK(broad.variance == ljus_test::within(0.0004, 0.3));
     // The noise of a reference is none of the renderer's bias.
     CHECK(examples::relative_split(runs, truth, 0.004).bias_squared ==
           doctest::Approx(split.bias_squared - 0.004));

@@ -15,9 +15,12 @@
 #include <numbers>
 #include <vector>
 
+#include "support/draws.hpp"
 #include "support/numbers.hpp"
+#include "support/within.hpp"
 
 using namespace ljus;
+using ljus_test::Draws;
 using ljus_test::Mean;
 using ljus_test::Numbers;
 
@@ -70,13 +73,12 @@ TEST_CASE_TEMPLATE("solid angle: the cone of a sphere, near, far, tiny and huge"
             CHECK(cone.axis.x == T(0));
             const double allowed = double(u) * (ratio < 1.01 ? 100 : 8);
             CHECK(2 * pi * double(cone.one_minus_cos) ==
-                  doctest::Approx(truth).epsilon(allowed));
+                  ljus_test::within(truth, allowed));
             // And so is the density of every point, for all of the cone.
             Numbers n;
             for (int i = 0; i < 50; ++i) {
                 const auto seen = sample_towards(ball, Vec3T<T>{0}, n.square<T>());
-                REQUIRE(double(seen.pdf) ==
-                        doctest::Approx(1 / truth).epsilon(allowed));
+                REQUIRE(double(seen.pdf) == ljus_test::within(1 / truth, allowed));
             }
         }
 }
@@ -244,7 +246,7 @@ TEST_CASE("solid angle: a surface seen edge-on gives no light, not a wrong one")
     const auto seen = sample_towards(lamp, Vec3{3, 0.25f, 0}, Vec2{0.5f, 0.5f});
     CHECK_FALSE(std::isfinite(seen.pdf));
     const auto on_it = sample_towards(lamp, Vec3{0.5f, 0.5f, 0}, Vec2{0.5f, 0.5f});
-    CHECK_FALSE(std::isfinite(on_it.pdf));
+    CHECK(on_it.pdf == 0); // at the sampled point itself
 }
 
 TEST_CASE("solid angle: what stands for a lamp is its middle, or its nearest point") {
@@ -285,4 +287,26 @@ TEST_CASE("solid angle: a sampled point is where the observer's ray meets the ba
         REQUIRE(std::abs(*t - glm::distance(seen.point.position, from)) <
                 1e-6 * ball.radius);
     }
+}
+
+TEST_CASE_TEMPLATE("solid angle: an observer at the very point that is chosen", T,
+                   float, double) {
+    Draws draws{43};
+    int wrong = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const auto v = draws.cube<T>();
+        const T size = T(std::pow(10.0, draws.between(-3.0, 3.0)));
+        const SphereT<T> ball{.center = T(10) * v, .radius = size};
+        const ljus::TriangleT<T> triangle{size * v, size * draws.cube<T>(),
+                                          size * draws.cube<T>()};
+        const auto u = draws.square<T>();
+        const auto none = [&](const auto& lamp) {
+            const auto point = sample_area(lamp, u);
+            const auto seen = sample_towards(lamp, point.position, u);
+            // Not NaN, and no light either where the way is 0.
+            return seen.pdf >= 0 && pdf_towards(lamp, point.position, point) == 0;
+        };
+        wrong += !none(ball) || !none(triangle);
+    }
+    CHECK(wrong == 0);
 }

@@ -13,10 +13,11 @@
 #include <stdexcept>
 
 #include "ljus/geometry/shape.hpp"
+#include "support/numbers.hpp"
 
-using ljus::Ray;
-using ljus::Sphere;
-using ljus::Vec3;
+using ljus::Ray, ljus::RayT;
+using ljus::Sphere, ljus::SphereT;
+using ljus::Vec3, ljus::Vec3T;
 
 namespace {
 
@@ -253,4 +254,50 @@ TEST_CASE("sphere: the normal points outward and has unit length") {
 TEST_CASE("sphere: the area is 4 pi R^2") {
     CHECK(ljus::area(ljus::SphereT<double>{.radius = 3}) ==
           doctest::Approx(36 * std::numbers::pi).epsilon(1e-15));
+}
+
+TEST_CASE_TEMPLATE(
+    "sphere: both ends of a chord are finite and in order, for every length "
+    "that the arithmetic holds",
+    T, float, double) {
+    // Tangents, where the two are one; and lengths up to the end of the range.
+    ljus_test::Numbers n{23};
+    constexpr bool single = sizeof(T) == 4;
+    const double most = single ? 18 : 150;
+    long hits = 0, wrong = 0;
+    for (int i = 0; i < 200000; ++i) {
+        const double size = i % 2 ? n.power(-2, 2) : n.power(-most, most - 1);
+        const auto center = size * n.point(3);
+        const double radius = size * n.between(0.1, 1);
+        const auto across = n.direction();
+        const auto origin =
+            center + radius * n.power(-0.3, 0.3) * n.direction() + radius * across;
+        auto direction = glm::cross(across, n.direction());
+        const auto touching = center + radius * across;
+        if (i % 3 == 0) direction = touching - origin;
+        if (!(glm::length(direction) > 0)) continue;
+        const double unit = 1 / glm::length(direction);
+        const double other = n.power(-most, most);
+        const bool held = std::abs(std::log10(size * other)) < most;
+        const RayT<T> ray{.origin = Vec3T<T>(origin),
+                          .direction =
+                              Vec3T<T>(unit * direction * (i % 5 && held ? other : 1))};
+        const SphereT<T> sphere{.center = Vec3T<T>(center), .radius = T(radius)};
+        const auto chord = ljus::detail::chord(ray, sphere);
+        if (!chord) continue;
+        ++hits;
+        wrong += !(std::isfinite(chord->enter) && std::isfinite(chord->leave) &&
+                   chord->enter <= chord->leave);
+    }
+    CHECK(hits > 50000);
+    CHECK(wrong == 0);
+    // Beyond it there is no hit, rather than an infinite one.
+    const T far = single ? T(1e19) : T(1e154);
+    for (const T radius : {T(1), far, T(4) * far})
+        for (const T length : {T(1), far}) {
+            const RayT<T> ray{.origin = {-T(8) * far, T(0), T(0)},
+                              .direction = {length, T(0), T(0)}};
+            if (const auto c = ljus::detail::chord(ray, SphereT<T>{.radius = radius}))
+                CHECK((std::isfinite(c->enter) && std::isfinite(c->leave)));
+        }
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "support/numbers.hpp"
+#include "support/seed.hpp"
 
 using namespace ljus;
 using ljus_test::chi_square;
@@ -128,7 +129,8 @@ TEST_CASE_TEMPLATE("stratified: uniform over the pixel, in a grid and with rooks
         const detail::Strata s = detail::strata_for(rays);
         std::vector<int> area(3600), x_only(60), y_only(60);
         for (std::uint64_t pixel = 0; pixel < 400000u / unsigned(rays); ++pixel) {
-            RandomStream stream = random_stream(1, Pass::user, 0, pixel);
+            RandomStream stream =
+                random_stream(ljus_test::test_seed(1), Pass::user, 0, pixel);
             for (int i = 0; i < rays; ++i) {
                 const auto p = detail::stratified(s, i, pixel, next_2d<T>(stream));
                 const int x = std::min(59, int(p.x * 60)),
@@ -151,7 +153,8 @@ TEST_CASE("stratified: an edge through the pixel is seen better than by chance")
         const detail::Strata s = detail::strata_for(rays);
         double strata_error = 0, chance_error = 0;
         for (std::uint64_t pixel = 0; pixel < 2000; ++pixel) {
-            RandomStream stream = random_stream(2, Pass::user, 0, pixel);
+            RandomStream stream =
+                random_stream(ljus_test::test_seed(2), Pass::user, 0, pixel);
             int strata_left = 0, chance_left = 0;
             for (int i = 0; i < rays; ++i) {
                 const Vec2 u = next_2d(stream);

@@ -10,6 +10,7 @@
 #include "ljus/photons/tracing.hpp"
 #include "support/mean.hpp"
 #include "support/rooms.hpp"
+#include "support/within.hpp"
 
 using namespace ljus;
 using namespace ljus_test;
@@ -230,7 +231,7 @@ TEST_CASE("tracing: a caustic has the power that the glass was given") {
             CHECK(std::abs(apart(caustic, 2 * solid, 1e-5)) < 3);
             CHECK(caustic.error() < 1e-3 * caustic.mean);
         } else {
-            CHECK(caustic.mean == doctest::Approx(2 * solid).epsilon(0.01));
+            CHECK(caustic.mean == ljus_test::within(2 * solid, 0.01));
         }
         // The same photons found blindly: emitted anywhere, kept if they went through
         // glass first.
@@ -608,7 +609,7 @@ TEST_CASE("tracing: roulette leaves the flux in a furnace as it is, over 100 see
         CHECK(std::abs(apart(arrived, 1 / (1 - double(rho)))) < 3);
         // A geometric number of surfaces has the variance rho / (1 - rho)^2.
         const double right = std::sqrt(double(rho) / 1000) / (1 - double(rho)) / 10;
-        CHECK(arrived.error() == doctest::Approx(right).epsilon(0.25));
+        CHECK(arrived.error() == ljus_test::within(right, 0.25));
     }
 }
 
@@ -788,7 +789,7 @@ TEST_CASE("tracing: in a disc below a point light lies the flux of its cone") {
     const double cone = 2 * pi * (1 - std::sqrt(0.5));
     // Of 20000 paths in all directions 0.146 meet it: 5 standard errors are 8.5 %.
     for (int c = 0; c < 3; ++c) {
-        CHECK(in_disc[c] / (2 << c) == doctest::Approx(cone).epsilon(0.085));
+        CHECK(in_disc[c] / (2 << c) == ljus_test::within(cone, 0.085));
         CHECK(traced.audit.emitted[c] ==
               doctest::Approx(4 * pi * (2 << c)).epsilon(1e-5));
         // What landed was absorbed, the rest escaped.

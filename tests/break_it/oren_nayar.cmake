@@ -31,8 +31,8 @@ ljus_break_it(NAME rough_diffuse-cube HEADER materials/rough_diffuse.hpp TEST ro
 
 # Fujii's term divided behind the normal too: the loss at the far side is too deep.
 ljus_break_it(NAME rough_diffuse-fujii HEADER materials/rough_diffuse.hpp TEST rough_diffuse
-    FROM "return s > T(0) ? s / std::max(std::abs(wi.z), std::abs(wo.z)) : s;"
-    TO   "return s / std::max(std::abs(wi.z), std::abs(wo.z));"
+    FROM "return s > T(0) ? s / larger_cosine(wo, wi) : std::max(s, T(-1));"
+    TO   "return s / larger_cosine(wo, wi);"
     CASES "rough_diffuse: within 64*")
 
 # EON without what it gives back: Fujii's second model, and darker than white.
@@ -52,3 +52,23 @@ ljus_break_it(NAME eon-jacobian HEADER materials/detail/eon_lobe.hpp TEST eon
     FROM "std::max(T(0), v.z) * jacobian * jacobian"
     TO   "std::max(T(0), v.z) * jacobian"
     CASES "eon: directions agree*")
+
+# Divided by a cosine of which nothing is left.
+ljus_break_it(NAME oren_nayar-horizon HEADER materials/oren_nayar.hpp TEST oren_nayar
+    FROM "epsilon * epsilon)"
+    TO   "T(0) * epsilon)"
+    CASES "oren_nayar: finite where*")
+
+# The full model of 1994 where it is below 0: light is taken away.
+ljus_break_it(NAME rough_diffuse-negative HEADER materials/rough_diffuse.hpp
+    TEST rough_diffuse
+    FROM "surface.albedo * (ratios.single + ratios.twice * surface.albedo), T(0));"
+    TO   "surface.albedo * (ratios.single + ratios.twice * surface.albedo), T(-1));"
+    CASES "rough_diffuse: light is never*")
+
+# Fujii's second model at roughness 1, by a rounding below 0.
+ljus_break_it(NAME rough_diffuse-fon-border HEADER materials/rough_diffuse.hpp
+    TEST rough_diffuse
+    FROM "std::max(s, T(-1));"
+    TO   "s;"
+    CASES "rough_diffuse: light is never*")

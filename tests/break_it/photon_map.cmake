@@ -56,7 +56,7 @@ ljus_break_it(NAME photon-map-kinds HEADER photons/density_estimate.hpp TEST pho
 
 # 0/0 where all photons lie in one point.
 ljus_break_it(NAME photon-map-one-point HEADER photons/density_estimate.hpp TEST photon_map
-    FROM "if (!(radius2 > 0)) return RgbT<T>{T(0)};"
+    FROM "if (!(radius2 > 1e-30 * widest2)) return RgbT<T>{T(0)};"
     TO   ""
     CASES "photon_map: photons that all*")
 
@@ -83,3 +83,9 @@ ljus_break_it(NAME lane-estimate-float HEADER photons/detail/flux_in_disc.hpp TE
     FROM "if (++parts == 16) add_part();"
     TO   ""
     CASES "photon_map: two million*")
+
+# A radius whose disc is so small that the radiance is infinite.
+ljus_break_it(NAME photon-map-radius HEADER photons/density_estimate.hpp TEST photon_map
+    FROM "gather.radius >= 1e-15f"
+    TO   "gather.radius > 0"
+    CASES "photon_map: a way to gather*")

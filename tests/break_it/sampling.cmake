@@ -33,3 +33,9 @@ ljus_break_it(NAME sampling-triangle HEADER math/sampling.hpp TEST sampling
     FROM "return {half, u.y - half, T(1) - u.y};"
     TO   "return {half, u.y, T(1) - u.y - half};"
     CASES "sampling: points of disc*,sampling: at the corners*")
+
+# The disc as rounding leaves it: half of its border lies outside.
+ljus_break_it(NAME sampling-disc-border HEADER math/sampling.hpp TEST sampling
+    FROM "< T(1) - two ? p : (T(1) - two) * p;"
+    TO   "< T(1) - two ? p : p;"
+    CASES "sampling: a point of the disc has*")

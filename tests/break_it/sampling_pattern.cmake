@@ -1,8 +1,8 @@
 # One order of columns for all pixels: the pattern repeats from pixel to pixel.
 ljus_break_it(NAME pattern-columns HEADER math/sampling_pattern.hpp
     TEST sampling_pattern
-    FROM "shuffled(i % m, m, key)"
-    TO   "i % m"
+    FROM ": shuffled(i % m, m, key) * n"
+    TO   ": (i % m) * n"
     CASES "sampling_pattern: *uniform*,sampling_pattern: *neighbouring*")
 
 # No place of its own for each row: the columns' parts are heaped.
@@ -17,7 +17,7 @@ ljus_break_it(NAME pattern-broken-row HEADER math/sampling_pattern.hpp
     TEST sampling_pattern
     FROM "(points - 1) / columns + 1"
     TO   "points / columns"
-    CASES "sampling_pattern: multi-jittered*")
+    CASES "sampling_pattern: multi-jittered with any*")
 
 # The second dimension of a pixel is the first of its neighbour.
 ljus_break_it(NAME pattern-sobol-key HEADER math/sampling_pattern.hpp
@@ -32,3 +32,24 @@ ljus_break_it(NAME pattern-not-made HEADER math/sampling_pattern.hpp
     FROM "return stratified(pattern.strata, number, key, u);"
     TO   "return u;"
     CASES "sampling_pattern: the error falls*")
+
+# A broken row in a grid that has room for a whole one: strips of x stay empty.
+ljus_break_it(NAME pattern-empty-strips HEADER math/sampling_pattern.hpp
+    TEST sampling_pattern
+    FROM "(T(strip) + u.x) / T(pattern.points)"
+    TO   "(T(strip) + u.x) / T(m * n)"
+    CASES "sampling_pattern: multi-jittered with any*")
+
+# 32 as 5 x 7 less 3, though 4 x 8 is at hand.
+ljus_break_it(NAME pattern-exact-grid HEADER math/sampling_pattern.hpp
+    TEST sampling_pattern
+    FROM "pattern.strata.rows > 2 * columns"
+    TO   "true"
+    CASES "sampling_pattern: multi-jittered with any*")
+
+# The wide columns not moved on: the first strip is in one of them too seldom.
+ljus_break_it(NAME pattern-step HEADER math/sampling_pattern.hpp
+    TEST sampling_pattern
+    FROM "(strip + step) % all"
+    TO   "strip"
+    CASES "sampling_pattern: multi-jittered with a broken row*")

@@ -21,3 +21,9 @@ ljus_break_it(NAME solid-angle-doubt HEADER geometry/solid_angle.hpp TEST solid_
     FROM "sphere.radius + doubt;"
     TO   "sphere.radius;"
     CASES "solid angle: on the wall*")
+
+# A way of length 0 has no cosine.
+ljus_break_it(NAME solid-angle-no-way HEADER geometry/solid_angle.hpp TEST solid_angle
+    FROM "if (!(distance2 > T(0))) return T(0);"
+    TO   ""
+    CASES "solid angle: an observer at the very*")

@@ -34,3 +34,9 @@ ljus_break_it(NAME film_table-mean HEADER optics/film_table.hpp TEST thin_film
     FROM "thick_film(cosine(column), n)"
     TO   "0 * n"
     CASES "film table: as*")
+
+# A square that underflows: 0/0 at the grazing angle.
+ljus_break_it(NAME thin_film-underflow HEADER optics/thin_film.hpp TEST thin_film
+    FROM "root = T(2) * cos_theta / q, ratio = root * root;"
+    TO   "ratio = T(4) * c2 / (q * q);"
+    CASES "thin film: shares of light*")

@@ -40,7 +40,9 @@ public:
         area_up_to_.reserve(size());
         double area = 0;
         for (std::uint32_t i = 0; i < size(); ++i) {
-            area += double(glm::length(detail::cross_of_edges(triangle(i)))) / 2;
+            const TriangleT<T> one = triangle(i);
+            if (detail::has_area(one))
+                area += double(glm::length(detail::cross_of_edges(one))) / 2;
             area_up_to_.push_back(area);
         }
         const bool fits = static_cast<T>(area) > T(0) && std::isfinite(T(area));

@@ -89,9 +89,9 @@ void smooth_normals(MeshDataT<T>& data) {
     using Wide = Vec3T<WideT<T>>;
     std::vector<Wide> sums(data.positions.size(), Wide{0});
     for (std::size_t i = 0; i < data.triangles.size(); ++i) {
-        const Wide across = detail::cross_of_edges(detail::triangle_of(data, i));
-        if (!(glm::dot(across, across) > 0)) continue;
-        const Wide normal = glm::normalize(across);
+        const TriangleT<T> triangle = detail::triangle_of(data, i);
+        if (!detail::has_area(triangle)) continue;
+        const Wide normal = glm::normalize(detail::cross_of_edges(triangle));
         const auto& corner = data.triangles[i];
         for (std::size_t k = 0; k < 3; ++k) {
             const Wide here{data.positions[corner[k]]};

@@ -31,12 +31,11 @@ template <std::floating_point T>
     return glm::cross(Vec3T<WideT<T>>{quad.edge_u}, Vec3T<WideT<T>>{quad.edge_v});
 }
 
-/// Whether a quad has an area, and so a normal.
+/// Whether a quad has an area: see span_area().
 /// \param quad  Any quad.
 template <std::floating_point T>
 [[nodiscard]] bool has_area(const QuadT<T>& quad) noexcept {
-    const auto across = cross_of_edges(quad);
-    return glm::dot(across, across) > 0;
+    return span_area(Vec3T<WideT<T>>{quad.edge_u}, Vec3T<WideT<T>>{quad.edge_v});
 }
 
 } // namespace detail

@@ -54,13 +54,15 @@ namespace detail {
 /// \param from   The observer.
 /// \param point  The point of the shape.
 /// \param area   The shape's area.
-/// \return distance^2 / (|cos| area); infinity if the surface is seen edge-on.
+/// \return distance^2 / (|cos| area); infinity if the surface is seen edge-on, and 0 at
+///         the point itself, whose light comes from nowhere.
 /// \cite veach1997
 template <std::floating_point T>
 [[nodiscard]] T pdf_from_area(const Vec3T<T>& from, const SurfacePointT<T>& point,
                               T area) noexcept {
     const Vec3T<T> way = point.position - from;
     const T distance2 = glm::dot(way, way);
+    if (!(distance2 > T(0))) return T(0);
     const T cosine = std::abs(glm::dot(way, point.normal)) / std::sqrt(distance2);
     return distance2 / (cosine * area);
 }
@@ -84,7 +86,7 @@ template <std::floating_point T>
 /// \param from   The observer.
 /// \param u      Point of the unit square.
 /// \return The point and its density per steradian of the observer: 0 for a shape
-///         without an area, which is no light.
+///         without an area, which is no light, and where the observer is that point.
 template <Shape S, std::floating_point T>
 [[nodiscard]] SeenPointT<T> sample_towards(const S& shape, const Vec3T<T>& from,
                                            const Vec2T<T>& u) noexcept {
@@ -114,7 +116,8 @@ template <Shape S, std::floating_point T>
 /// \param sphere  The sphere.
 /// \param from    The observer.
 /// \param u       Point of the unit square.
-/// \return The point and its density per steradian of the observer.
+/// \return The point and its density per steradian of the observer; 0 where the
+///         observer is that point.
 /// \cite shirley1996
 template <std::floating_point T>
 [[nodiscard]] SeenPointT<T> sample_towards(const SphereT<T>& sphere,

@@ -3,6 +3,7 @@
 /// \file ljus/geometry/sphere.hpp
 /// \brief The sphere |X - C|^2 = R^2, and where a ray meets it.
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <limits>
@@ -50,9 +51,12 @@ using Chord = ChordT<float>; ///< ChordT in float.
 ///
 /// \tparam Compute  The precision of the arithmetic; the data's own if left out.
 /// \param ray     Its direction may have any length but zero; t_min, t_max are ignored.
-/// \param sphere  The sphere.
-/// \return Both roots in the precision of the arithmetic; nothing for a miss, and
-///         nothing for a NaN, an infinity, a zero direction, or a radius not above 0.
+/// \param sphere  The sphere. In float arithmetic all lengths, and their products with
+///                that of the direction, lie between 1e-18 and 1e18; in double between
+///                1e-150 and 1e150.
+/// \return Both roots, finite, in the precision of the arithmetic; nothing for a miss,
+///         a NaN, an infinity, a zero direction, a radius not above 0, and for lengths
+///         so large that a square is infinite.
 /// \cost One square root and two divisions; a miss costs one division.
 /// \report{Section 3.1.4, Eqs. (2) and (3)}
 // [chord]
@@ -70,18 +74,19 @@ chord(const RayT<T>& ray, const SphereT<T>& sphere) noexcept {
     // From the centre to the point of the line that is nearest to it.
     const Vec3T<C> p = oc + (b * inverse_a) * d;
     const C discriminant = r * r - glm::dot(p, p);
-    // Written so that NaN says no; so do infinity and a radius of 0 or less.
-    constexpr C max = std::numeric_limits<C>::max();
-    const bool hit = C(0) <= discriminant && discriminant <= max && r > C(0);
-    if (!hit) return std::nullopt;
+    // Written so that NaN says no; so does a radius of 0 or less.
+    if (!(C(0) <= discriminant && r > C(0))) return std::nullopt;
 
     // The root of larger size first; by Vieta the other one is c/q.
     const C q = b + std::copysign(std::sqrt(a * discriminant), b);
     const C c = glm::dot(oc, oc) - r * r;
     const C large = q * inverse_a;
     const C small = q != C(0) ? c / q : C(0); // 0/0: it only touches
-    if (q > C(0)) return ChordT<C>{.enter = small, .leave = large};
-    return ChordT<C>{.enter = large, .leave = small};
+    // Infinity says no, and NaN.
+    constexpr C max = std::numeric_limits<C>::max();
+    if (!(std::abs(large) <= max && std::abs(small) <= max)) return std::nullopt;
+    // By their size, not by q's sign: two roots that are almost one may change places.
+    return ChordT<C>{.enter = std::min(small, large), .leave = std::max(small, large)};
 }
 // [chord]
 

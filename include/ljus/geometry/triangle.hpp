@@ -50,18 +50,19 @@ namespace detail {
 /// \param e1       \f$E_1\f$.
 /// \param e2       \f$E_2\f$.
 /// \param inverse  1 over the determinant.
-/// \return A bound without a unit; 0 where it would be above 1/128.
+/// \param most     No wider border is of use.
+/// \return A bound without a unit; 0 where it would be above `most`.
 // [border]
 template <std::floating_point C>
 [[nodiscard]] C border_of_rounding(const Vec3T<C>& d, const Vec3T<C>& to,
-                                   const Vec3T<C>& e1, const Vec3T<C>& e2,
-                                   C inverse) noexcept {
+                                   const Vec3T<C>& e1, const Vec3T<C>& e2, C inverse,
+                                   C most) noexcept {
     const auto size = [](const Vec3T<C>& x) {
         return std::abs(x.x) + std::abs(x.y) + std::abs(x.z);
     };
     const C largest = size(d) * size(to) * (size(e1) + size(e2));
     const C border = rounding_bound<C>(16) * largest * std::abs(inverse);
-    return border <= C(1) / C(128) ? border : C(0);
+    return border <= most ? border : C(0);
 }
 // [border]
 
@@ -78,7 +79,9 @@ template <std::floating_point C>
 ///
 /// Two triangles round a ray at their common edge each in its own way. In a precision
 /// wider than that of the data the shape is closed, its border as wide as this rounding
-/// may be: then at least one of the two is hit. See border_of_rounding().
+/// may be: then at least one of the two is hit. Where that is more than the rounding of
+/// the data, for slivers in whose plane the ray almost lies, the border is open again.
+/// See border_of_rounding().
 ///
 /// \tparam Compute  The precision of the arithmetic; results are rounded to T once. In
 ///                  float, for shapes and distances between 1e-15 and 1e15.
@@ -106,7 +109,8 @@ moller_trumbore(const RayT<T>& ray, const Vec3T<ComputeT<Compute, T>>& v1,
     const C inverse = C(1) / glm::dot(p, e1);
     const C u = glm::dot(p, to) * inverse;
     constexpr bool closed = sizeof(C) > sizeof(T);
-    constexpr C near = closed ? C(1) / C(128) : C(0);
+    // No wider than the data's own rounding, or what lies beside the shape is hit.
+    constexpr C near = closed ? C(std::numeric_limits<T>::epsilon()) : C(0);
     if (!(u >= -near && u <= C(1) + near)) return std::nullopt; // most rays miss here
 
     const Vec3T<C> q = glm::cross(to, e1);
@@ -121,7 +125,7 @@ moller_trumbore(const RayT<T>& ray, const Vec3T<ComputeT<Compute, T>>& v1,
     if (!(C(ray.t_min) <= t && t <= C(ray.t_max) && t <= max)) return std::nullopt;
     // The border is asked for last: few hits are so near to an edge that it decides.
     if (closed && !within(C(0)) &&
-        !within(detail::border_of_rounding(d, to, e1, e2, inverse)))
+        !within(detail::border_of_rounding(d, to, e1, e2, inverse, near)))
         return std::nullopt;
     return FlatHitT<T>{static_cast<T>(t), static_cast<T>(glm::max(u, C(0))),
                        static_cast<T>(glm::max(v, C(0))), 0};
@@ -141,13 +145,28 @@ template <std::floating_point T>
                       Vec3T<WideT<T>>{triangle.v3} - v1);
 }
 
-/// Whether a triangle has an area, and so a normal; in double, where the corners of a
-/// float triangle that lie on a line give 0 unless their coordinates are 2^29 apart.
+/// Whether two edges span an area, and so have a normal; one that rounding may have
+/// made of none does not count. An edge between doubles is one rounding off, a product
+/// another, or none if it is fused with the subtraction: together 3 units of roundoff.
+/// \param a, b  The edges, in double; lengths between 1e-150 and 1e150.
+/// \return False for parallel ones, and for those whose sine is below 1e-15.
+template <std::floating_point W>
+[[nodiscard]] bool span_area(const Vec3T<W>& a, const Vec3T<W>& b) noexcept {
+    constexpr W bound = W(1.75) * std::numeric_limits<W>::epsilon();
+    const auto differ = [](W p, W q) {
+        return std::abs(p - q) > bound * (std::abs(p) + std::abs(q));
+    };
+    return differ(a.y * b.z, a.z * b.y) || differ(a.z * b.x, a.x * b.z) ||
+           differ(a.x * b.y, a.y * b.x);
+}
+
+/// Whether a triangle has an area: see span_area().
 /// \param triangle  Any triangle.
 template <std::floating_point T>
 [[nodiscard]] bool has_area(const TriangleT<T>& triangle) noexcept {
-    const auto across = cross_of_edges(triangle);
-    return glm::dot(across, across) > 0;
+    const Vec3T<WideT<T>> v1{triangle.v1};
+    return span_area(Vec3T<WideT<T>>{triangle.v2} - v1,
+                     Vec3T<WideT<T>>{triangle.v3} - v1);
 }
 
 } // namespace detail
@@ -157,7 +176,8 @@ template <std::floating_point T>
 ///                  which no ray slips between two neighbours; intersect<float>() is
 ///                  the report's formula, which lets one of six rays at edges through.
 /// \param ray       Any length of direction but zero; hits count in [t_min, t_max].
-/// \param triangle  Any three vertices; one without an area is never hit.
+/// \param triangle  Any three vertices; one without an area is never hit, nor one whose
+///                  area double cannot tell from none: see detail::span_area().
 /// \return t, and the barycentric u, v of the hit \f$(1-u-v)V_1 + uV_2 + vV_3\f$;
 ///         nothing for a miss.
 /// \report{Section 3.1.5}

@@ -151,7 +151,8 @@ template <std::floating_point T>
 /// \param u          Point of [0,1)^3; z chooses the part.
 /// \param transport  Radiance from index n_t is scaled by (n_i/n_t)^2; flux is not.
 /// \param which      The parts to sample from.
-/// \return The sample; nothing if `wo` lies on the surface or all shares are 0.
+/// \return The sample, of a pdf above 0 unless it is specular; nothing if `wo` lies on
+///         the surface or all shares are 0.
 /// \cost Fresnel once for `wo`, and for the matt part once for `wi`.
 /// \report{Sections 3.2.1, 3.2.4 and 3.2.5}
 template <std::floating_point T>
@@ -171,6 +172,8 @@ sample(const MixtureT<T>& mixture, const Vec3T<T>& wo, const Vec3T<T>& u,
             return tint * (sum * ratio * (T(1) - detail::boundary_share(mixture, wi)));
         });
         if (matt) matt->pdf *= share.diffuse / sum;
+        // So dark beside its gloss that no number says how seldom it is chosen.
+        if (matt && !(matt->pdf > T(0))) matt.reset();
         return matt;
     }
     if (choice < share.diffuse + share.refract) {

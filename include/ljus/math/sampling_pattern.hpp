@@ -106,7 +106,7 @@ template <std::floating_point T>
 enum class Sampling : std::uint8_t {
     random,         ///< Each for itself.
     jittered,       ///< One in each of a x b = n cells; rooks where n is prime.
-    multi_jittered, ///< The same, and evenly spread along x and y too; any n.
+    multi_jittered, ///< The same, and one in each of n strips of x, and of y; any n.
     sobol           ///< The first n points of Sobol, scrambled after Owen.
 };
 
@@ -125,8 +125,12 @@ struct Pattern {
     Pattern pattern{.sampling = sampling, .points = points};
     if (sampling == Sampling::jittered) pattern.strata = detail::strata_for(points);
     if (sampling == Sampling::multi_jittered) {
-        int columns = 1;
-        while (columns + 1 <= points / (columns + 1)) ++columns;
+        pattern.strata = detail::strata_for(points);
+        int& columns = pattern.strata.columns;
+        if (pattern.strata.n_rooks || pattern.strata.rows > 2 * columns) {
+            columns = 1;
+            while (columns + 1 <= points / (columns + 1)) ++columns;
+        }
         const int rows = (points - 1) / columns + 1; // the last may be part of a row
         pattern.strata = {.columns = columns, .rows = rows};
     }
@@ -135,16 +139,49 @@ struct Pattern {
 
 namespace detail {
 
+/// The strip, of as many as there are points, in which a point of a multi-jittered
+/// pattern stands whose last row is broken off.
+///
+/// A column that has a point of the last row is wider than its neighbours by a strip.
+/// Those columns are spread over the pixel, from a random start, and in the end all
+/// strips are moved on by the same random step: no place is favoured.
+/// \param pattern  From make_pattern().
+/// \param i        Which point, in [0, points).
+/// \param key      Of the pixel.
+/// \return In [0, points), each once.
+/// \cost Two orders of shuffled() and five divisions.
+// [broken_row]
+[[nodiscard]] constexpr std::uint32_t
+strip_of_broken(const Pattern& pattern, std::uint32_t i, std::uint64_t key) noexcept {
+    const auto all = static_cast<std::uint32_t>(pattern.points);
+    const auto m = static_cast<std::uint32_t>(pattern.strata.columns);
+    const std::uint32_t row = i / m, full = all / m, last = all % m;
+    const std::uint64_t bits = mix_bits(key + 1);
+    const std::uint64_t start = ((bits >> 32) * m) >> 32; // in [0, m)
+    const std::uint64_t step = ((bits & 0xffffffffu) * all) >> 32;
+    // How many of the first c columns have a point of the last row.
+    const auto before = [&](std::uint64_t c) { return (c * last + start) / m; };
+    std::uint64_t column = shuffled(i % m, m, key);
+    if (row == full) // the k-th column that has one
+        column = (shuffled(i % m, last, key) * std::uint64_t(m) + m - 1 - start) / last;
+    const auto points =
+        static_cast<std::uint32_t>(full + before(column + 1) - before(column));
+    const std::uint64_t strip =
+        column * full + before(column) + shuffled(row, points, ~key);
+    return static_cast<std::uint32_t>((strip + step) % all);
+}
+// [broken_row]
+
 /// A point of a correlated multi-jittered pattern.
 ///
 /// The points stand in a grid of m columns and n rows, of which the last may be broken
 /// off: that is how a prime has its place. Within its cell a point stands, in x, at a
-/// place that its row has and, in y, at one that its column has, so that the whole
-/// pattern is evenly spread along both sides as well.
+/// place that its row has and, in y, at one that its column has. So along both sides
+/// each of as many strips as there are points holds one, for any number.
 /// \param pattern  From make_pattern().
 /// \param number   Which point, in [0, points).
 /// \param key      Of the pixel; another order of rows and columns for each.
-/// \param u        Where in the cell of the cell: point of the unit square.
+/// \param u        Where in its strips: point of the unit square.
 /// \return Point of the unit square; rounding may put it onto 1.
 /// \cite kensler2013
 // [multi_jittered]
@@ -155,9 +192,11 @@ template <std::floating_point T>
     const auto m = static_cast<std::uint32_t>(pattern.strata.columns);
     const auto n = static_cast<std::uint32_t>(pattern.strata.rows);
     const auto i = static_cast<std::uint32_t>(number);
-    const std::uint32_t column = shuffled(i % m, m, key);
-    const std::uint32_t place = shuffled(i / m, n, ~key);
-    return {(T(column) + (T(place) + u.x) / T(n)) / T(m),
+    const bool broken = pattern.points < pattern.strata.columns * pattern.strata.rows;
+    const std::uint32_t strip =
+        broken ? strip_of_broken(pattern, i, key)
+               : shuffled(i % m, m, key) * n + shuffled(i / m, n, ~key);
+    return {(T(strip) + u.x) / T(pattern.points),
             (T(number) + u.y) / T(pattern.points)};
 }
 // [multi_jittered]

@@ -53,8 +53,8 @@ template <std::floating_point T>
 /// \f$ (n_t \cos\theta_t)^2 = (n_t \cos\theta_i)^2 + (n_t - n_i)(n_t + n_i)
 /// \sin^2\theta_i \f$.
 /// \param cos_theta_i  Cosine between incoming ray and normal, in [0, 1].
-/// \param n_i          Index on the side of the incoming ray, > 0.
-/// \param n_t          Index on the other side, > 0.
+/// \param n_i          Index on the side of the incoming ray, in [1e-9, 1e9].
+/// \param n_t          Index on the other side, in [1e-9, 1e9].
 /// \return R in [0, 1]: exactly 0 for equal indices, 1 under total internal reflection.
 ///         The rest, 1 - R, is transmitted.
 /// \cost One square root, four to six divisions.
@@ -78,8 +78,8 @@ template <std::floating_point T>
 
 /// Schlick's approximation behind the same interface: the twin of fresnel().
 /// \param cos_theta_i  Cosine between incoming ray and normal, in [0, 1].
-/// \param n_i          Index on the side of the incoming ray, > 0.
-/// \param n_t          Index on the other side, > 0.
+/// \param n_i          Index on the side of the incoming ray, in [1e-9, 1e9].
+/// \param n_t          Index on the other side, in [1e-9, 1e9].
 /// \return R in [0, 1]; for n = 1.5 within 0.036 of fresnel(), from either side.
 /// \cost A square root only on the way out of the denser medium.
 /// \report{Section 3.2.5}
@@ -96,8 +96,8 @@ template <std::floating_point T>
 /// The reflectance by the model that a material names.
 /// \param model        Exact or Schlick.
 /// \param cos_theta_i  Cosine between incoming ray and normal, in [0, 1].
-/// \param n_i          Index on the side of the incoming ray, > 0.
-/// \param n_t          Index on the other side, > 0.
+/// \param n_i          Index on the side of the incoming ray, in [1e-9, 1e9].
+/// \param n_t          Index on the other side, in [1e-9, 1e9].
 /// \return R in [0, 1].
 template <std::floating_point T>
 [[nodiscard]] T fresnel(FresnelModel model, T cos_theta_i, T n_i, T n_t) noexcept {

@@ -14,8 +14,8 @@ namespace ljus {
 /// \{
 
 /// The reflectance at normal incidence.
-/// \param n1, n2  The two indices of refraction, > 0, in either order.
-/// \return ((n1 - n2)/(n1 + n2))^2, in [0, 1).
+/// \param n1, n2  The two indices of refraction, in [1e-9, 1e9], in either order.
+/// \return ((n1 - n2)/(n1 + n2))^2, in [0, 1].
 /// \report{Section 3.2.5}
 template <typename T>
 [[nodiscard]] constexpr T schlick_r0(T n1, T n2) noexcept {
@@ -45,8 +45,8 @@ template <typename T>
 /// The reflectance of a boundary crossed in either direction: takes the thinner side's
 /// cosine of the two. The second one needs a square root, and a caller who refracts has
 /// it already; see schlick_dielectric() in fresnel.hpp for the one who has not.
-/// \param n_i    Index on the side of the incoming ray, > 0.
-/// \param n_t    Index on the other side, > 0.
+/// \param n_i    Index on the side of the incoming ray, in [1e-9, 1e9].
+/// \param n_t    Index on the other side, in [1e-9, 1e9].
 /// \param cos_i  Cosine of the incoming ray, in [0, 1].
 /// \param cos_t  Cosine of the refracted ray, in [0, 1]; 0 under total reflection,
 ///               which gives 1.

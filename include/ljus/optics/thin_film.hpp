@@ -54,8 +54,11 @@ template <std::floating_point T>
     const auto shares = [&](T q) {
         // A film of no thickness does nothing, even at the grazing angle.
         if (q == T(0)) return detail::FilmSharesT<T>{};
-        const T ratio = T(4) * c2 / (q * q);
-        return detail::FilmSharesT<T>{T(1) / (T(1) + ratio), ratio / (T(1) + ratio)};
+        const T root = T(2) * cos_theta / q, ratio = root * root;
+        const T reflected = T(1) / (T(1) + ratio);
+        // The smaller one is no difference; and no ratio is too large.
+        return detail::FilmSharesT<T>{reflected, ratio < T(1) ? ratio * reflected
+                                                              : T(1) - reflected};
     };
     const auto s_wave = shares(beat);
     const auto p_wave = shares(p);

@@ -232,8 +232,8 @@ aim(const S& scene, const LightChoice& choice, std::span<const ObjectId> targets
         direction = glm::normalize(seen.point.position - point.position);
         pdf = seen.pdf;
     }
-    pdf *= at.size / aimed->sum; // of the choice
-    if (!(pdf < std::numeric_limits<T>::infinity())) return std::nullopt; // edge-on
+    pdf *= at.size / aimed->sum;                                  // of the choice
+    if (!(pdf > T(0) && std::isfinite(pdf))) return std::nullopt; // edge-on, or at it
     const T emitted = detail::emitted_share(light, point, direction);
     if (!(emitted > T(0))) return std::nullopt;
     photon.flux = light.flux * (emitted / (pdf * chosen.probability));

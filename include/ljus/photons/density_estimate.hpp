@@ -35,7 +35,7 @@ inline constexpr Kernel default_kernel<Kernel> = Kernel::epanechnikov;
 ///            that is one: see KernelLike.
 template <KernelLike K>
 struct DensityEstimateOf {
-    float radius = 0.1f;                  ///< In scene units, above 0.
+    float radius = 0.1f;                  ///< In scene units, from 1e-15 to 1e15.
     std::size_t nearest = 0;              ///< k within the radius; 0: all within it.
     K kernel = detail::default_kernel<K>; ///< The weight by distance.
     float thickness = 0.5f; ///< Half the height of the disc over its radius: photons of
@@ -50,7 +50,8 @@ using DensityEstimateSettings = DensityEstimateOf<Kernel>; ///< With a listed ke
 ///         own that makes or loses light.
 template <typename K>
 void check(const DensityEstimateOf<K>& gather) {
-    require_positive("gather.radius", gather.radius);
+    require(gather.radius >= 1e-15f && gather.radius <= 1e15f, "gather.radius",
+            gather.radius, "within [1e-15, 1e15], or no float holds the radiance");
     require_positive("gather.thickness", gather.thickness);
     require(gather.nearest != 1 && gather.nearest <= max_nearest, "gather.nearest",
             static_cast<long long>(gather.nearest),
@@ -162,8 +163,8 @@ nearest_photons(const PhotonMapT<T>& map, const SurfacePointT<T>& point, T radiu
 /// \param gather    Radius, k, kernel.
 /// \param kinds     Which kinds count.
 /// \param gathered  Counts the photons that were summed.
-/// \return Radiance, W/(m^2 sr); 0 if the k nearest photons all lie at x itself, a disc
-///         without an area.
+/// \return Radiance, W/(m^2 sr); 0 if the k nearest photons all lie at x itself, or
+///         within 1e-15 of the radius of it: a disc without an area.
 /// \report{Section 3.2.6}
 /// \erratum{The report's R_i is called a radiance; it is the BRDF times the photon's
 ///          flux. There is no cosine: the flux that arrives on the surface holds it.}
@@ -175,7 +176,8 @@ template <std::floating_point T, typename Material, KernelLike<T> K = Kernel>
                                         PhotonKinds kinds, std::uint64_t& gathered) {
     if (map.empty()) return RgbT<T>{T(0)};
     const Vec3T<T>& x = surface.point.position;
-    double radius2 = double(gather.radius) * double(gather.radius);
+    const double widest2 = double(gather.radius) * double(gather.radius);
+    double radius2 = widest2;
 
     RgbT<double> sum{0}; // many small terms: a float would lose the last of them
     if (gather.nearest == 0) {
@@ -201,7 +203,7 @@ template <std::floating_point T, typename Material, KernelLike<T> K = Kernel>
         const bool full = count == gather.nearest;
         if (full) radius2 = found[0].distance2;
         // All photons in one point have no area: there is no estimate.
-        if (!(radius2 > 0)) return RgbT<T>{T(0)};
+        if (!(radius2 > 1e-30 * widest2)) return RgbT<T>{T(0)};
         for (std::size_t k = full ? 1 : 0; k < count; ++k) {
             const detail::PhotonRecordT<T> photon = map.records[found[k].index];
             const double height =
