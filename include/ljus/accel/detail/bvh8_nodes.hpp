@@ -120,17 +120,16 @@ template <std::floating_point T>
 /// \cite williams2005 \cite ize2013. Chapter: \ref ch_bvh.
 /// \{
 
-/// A ray, made ready for wide nodes. Without defaults: make_ready() sets all of it, and
-/// what is set twice for each ray takes time that shows.
+/// A ray, made ready for wide nodes.
 struct Bvh8Ray {
-    Vec3 inverse;                    ///< 1 / D, finite.
-    Vec3 near_shift;                 ///< t = plane * inverse - shift, a little early,
-    Vec3 far_shift;                  ///< and a little late.
-    std::array<std::size_t, 3> near; ///< The planes that it meets first, by axis,
-    std::array<std::size_t, 3> far;  ///< and last.
-    float length;                    ///< The largest component of D.
-    float last;                      ///< Beyond this t there is nothing.
-    bool moderate; ///< Products of three such lengths are far from infinite.
+    Vec3 inverse{1};                   ///< 1 / D, finite.
+    Vec3 near_shift{0};                ///< t = plane * inverse - shift, a little early,
+    Vec3 far_shift{0};                 ///< and a little late.
+    std::array<std::size_t, 3> near{}; ///< The planes that it meets first, by axis,
+    std::array<std::size_t, 3> far{};  ///< and last.
+    float length = 0;                  ///< The largest component of D.
+    float last = 0;                    ///< Beyond this t there is nothing.
+    bool moderate = false; ///< Products of three such lengths are far from infinite.
 };
 
 /// Makes a ray ready. Boxes grow by as much as box_ray() says. A component of the

@@ -16,19 +16,18 @@ namespace ljus::detail {
 /// \cite wald2008. Chapter: \ref ch_bvh.
 /// \{
 
-// What there is to say of a ray before it is walked.
+// A ray made ready; or all that there is to say of it.
 struct Bvh8Start {
+    Bvh8Ray ray{};
     bool done = true;
     bool found = false;
 };
 
-// Makes a ray ready, unless all is said of it.
 template <typename Leaf>
-inline Bvh8Start begin_walk(Bvh8Ray& ready, const Bvh8Nodes& wide, const Ray& ray,
-                            Leaf& leaf) {
+inline Bvh8Start begin_walk(const Bvh8Nodes& wide, const Ray& ray, Leaf& leaf) {
     Bvh8Start start;
     if (wide.nodes.empty() || !(ray.t_min <= ray.t_max)) return start;
-    start.done = !make_ready(ready, ray, wide.middle, wide.half);
+    start.done = !make_ready(start.ray, ray, wide.middle, wide.half);
     if (start.done && is_finite(ray.origin) && is_finite(ray.direction))
         start.found = leaf(0u, static_cast<std::uint32_t>(wide.primitive_ids.size()),
                            static_cast<const Bvh8Ray*>(nullptr));
@@ -74,8 +73,7 @@ inline std::uint64_t enter(Lanes& t, const Bvh8Nodes& wide, std::uint32_t node,
 /// \param watch  Called for each node on the way.
 template <typename Leaf, typename Watch>
 void walk_nearest(const Bvh8Nodes& wide, const Ray& ray, Leaf&& leaf, Watch&& watch) {
-    Bvh8Ray ready;
-    const Bvh8Start start = begin_walk(ready, wide, ray, leaf);
+    const Bvh8Start start = begin_walk(wide, ray, leaf);
     if (start.done) return;
     // What waits: a child, and above it the t at which the ray enters it. For numbers
     // from 0 on, the bits are in the order of the values: so the nearer one is less.
@@ -90,12 +88,12 @@ void walk_nearest(const Bvh8Nodes& wide, const Ray& ray, Leaf&& leaf, Watch&& wa
     };
     for (std::uint32_t at = 0;;) {
         if ((at & Bvh8Child::leaf) != 0) {
-            leaf(at & Bvh8Child::first, Bvh8Child::count(at), &ready);
+            leaf(at & Bvh8Child::first, Bvh8Child::count(at), &start.ray);
         } else {
             watch();
             Lanes t;
             std::uint64_t entered =
-                enter<Leaf>(t, wide, at, ready, ray.t_min, ray.t_max);
+                enter<Leaf>(t, wide, at, start.ray, ray.t_min, ray.t_max);
             if (entered != 0) {
                 const auto& child = wide.nodes[at / Bvh8Child::stride].child;
                 const auto key = [&](std::size_t i) {
@@ -142,8 +140,7 @@ void walk_nearest(const Bvh8Nodes& wide, const Ray& ray, Leaf&& leaf, Watch&& wa
 template <typename Leaf, typename Watch>
 [[nodiscard]] bool walk_any(const Bvh8Nodes& wide, const Ray& ray, Leaf&& leaf,
                             Watch&& watch) {
-    Bvh8Ray ready;
-    const Bvh8Start start = begin_walk(ready, wide, ray, leaf);
+    const Bvh8Start start = begin_walk(wide, ray, leaf);
     if (start.done) return start.found;
     struct Later {
         std::uint64_t lanes;
@@ -155,7 +152,7 @@ template <typename Leaf, typename Watch>
     std::uint64_t entered = 0;
     for (std::uint32_t child = 0;;) {
         if ((child & Bvh8Child::leaf) != 0) {
-            if (leaf(child & Bvh8Child::first, Bvh8Child::count(child), &ready))
+            if (leaf(child & Bvh8Child::first, Bvh8Child::count(child), &start.ray))
                 return true;
         } else {
             later[waiting] = {entered, at};
@@ -163,7 +160,7 @@ template <typename Leaf, typename Watch>
             at = child;
             watch();
             Lanes t;
-            entered = enter<Leaf>(t, wide, at, ready, ray.t_min, ray.t_max);
+            entered = enter<Leaf>(t, wide, at, start.ray, ray.t_min, ray.t_max);
         }
         while (entered == 0) {
             if (waiting == 0) return false;
