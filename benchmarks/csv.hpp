@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file csv.hpp
-/// \brief Tables of benchmarks for the book: `--csv FOLDER` writes them, and
-/// `./scripts/measure` keeps them in chapters/measured.
+/// \brief Tables of benchmarks for the book: the option --csv writes them, and
+/// scripts/measure keeps them in chapters/measured.
 
 #include <cstring>
 #include <string>

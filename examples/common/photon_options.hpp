@@ -32,25 +32,28 @@ template <typename Enum>
 }
 
 // The names of what is chosen by a word, in the order of its enum.
+/// Of ljus::SkipRule.
 inline const std::vector<std::string> skip_rules{"none", "report", "any", "enough"};
+/// Of ljus::CausticBudget.
 inline const std::vector<std::string> budgets{"as-seen", "equal", "flux", "area",
                                               "brightness"};
+/// Of ljus::PhotonSampling.
 inline const std::vector<std::string> photon_numbers{"random", "sobol"};
 
 /// What the user asks for.
 struct PhotonOptions {
-    std::string skip = "none";
-    std::string budget = "as-seen";
-    std::string numbers = "random";
-    bool skip_bounces = false;
-    double skip_radius = 0;
-    double skip_tolerance = 0.05;
-    double skip_risk = 0.05;
-    double irradiance_radius = 0;
-    double memory = 4;
-    int bounces = 1000;
-    int irradiance_shadow_rays = 4;
-    int gather_depth = 100;
+    std::string skip = "none";      ///< --skip
+    std::string budget = "as-seen"; ///< --caustic-budget
+    std::string numbers = "random"; ///< --photon-numbers
+    bool skip_bounces = false;      ///< --skip-bounces
+    double skip_radius = 0;         ///< --skip-radius, in scene units.
+    double skip_tolerance = 0.05;   ///< --skip-tolerance
+    double skip_risk = 0.05;        ///< --skip-risk
+    double irradiance_radius = 0;   ///< --irradiance-radius, in scene units.
+    double memory = 4;              ///< --photon-memory, in GB.
+    int bounces = 1000;             ///< --photon-bounces
+    int irradiance_shadow_rays = 4; ///< --irradiance-shadow-rays
+    int gather_depth = 100;         ///< --gather-depth
 };
 
 /// Adds these options to a command line.
