@@ -7,6 +7,7 @@
 #include "ljus/photons/tracing.hpp"
 #include "ljus/photons/verdict_grid.hpp"
 #include "ljus/render/detail/choose_passes.hpp"
+#include "ljus/render/detail/scene_remarks.hpp"
 #include "ljus/render/irradiance_cache.hpp"
 
 namespace ljus {
