@@ -14,7 +14,7 @@ ljus_break_it(NAME file-read-only HEADER io/file_beside.hpp TEST file
 ljus_break_it(NAME file-names HEADER io/file_beside.hpp TEST file
     FROM "most_names = 10'000"
     TO   "most_names = 100"
-    CASES "file: what others have left*")
+    CASES "file: what others have left*" COMPILED)
 
 # Written with a name from the beginning, so that a kill leaves it.
 ljus_break_it(NAME file-nameless HEADER io/file_beside.hpp TEST file
