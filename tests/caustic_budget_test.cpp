@@ -19,6 +19,7 @@
 #include "support/ball_caustic.hpp"
 #include "support/mean.hpp"
 #include "support/refusal.hpp"
+#include "support/within.hpp"
 
 using namespace ljus;
 using ljus_test::apart;
@@ -331,9 +332,9 @@ TEST_CASE("caustic_budget: a radius of 0 is chosen as the picture will choose it
     REQUIRE(chosen.size() == 2);
     for (const std::size_t i : {0u, 1u}) {
         CHECK(chosen[i].absolute == told[i].absolute);
-        CHECK(chosen[i].area == doctest::Approx(told[i].area).epsilon(0.15));
-        CHECK(chosen[i].relative == doctest::Approx(told[i].relative).epsilon(0.15));
-        CHECK(chosen[i].visible == doctest::Approx(told[i].visible).epsilon(0.15));
+        CHECK(chosen[i].area == ljus_test::within(told[i].area, 0.15));
+        CHECK(chosen[i].relative == ljus_test::within(told[i].relative, 0.15));
+        CHECK(chosen[i].visible == ljus_test::within(told[i].visible, 0.15));
     }
     // By the radius of the pilot alone it would be three times as large.
     const auto alone = pilot_caustics(room, pass, 3 * typical_radius(whole, 32), light);

@@ -47,6 +47,11 @@ TEST_CASE("quad: each of the four edges is a border") {
             CHECK_FALSE(intersect<float>(down_at(along, beyond), square));
             CHECK_FALSE(intersect<float>(down_at(beyond, along), square));
         }
+    // In double the border is closed, but not as wide as one unit of the data.
+    for (const float along : {0.0f, 0.5f, 1.0f}) {
+        CHECK_FALSE(intersect<double>(down_at(along, above), square));
+        CHECK_FALSE(intersect<double>(down_at(above, along), square));
+    }
 }
 
 TEST_CASE("quad: it is hit where one of its two triangles is") {

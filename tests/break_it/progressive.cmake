@@ -68,12 +68,6 @@ ljus_break_it(NAME progressive-in-place HEADER io/progressive_file.hpp TEST prog
     TO   "std::FILE* const f = std::fopen(path.c_str(), \"wb\"); std::fwrite(bytes.data(), 1, bytes.size(), f); std::fclose(f);"
     CASES "progressive: killed*")
 
-# What killed saves have left stays, one file each.
-ljus_break_it(NAME progressive-parts HEADER io/progressive_file.hpp TEST progressive
-    FROM "detail::remove_parts(detail::file_to_replace(path));"
-    TO   ""
-    CASES "progressive: killed*")
-
 # A radius that each pass would choose anew, and that never shrinks.
 ljus_break_it(NAME progressive-chosen HEADER render/progressive.hpp TEST progressive
     FROM "require_positive(\"caustics_estimate.radius\", settings.caustics_estimate.radius);"

@@ -35,19 +35,10 @@ void each_checkpoint_number(State& state, Each each) {
             for (int channel = 0; channel < 3; ++channel) each(color[channel]);
 }
 
-// What a kill in the middle of an earlier save may have left. One process at a time
-// writes a checkpoint, so that nobody else's file goes.
-inline void remove_parts(const std::string& path) {
-    for (long long number = 0; number < 100; ++number)
-        if (std::remove(join({path, ".part", to_text(number)}).c_str()) != 0) return;
-}
-
 } // namespace detail
 
 /// Saves a checkpoint.
-/// \param path   The file; an older one is replaced at the very end (save_file()). What
-///               a killed save has left beside it, PATH.part0, is removed: two programs
-///               must not write one checkpoint.
+/// \param path   The file; an older one is replaced at the very end (save_file()).
 /// \param state  After at least one pass.
 /// \throws std::runtime_error  as save_file(); std::invalid_argument without a pass.
 /// \cost 48 bytes a pixel.
@@ -62,7 +53,6 @@ inline void save_checkpoint(const std::string& path, const ProgressiveState& sta
     detail::each_checkpoint_number(
         state, [&](const auto& number) { detail::put_number(bytes, number); });
     detail::put_checksum(bytes);
-    detail::remove_parts(detail::file_to_replace(path));
     save_file(path, bytes);
 }
 
