@@ -63,7 +63,8 @@ ljus_break_it(NAME triangle-default HEADER geometry/triangle.hpp TEST tree_leaks
     CASES "tree leaks: half a million*")
 
 # Doubles in a line span what rounding leaves of 0.
-ljus_break_it(NAME triangle-no-area-rounded HEADER geometry/triangle.hpp TEST triangle
+ljus_break_it(NAME triangle-no-area-rounded HEADER geometry/surface_point.hpp
+    TEST triangle
     FROM "bound * (std::abs(p) + std::abs(q))"
     TO   "0 * bound"
     CASES "triangle: no area in data*")

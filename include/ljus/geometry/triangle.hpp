@@ -145,21 +145,6 @@ template <std::floating_point T>
                       Vec3T<WideT<T>>{triangle.v3} - v1);
 }
 
-/// Whether two edges span an area, and so have a normal; one that rounding may have
-/// made of none does not count. An edge between doubles is one rounding off, a product
-/// another, or none if it is fused with the subtraction: together 3 units of roundoff.
-/// \param a, b  The edges, in double; lengths between 1e-150 and 1e150.
-/// \return False for parallel ones, and for those whose sine is below 1e-15.
-template <std::floating_point W>
-[[nodiscard]] bool span_area(const Vec3T<W>& a, const Vec3T<W>& b) noexcept {
-    constexpr W bound = W(1.75) * std::numeric_limits<W>::epsilon();
-    const auto differ = [](W p, W q) {
-        return std::abs(p - q) > bound * (std::abs(p) + std::abs(q));
-    };
-    return differ(a.y * b.z, a.z * b.y) || differ(a.z * b.x, a.x * b.z) ||
-           differ(a.x * b.y, a.y * b.x);
-}
-
 /// Whether a triangle has an area: see span_area().
 /// \param triangle  Any triangle.
 template <std::floating_point T>

@@ -223,8 +223,7 @@ struct ObjReader {
     }
 };
 
-// smooth_normals(), but vertices that only their texture coordinates tell apart stay
-// one: a seam of the picture is no edge of the surface.
+// smooth_normals(), to which a seam of the texture coordinates is no edge.
 template <std::floating_point T>
 void smooth_across_seams(typename ObjReader<T>::Part& part) {
     MeshDataT<T> seamless{.triangles = part.data.triangles};
