@@ -204,11 +204,10 @@ std::string passes_line(const Request& request, const PhotonMappingSettings& set
 void set_samples(Request& request, const examples::CommandLine& line,
                  RenderSettings& picture) {
     if (request.preset.empty()) return;
-    const bool fast = request.preset == "fast";
-    if (!line.given("--rays"))
-        picture.samples = fast ? 2 : request.preset == "draft" ? 1 : 64;
-    if (!line.given("--more-rays") && fast && picture.samples > 1)
-        request.more_rays = 8;
+    const PresetRays rays = preset_rays(chosen<Preset>(presets, request.preset));
+    if (!line.given("--rays")) picture.samples = rays.first;
+    if (!line.given("--more-rays") && picture.samples > 1)
+        request.more_rays = rays.more;
 }
 
 /// The numbers of "120,80".

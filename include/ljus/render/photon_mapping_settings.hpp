@@ -152,6 +152,22 @@ enum class Preset : std::uint8_t {
     return settings;
 }
 
+/// How many rays a preset sends through each pixel.
+struct PresetRays {
+    int first = 1;              ///< Through all pixels.
+    int more = 0;               ///< Through those whose first rays disagree.
+    double disagreement = 0.22; ///< Relative standard error that counts as such.
+};
+
+/// The rays of a preset, for RenderSettings::samples and render_adaptive().
+/// \param preset  Which one.
+/// \return The numbers of rays.
+[[nodiscard]] inline PresetRays preset_rays(Preset preset) {
+    if (preset == Preset::draft) return {.first = 1, .more = 0};
+    if (preset == Preset::fast) return {.first = 2, .more = 8};
+    return {.first = 64, .more = 0};
+}
+
 /// \}
 
 } // namespace ljus
