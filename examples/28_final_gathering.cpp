@@ -63,6 +63,9 @@ PhotonMap even_photons(int count, std::uint64_t seed) {
     return make_photon_map(photons);
 }
 
+/// Lets every photon count, for estimate_irradiance().
+constexpr auto all_photons = [](std::uint32_t) { return true; };
+
 /// A mean, and how sure it is.
 struct Mean {
     double count = 0, sum = 0, squares = 0;
@@ -118,7 +121,7 @@ void borders(const examples::Options& options) {
         const auto estimate = [&](float x, float y, const auto& how) {
             return double(detail::estimate_irradiance(scene, map,
                                                       square_vertex(scene, x, y), up,
-                                                      how, radius, light_kinds)
+                                                      how, radius, all_photons)
                               .x);
         };
         for (int i = 0; i <= steps; ++i)
@@ -168,36 +171,89 @@ void borders(const examples::Options& options) {
                         row[2].c_str(), row[3].c_str());
 }
 
-/// What an estimate at a photon finds, with that photon counted and without.
-void own_photon(const examples::Options& options) {
+void print(const examples::Table& table, const examples::Options& options) {
+    if (options.quiet) return;
+    for (const auto& row : table.rows) {
+        for (const auto& cell : row) std::printf("%-10s ", cell.c_str());
+        std::printf("\n");
+    }
+}
+
+/// By how many percent the points of one map are too bright under an even light.
+struct Deviation {
+    double at_points = 0; ///< The mean over the points.
+    double over_surface =
+        0; ///< The mean over the surface, each place taking its point's.
+};
+
+/// Finds the deviation of points that are chosen in one of three ways.
+/// \param map     Photons of an even light of 1 W/m^2.
+/// \param how     How many photons an estimate takes.
+/// \param chosen  Whether the photon of a record becomes a point.
+/// \param wanted  Whether the second record's photon counts at the first one's point.
+/// \param share   The part of all photons that counts.
+template <typename Chosen, typename Wanted>
+Deviation deviation(const PhotonMap& map, const IrradiancePointSettings& how,
+                    const Chosen& chosen, const Wanted& wanted, double share) {
     const Flat scene = unit_square();
     const Vec3 up{0, 0, 1};
+    std::vector<Vec3> places;
+    std::vector<double> known;
+    for (std::uint32_t i = 0; i < map.records.size(); ++i) {
+        const Vec3 p = map.tree.point(i);
+        if (!chosen(i) || std::max(std::abs(p.x - 0.5f), std::abs(p.y - 0.5f)) > 0.4f)
+            continue;
+        places.push_back(p);
+        known.push_back(double(detail::estimate_irradiance(
+                                   scene, map, square_vertex(scene, p.x, p.y), up, how,
+                                   0.15f, [&](std::uint32_t k) { return wanted(i, k); })
+                                   .x) /
+                        share);
+    }
+    Deviation result;
+    for (const double e : known)
+        result.at_points += 100 * (e - 1) / double(known.size());
+    const KdTree8 tree(places);
+    constexpr int side = 60; // of the lookups
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const auto nearest = tree.nearest(
+                Vec3{0.2f + 0.01f * float(x), 0.2f + 0.01f * float(y), 0}, 1.0f);
+            const double e = known[tree.point_ids()[nearest->index]];
+            result.over_surface += 100 * (e - 1) / (side * side);
+        }
+    return result;
+}
+
+/// What estimates at photons find, with those photons counted and without.
+void own_photon(const examples::Options& options) {
     const int maps = options.pick(16, 64, 256);
-    examples::Table table{
-        .name = "final-gathering-own",
-        .columns = {"k", "2 / (k - 2)", "too bright: all counted", "its own left out"}};
+    constexpr std::size_t every = 8;
+    examples::Table table{.name = "final-gathering-own",
+                          .columns = {"k", "2 / (k - 2)", "all photons: at the points",
+                                      "own left out: at the points",
+                                      "own left out: over the surface",
+                                      "all points' left out: over the surface"}};
     for (const std::size_t k : {16u, 64u, 256u}) {
         const IrradiancePointSettings how{.nearest = k};
-        Mean own, others;
+        Mean counted, own, own_surface, free_surface;
         for (int m = 0; m < maps; ++m) {
             const PhotonMap map = even_photons(20000, options.seed + std::uint64_t(m));
-            Mean own_here, others_here; // photons of one map share their neighbours
-            for (std::size_t i = 0; i < map.records.size(); i += 50) {
-                const Vec3 p = map.tree.point(i);
-                if (std::max(std::abs(p.x - 0.5f), std::abs(p.y - 0.5f)) > 0.35f)
-                    continue;
-                const Vertex there = square_vertex(scene, p.x, p.y);
-                const auto estimate = [&](std::size_t here) {
-                    return double(detail::estimate_irradiance(scene, map, there, up,
-                                                              how, 0.15f, light_kinds,
-                                                              here)
-                                      .x);
-                };
-                own_here.add(100 * (estimate(std::size_t(-1)) - 1));
-                others_here.add(100 * (estimate(i) - 1));
-            }
-            own.add(own_here.mean());
-            others.add(others_here.mean());
+            const auto& ids = map.tree.point_ids();
+            const auto in_order = [](std::uint32_t i) { return i % every == 0; };
+            const auto by_chance = [&](std::uint32_t i) { return ids[i] % every == 0; };
+            counted.add(deviation(
+                            map, how, in_order, [](auto, auto) { return true; }, 1)
+                            .at_points);
+            const Deviation without = deviation(
+                map, how, in_order, [](auto i, auto other) { return other != i; }, 1);
+            own.add(without.at_points);
+            own_surface.add(without.over_surface);
+            free_surface.add(deviation(
+                                 map, how, by_chance,
+                                 [&](auto, auto other) { return !by_chance(other); },
+                                 1 - 1.0 / every)
+                                 .over_surface);
         }
         const auto percent = [](const Mean& m) {
             return examples::text(m.mean(), "%.1f") + " +- " +
@@ -205,11 +261,10 @@ void own_photon(const examples::Options& options) {
         };
         table.rows.push_back({std::to_string(k),
                               examples::text(200 / (double(k) - 2), "%.1f %%"),
-                              percent(own), percent(others)});
-        if (!options.quiet)
-            std::printf("k = %zu: %s too bright, %s without its own\n", k,
-                        table.rows.back()[2].c_str(), table.rows.back()[3].c_str());
+                              percent(counted), percent(own), percent(own_surface),
+                              percent(free_surface)});
     }
+    print(table, options);
     save_table(options.out, table);
 }
 
@@ -397,14 +452,6 @@ std::vector<Runs> compare(const Room& room,
     return runs;
 }
 
-void print(const examples::Table& table, const examples::Options& options) {
-    if (options.quiet) return;
-    for (const auto& row : table.rows) {
-        for (const auto& cell : row) std::printf("%-10s ", cell.c_str());
-        std::printf("\n");
-    }
-}
-
 /// What one way does with so many photons and rays.
 struct Setting {
     std::size_t way;             ///< 0: photons, 1: map, 2: gather.
@@ -542,7 +589,7 @@ void ratio(const examples::Options& options, const Sizes& sizes) {
                           .columns = {"a point at every", "points", "first pass, s",
                                       "second pass, s", "relMSE", "squared bias"}};
     std::vector<PhotonMappingSettings> ways;
-    for (const int n : {1, 4, 16, 64, 256, 1024}) {
+    for (const int n : {2, 4, 8, 16, 64, 256, 1024}) {
         ways.push_back(
             gather_settings(IndirectLight::gather, sizes.photons, 1, options));
         ways.back().irradiance.every = n;

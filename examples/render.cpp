@@ -74,8 +74,8 @@ struct Request {
     int shadow_rays = 1;
     int caustic_nearest = 0;
     int general_nearest = 0;
-    int irradiance_every = 16;
-    int irradiance_nearest = 64;
+    int irradiance_every = 8;
+    int irradiance_nearest = 48;
     int gather_rays = 25;
     int gather_tile = 3;
     int gather_nearest = 6;
@@ -626,7 +626,7 @@ void body(examples::CommandLine& line) {
              "with precomputed irradiance, or none",
              indirect_lights);
     line.add("--irradiance-every", request.irradiance_every,
-             "Irradiance is precomputed at one of so many photons", 1, 1'000'000);
+             "Irradiance is precomputed at one of so many photons", 2, 1'000'000);
     line.add("--irradiance-nearest", request.irradiance_nearest,
              "Photons of such an estimate", 2, static_cast<int>(max_nearest));
     line.add("--gather-rays", request.gather_rays, "Per point of the cache", 1,

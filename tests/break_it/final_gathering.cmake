@@ -1,14 +1,28 @@
-# The photon that a point was chosen for counts, too: two photons too many of fifty.
+# Points in the order of the tree: more of them where there are too many photons by chance.
+ljus_break_it(NAME final-gathering-order HEADER photons/irradiance_points.hpp
+    TEST final_gathering
+    FROM "return general.tree.point_ids()[i] % every == 0;"
+    TO   "return i % every == 0;"
+    CASES "final gathering: what is looked up*")
+
+# The photons that became points count, too, and the sum is too large by their part.
 ljus_break_it(NAME final-gathering-own-photon HEADER photons/irradiance_points.hpp
     TEST final_gathering
-    FROM "found[k].index == here"
-    TO   "false"
-    CASES "final gathering: an even light*")
+    FROM "return other.kind == PhotonKind::indirect && !is_point(k);"
+    TO   "return other.kind == PhotonKind::indirect;"
+    CASES "final gathering: what is looked up*")
+
+# Fewer photons than asked for, over a disc of the radius that the settings leave open.
+ljus_break_it(NAME final-gathering-few HEADER photons/irradiance_points.hpp
+    TEST final_gathering
+    FROM "const double radius2 = full ? found[0].distance2 : double(radius) * double(radius);"
+    TO   "const double radius2 = full ? found[0].distance2 : double(settings.radius) * double(settings.radius);"
+    CASES "final gathering: fewer photons*")
 
 # Light from the other side of a wall shines through it.
 ljus_break_it(NAME final-gathering-side HEADER photons/irradiance_points.hpp
     TEST final_gathering
-    FROM "!(glm::dot(photon.direction, normal) < T(0)) ||"
+    FROM "if (!(glm::dot(photon.direction, normal) < T(0))) continue;"
     TO   ""
     CASES "final gathering: an even light*")
 

@@ -23,8 +23,9 @@ namespace ljus {
 
 /// How irradiance is precomputed.
 struct IrradiancePointSettings {
-    int every = 16;           ///< At one of so many photons, at least 1.
-    std::size_t nearest = 64; ///< Photons of an estimate, 2 to 512.
+    int every = 8; ///< One of so many photons is a point and counts in no estimate, at
+                   ///< least 2.
+    std::size_t nearest = 48; ///< Photons of an estimate, 2 to 512.
     float radius = 0; ///< Within which they lie, at most, in scene units; 0: four times
                       ///< as far as they lie typically.
     int shadow_rays = 4; ///< To each light, for the direct part; at least 1.
@@ -60,29 +61,31 @@ namespace detail {
 /// \param normal    Unit, on the side that is asked about.
 /// \param settings  How many photons, and whether edges are made up for.
 /// \param radius    Within which they lie, at most; in scene units.
-/// \param kinds     Which kinds count.
-/// \param here      The photon that the point was chosen for. It does not count: that
-///                  it lies there says nothing of how dense photons are.
+/// \param wanted    Says of the index of a record whether that photon counts.
 /// \return W/m^2.
-template <SceneLike S, std::floating_point T>
+template <SceneLike S, std::floating_point T, typename Wanted>
 [[nodiscard]] RgbT<T>
 estimate_irradiance(const S& scene, const PhotonMapT<T>& map, const VertexT<T>& vertex,
                     const Vec3T<T>& normal, const IrradiancePointSettings& settings,
-                    T radius, PhotonKinds kinds, std::size_t here = std::size_t(-1)) {
+                    T radius, const Wanted& wanted) {
     std::array<Neighbor, max_nearest> room;
     const std::span<Neighbor> found(room.data(), settings.nearest);
     // By the shape's own normal, as photons have it; the side is told by where they go.
-    const std::size_t count = nearest_photons(map, vertex.point, radius, kinds, found);
-    const bool full = count == settings.nearest;
-    const double radius2 =
-        full ? found[0].distance2 : double(settings.radius) * double(settings.radius);
-    if (!(radius2 > 0)) return RgbT<T>{T(0)};
+    const Vec3T<T> surface = vertex.point.normal;
+    const auto counts = [&](std::uint32_t i) {
+        return wanted(i) &&
+               !turned_away(PhotonRecordT<T>(map.records[i]).normal, surface);
+    };
     // [estimate_irradiance]
+    const std::size_t count = map.tree.template nearest<max_nearest>(
+        vertex.point.position, radius, found, counts);
+    const bool full = count == settings.nearest;
+    const double radius2 = full ? found[0].distance2 : double(radius) * double(radius);
+    if (!(radius2 > 0)) return RgbT<T>{T(0)};
     RgbT<double> sum{0};
     for (std::size_t k = full ? 1 : 0; k < count; ++k) {
         const PhotonRecordT<T> photon = map.records[found[k].index];
-        if (!(glm::dot(photon.direction, normal) < T(0)) || found[k].index == here)
-            continue;
+        if (!(glm::dot(photon.direction, normal) < T(0))) continue;
         const double weight =
             kernel_weight(Kernel::epanechnikov, found[k].distance2 / radius2);
         sum += weight * RgbT<double>(photon.flux);
@@ -113,14 +116,22 @@ template <SceneLike S, std::floating_point T>
     const S& scene, const PhotonMapT<T>& general, const PhotonMapT<T>& caustics,
     const IrradiancePointSettings& settings, std::uint64_t seed, int threads = 0) {
     const auto every = static_cast<std::size_t>(settings.every);
-    const std::size_t count = (general.records.size() + every - 1) / every;
+    // Every so many photons by their emission: chance, and not the tree's order, which
+    // has more points where there are more photons than there should be.
+    const auto is_point = [&](std::size_t i) {
+        return general.tree.point_ids()[i] % every == 0;
+    };
+    std::vector<std::size_t> chosen;
+    for (std::size_t i = 0; i < general.records.size(); ++i)
+        if (is_point(i)) chosen.push_back(i);
+    const std::size_t count = chosen.size();
     const T radius = settings.radius > 0
                          ? T(settings.radius)
                          : 4 * typical_radius(general, settings.nearest);
     std::vector<Vec3T<T>> positions(count);
     std::vector<IrradianceAtT<T>> records(count);
     const auto at_point = [&](std::size_t i) {
-        const std::size_t photon = i * every;
+        const std::size_t photon = chosen[i];
         const detail::PhotonRecordT<T> record = general.records[photon];
         positions[i] = general.tree.point(photon);
         Vec3T<T> normal = glm::normalize(Vec3T<T>(record.normal));
@@ -144,12 +155,17 @@ template <SceneLike S, std::floating_point T>
             std::numbers::pi_v<T> *
             detail::sample_all_lights(scene, vertex, white, DirectLight::analytic,
                                       settings.shadow_rays, stream, counts);
-        sum +=
-            detail::estimate_irradiance(scene, general, vertex, side, settings, radius,
-                                        one_kind(PhotonKind::indirect), photon);
+        const auto indirect = [&](std::uint32_t k) {
+            const detail::PhotonRecordT<T> other = general.records[k];
+            return other.kind == PhotonKind::indirect && !is_point(k);
+        };
+        sum += detail::estimate_irradiance(scene, general, vertex, side, settings,
+                                           radius, indirect) *
+               (T(every) / T(every - 1));
+        const auto all = [](std::uint32_t) { return true; };
         if (!caustics.empty())
             sum += detail::estimate_irradiance(scene, caustics, vertex, side, settings,
-                                               radius, one_kind(PhotonKind::caustic));
+                                               radius, all);
         records[i].irradiance = sum;
         // [at_point]
     };

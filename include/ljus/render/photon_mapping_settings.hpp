@@ -86,8 +86,8 @@ inline void check(const PhotonMappingSettings& settings) {
             settings.caustics.photons, "at least 0");
     require(settings.general.photons >= 0, "general.photons", settings.general.photons,
             "at least 0");
-    require(settings.irradiance.every >= 1, "irradiance.every",
-            static_cast<long long>(settings.irradiance.every), "at least 1");
+    require(settings.irradiance.every >= 2, "irradiance.every",
+            static_cast<long long>(settings.irradiance.every), "at least 2");
     require(settings.irradiance.nearest >= 2 &&
                 settings.irradiance.nearest <= max_nearest,
             "irradiance.nearest", static_cast<long long>(settings.irradiance.nearest),
