@@ -74,8 +74,8 @@ struct Request {
     int shadow_rays = 1;
     int caustic_nearest = 0;
     int general_nearest = 0;
-    int irradiance_every = 8;
-    int irradiance_nearest = 48;
+    int irradiance_every = 6;
+    int irradiance_nearest = 32;
     int gather_rays = 25;
     int gather_tile = 3;
     int gather_nearest = 6;
@@ -149,6 +149,9 @@ PhotonMappingSettings settings_of(const Request& request,
     set("--gather-nearest", settings.gather.nearest, request.gather_nearest);
     set("--gather-reach", settings.gather.reach, request.gather_reach);
     for (PhotonPassSettings* pass : {&settings.caustics, &settings.general}) {
+        set("--photon-numbers", pass->numbers,
+            chosen<PhotonSampling>(examples::photon_numbers,
+                                   request.photon_options.numbers));
         pass->seed = options.seed;
         pass->threads = options.threads;
     }

@@ -100,7 +100,6 @@ inline void set_photon_options(ljus::PhotonMappingSettings& settings,
                      .risk = static_cast<float>(what.skip_risk)};
     settings.caustic_budget = chosen<ljus::CausticBudget>(budgets, what.budget);
     for (ljus::PhotonPassSettings* pass : {&settings.caustics, &settings.general}) {
-        pass->numbers = chosen<ljus::PhotonSampling>(photon_numbers, what.numbers);
         pass->max_bounces = what.bounces;
         pass->max_memory = 1e9 * what.memory;
     }

@@ -23,9 +23,9 @@ namespace ljus {
 
 /// How irradiance is precomputed.
 struct IrradiancePointSettings {
-    int every = 8; ///< One of so many photons is a point and counts in no estimate, at
+    int every = 6; ///< One of so many photons is a point and counts in no estimate, at
                    ///< least 2.
-    std::size_t nearest = 48; ///< Photons of an estimate, 2 to 512.
+    std::size_t nearest = 32; ///< Photons of an estimate, 2 to 512.
     float radius = 0; ///< Within which they lie, at most, in scene units; 0: four times
                       ///< as far as they lie typically.
     int shadow_rays = 4; ///< To each light, for the direct part; at least 1.

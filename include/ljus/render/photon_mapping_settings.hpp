@@ -141,6 +141,7 @@ enum class Preset : std::uint8_t {
         settings.caustics.photons = 2'000'000;
         return settings;
     }
+    settings.general.numbers = settings.caustics.numbers = PhotonSampling::sobol;
     const bool draft = preset == Preset::draft;
     settings.direct = DirectLight::analytic;
     settings.shadow_rays = draft ? 2 : 4;
