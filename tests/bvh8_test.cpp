@@ -237,3 +237,63 @@ TEST_CASE("wide bvh: few nodes, for most of their places are taken") {
     MESSAGE("nodes at most: " << most);
     CHECK(most <= 10); // a cut without a choice makes 14
 }
+
+TEST_CASE("wide bvh: of all ways to collapse a tree the one of least surface") {
+    // By trying them all: what lies below a wide node is any row of at most eight nodes
+    // that covers its leaves, and the surfaces of all wide nodes are added up.
+    Numbers n(6);
+    int wide_nodes = 0, better = 0;
+    for (int round = 0; round < 60; ++round) {
+        std::vector<Box> boxes;
+        for (int k = 0; k < 9 + round % 5; ++k) {
+            const Vec3 at(n.point(5));
+            boxes.push_back({at, at + glm::abs(Vec3(n.point(2)))});
+        }
+        const auto tree =
+            detail::build_bvh(std::span<const Box>(boxes), {.leaf_size = 1});
+        const auto surface = [&](std::uint32_t i) {
+            const glm::dvec3 d(tree.nodes[i].box.high - tree.nodes[i].box.low);
+            return d.x * d.y + d.y * d.z + d.z * d.x;
+        };
+        // Least sums by node, from the last, whose children stand behind it; and all
+        // rows below a node, as the sums that they give by how many nodes they have.
+        std::vector<double> least(tree.nodes.size(), 0.0);
+        const auto rows = [&](const auto& self, std::uint32_t i,
+                              bool open) -> std::vector<std::pair<int, double>> {
+            std::vector<std::pair<int, double>> result;
+            if (!open) result.push_back({1, least[i]});
+            if (tree.nodes[i].count > 0) return result;
+            for (const auto& [a, low] : self(self, tree.nodes[i].first, false))
+                for (const auto& [b, high] : self(self, tree.nodes[i].first + 1, false))
+                    if (a + b <= 8) result.push_back({a + b, low + high});
+            return result;
+        };
+        for (std::size_t i = tree.nodes.size(); i-- > 0;) {
+            if (tree.nodes[i].count > 0) continue;
+            double best = 1e300;
+            for (const auto& [count, sum] : rows(rows, std::uint32_t(i), true))
+                best = std::min(best, sum);
+            least[i] = surface(std::uint32_t(i)) + best;
+        }
+        const detail::BvhCollapse<float> collapse(tree);
+        double sum = 0;
+        std::size_t leaves = 0;
+        const auto visit = [&](const auto& self, std::uint32_t i) -> void {
+            ++wide_nodes;
+            sum += surface(i);
+            const auto below = collapse.children(i);
+            REQUIRE(below.count <= 8);
+            for (std::size_t k = 0; k < below.count; ++k)
+                if (tree.nodes[below.node[k]].count > 0)
+                    ++leaves;
+                else
+                    self(self, below.node[k]);
+        };
+        visit(visit, 0);
+        CHECK(leaves == boxes.size());
+        CHECK(sum == doctest::Approx(least[0]).epsilon(1e-9));
+        better += sum < 2 * surface(0);
+    }
+    CHECK(wide_nodes > 120);
+    CHECK(better > 0);
+}

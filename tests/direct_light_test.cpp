@@ -264,3 +264,31 @@ TEST_CASE("direct light: of all lights, by several rays each") {
     }
     CHECK(spread[1] < spread[0] / 6); // 16 by chance would give 1/4: they are spread
 }
+
+TEST_CASE_TEMPLATE("direct light: the weights of two ways to one light", T, float,
+                   double) {
+    using detail::balance_heuristic;
+    using detail::power_heuristic;
+    const T u = std::numeric_limits<T>::epsilon();
+    for (const double a : {1e-30, 1e-3, 0.5, 1.0, 3.0, 1e3, 1e30})
+        for (const double b : {1e-30, 1e-3, 0.5, 1.0, 3.0, 1e3, 1e30}) {
+            const double balance = double(balance_heuristic(T(a), T(b)));
+            const double power = double(power_heuristic(T(a), T(b)));
+            CHECK(balance == ljus_test::within(1 / (1 + b / a), 4 * double(u)));
+            const double square =
+                1 / (1 + (b / a) * (b / a)); // 0 is the best of 1e-120
+            CHECK(std::abs(power - square) <= 8 * double(u) * square + 1e-37);
+            // All of the light once, by both ways together.
+            CHECK(balance + double(balance_heuristic(T(b), T(a))) ==
+                  ljus_test::within(1, 4 * double(u)));
+            CHECK(power + double(power_heuristic(T(b), T(a))) ==
+                  ljus_test::within(1, 4 * double(u)));
+        }
+    const T none = 0, delta = std::numeric_limits<T>::infinity();
+    for (const auto weight : {balance_heuristic<T>, power_heuristic<T>}) {
+        CHECK(weight(T(2), none) == 1);
+        CHECK(weight(none, T(2)) == 0);
+        CHECK(weight(delta, T(2)) == 1);
+        CHECK(weight(T(2), delta) == 0);
+    }
+}

@@ -682,3 +682,45 @@ TEST_CASE("general map: the size of a scene and its place do not matter") {
     CHECK(coarse[PhotonKind::direct].photons <= 2000);
     CHECK(std::isfinite(coarse[PhotonKind::direct].flux.x));
 }
+
+TEST_CASE("general map: what the presets ask for") {
+    const auto draft = preset_settings(Preset::draft, 400, 300);
+    CHECK(draft.general.photons == 30000); // a quarter of the pixels
+    CHECK(draft.caustics.photons == 15000);
+    CHECK(draft.shadow_rays == 2);
+    CHECK(draft.direct == DirectLight::analytic);
+    CHECK(draft.indirect == IndirectLight::cache);
+    CHECK(draft.gather.rays == 16);
+    CHECK(draft.gather.tile == 5);
+    const auto fast = preset_settings(Preset::fast, 400, 300);
+    CHECK(fast.general.photons == 120000); // as many as pixels
+    CHECK(fast.caustics.photons == 60000);
+    CHECK(fast.shadow_rays == 4);
+    CHECK(fast.direct == DirectLight::analytic);
+    CHECK(fast.indirect == IndirectLight::cache);
+    CHECK(fast.gather.rays == GatherSettings{}.rays);
+    CHECK(fast.gather.tile == GatherSettings{}.tile);
+    const auto exact = preset_settings(Preset::exact, 400, 300);
+    CHECK(exact.caustics.photons == 2000000);
+    CHECK(exact.direct == DirectLight::mis);
+    CHECK(exact.indirect == IndirectLight::rays);
+    CHECK(exact.shadow_rays == 1);
+    for (const auto& settings : {draft, fast, exact}) {
+        CHECK(settings.split_glass);
+        CHECK_FALSE(settings.general.shadow_photons);
+        CHECK(settings.caustics_estimate.radius == 0);
+        CHECK(settings.general_estimate.radius == 0);
+        check(settings);
+    }
+    for (const Preset preset : {Preset::draft, Preset::fast}) {
+        CHECK(preset_settings(preset, 10, 10).general.photons == 10000);
+        CHECK(preset_settings(preset, 20000, 20000).general.photons == 1000000);
+        CHECK(preset_settings(preset, 20000, 20000).caustics.photons == 500000);
+    }
+    CHECK(detail::gathers(IndirectLight::map));
+    CHECK(detail::gathers(IndirectLight::gather));
+    CHECK(detail::gathers(IndirectLight::cache));
+    CHECK_FALSE(detail::gathers(IndirectLight::rays));
+    CHECK_FALSE(detail::gathers(IndirectLight::photons));
+    CHECK_FALSE(detail::gathers(IndirectLight::none));
+}

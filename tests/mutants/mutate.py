@@ -17,17 +17,20 @@ change nothing that a test could see, with the reason; they are not counted.
   --seed S        ... by this seed (1)
   --all N         at most N mutants in all, chosen at random
   --again         only those that survived the last run here
-  --long          with the tests that say '// long:' as well
+  --long          with the tests that say '// long:' as well; without it these are run for
+                  headers only that have no other test
   --jobs N        so many at a time (the number of processors)
   --build FOLDER  where to work (build/mutants)
   --commands FILE a compile_commands.json that says how tests are compiled
   --report FILE   write the survivors there as well
+  --csv FILE      a table by floors there, of this run and all that ran here before
   --compiled      those that only the compiler runs as well, in a program each
   --list          only count the mutants
 """
 
 import argparse
 import concurrent.futures
+import hashlib
 import json
 import math
 import os
@@ -100,7 +103,8 @@ def tests_of_headers(with_long):
         header = file.relative_to(INCLUDE / "ljus").as_posix()
         names = [file.stem] * (file.stem in head_of) + further[file.stem]
         names += [name for name in table.get(header, []) if name not in names]
-        result[header] = [n for n in names if with_long or n not in long_ones]
+        quick = [n for n in names if n not in long_ones]
+        result[header] = quick if quick and not with_long else names
     return result
 
 
@@ -129,6 +133,62 @@ def equivalent_ones():
         else:
             sys.exit(f"tests/mutants/equivalent:{number}: not a header, -, + or =.")
     return result
+
+
+# --- What became of them, run by run ----------------------------------------------------
+def key_in_file(mutant):
+    return f"{mutant.line} | {mutant.before} | {mutant.after}"
+
+
+def file_of_fates(header, options):
+    return options.build / "fates" / (header.replace("/", "_") + ".json")
+
+
+def known_fates(header, options):
+    """{key: fate} of all runs here since the header was last changed."""
+    file = file_of_fates(header, options)
+    known = json.loads(read(file)) if file.exists() else {}
+    text = hashlib.sha1(read(INCLUDE / "ljus" / header).encode()).hexdigest()
+    return known["fates"] if known.get("header") == text else {}
+
+
+def keep_fates(header, found, fate, options):
+    known = known_fates(header, options)
+    known.update({key_in_file(m): fate[id(m)] for m in found if id(m) in fate})
+    text = hashlib.sha1(read(INCLUDE / "ljus" / header).encode()).hexdigest()
+    write(file_of_fates(header, options), json.dumps({"header": text, "fates": known}))
+
+
+def write_csv(tests_of, equivalent, options):
+    """By floor: how many were tried, of those noticed, and how many are equivalent."""
+    rows = defaultdict(Counter)
+    for header in tests_of:
+        known = known_fates(header, options)
+        if not known:
+            continue
+        row = rows[floor(header)]
+        row["headers"] += 1
+        for region in mutants.find(read(INCLUDE / "ljus" / header))[1]:
+            for mutant in region.mutants:
+                result = known.get(key_in_file(mutant))
+                if key_of(header, mutant) in equivalent:
+                    row["equivalent"] += result is None or result != "left out"
+                elif result in NOTICED:
+                    row["killed"] += 1
+                elif result not in (None, "left out"):
+                    row["alive"] += 1
+    lines = [
+        "# scripts/test --mutate --csv, tests at -O1; a random choice of each header's mutants:",
+        f"# at most {options.sample or 'all'} of a header in a run.",
+        "floor,made,killed,equivalent,share",
+    ]
+    for name, row in [*sorted(rows.items()), ("all", sum(rows.values(), Counter()))]:
+        tried = row["killed"] + row["alive"]
+        if tried:
+            share = f"{100 * row['killed'] / tried:.0f} %"
+            made = tried + row["equivalent"]
+            lines.append(f"{name},{made},{row['killed']},{row['equivalent']},{share}")
+    write(options.csv, "\n".join([*lines, ""]))
 
 
 # --- How a test is compiled -------------------------------------------------------------
@@ -448,6 +508,7 @@ def main():
     parser.add_argument("--build", type=Path, default=ROOT / "build/mutants")
     parser.add_argument("--commands", type=Path)
     parser.add_argument("--report", type=Path)
+    parser.add_argument("--csv", type=Path)
     options = parser.parse_args()
     options.build = options.build.resolve()
     options.build.mkdir(parents=True, exist_ok=True)
@@ -471,6 +532,8 @@ def main():
         found = [m for region in regions_of[header][1] for m in region.mutants]
         unused -= {key_of(header, m) for m in found}
         found = [m for m in found if key_of(header, m) not in equivalent]
+        known = known_fates(header, options)
+        found = [m for m in found if known.get(key_in_file(m)) != "left out"]
         if options.again:
             file = options.build / "survivors" / header.replace("/", "_")
             last = {tuple(k) for k in json.loads(read(file))} if file.exists() else set()
@@ -541,7 +604,11 @@ def main():
                 f"({sum(program.cases.values()):.1f} s a test)", flush=True,
             )  # fmt: skip
 
+    for header, found in chosen_of.items():
+        keep_fates(header, found, fate, options)
     report(chosen_of, tests_of, fate, options)
+    if options.csv:
+        write_csv(tests_of, equivalent, options)
 
 
 def report(chosen_of, tests_of, fate, options):

@@ -74,8 +74,7 @@ estimate_irradiance(const S& scene, const PhotonMapT<T>& map, const VertexT<T>& 
     // By the shape's own normal, as photons have it; the side is told by where they go.
     const std::size_t count = nearest_photons(map, vertex.point, radius, kinds, found);
     const bool full = count == settings.nearest;
-    const double radius2 =
-        full ? found[0].distance2 : double(settings.radius) * double(settings.radius);
+    const double radius2 = full ? found[0].distance2 : double(radius) * double(radius);
     if (!(radius2 > 0)) return RgbT<T>{T(0)};
     // [estimate_irradiance]
     RgbT<double> sum{0};
