@@ -4,6 +4,7 @@
 
 #include "ljus/geometry/moving.hpp"
 #include "ljus/materials/glossy.hpp"
+#include "ljus/materials/mirror.hpp"
 #include "ljus/path/all_lights.hpp"
 #include "ljus/scenes/furnaces.hpp"
 #include "support/mean.hpp"
@@ -281,6 +282,11 @@ TEST_CASE("all lights: who goes by which way, number by number") {
     for (const DirectLight how :
          {DirectLight::sampled, DirectLight::mis, DirectLight::analytic})
         CHECK(double(once(white, how, lamp).x) == doctest::Approx(right).epsilon(1e-4));
+    // A material without such a lobe sends no ray.
+    auto stream = random_stream(4, Pass::user, 0, 7);
+    Counts counts;
+    CHECK(detail::found_light(scene, at, Mirror{}, 1, stream, counts) == Rgb{0});
+    CHECK(counts.shadow_rays == 0);
     // No form factor of what has no surface, and none of a light behind the surface.
     CHECK_FALSE(detail::form_factor_of(lamp, lamp.lights[0], at));
     CHECK(*detail::form_factor_of(scene, scene.lights[0], at) ==

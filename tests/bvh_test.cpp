@@ -188,7 +188,7 @@ TEST_CASE("bvh: the nearer child first, so that little is visited") {
     CHECK(tests / rays < 80);
 }
 
-// --- The surface area heuristic, by adding everything up -------------------------------
+// --- The surface area heuristic, by adding everything up -----------------------------
 
 namespace {
 

@@ -91,6 +91,22 @@ TEST_CASE("final gathering: what lies on the surface near its edges") {
         CHECK(part(0.5f, 0.45f, 0.1f) == 1); // the diagonal is no edge
         CHECK(part(0.05f, 0.4f, 0.1f) == doctest::Approx(detail::kernel_part(0.5f)));
         CHECK(part(0.98f, 0.6f, 0.1f) == doctest::Approx(detail::kernel_part(0.2f)));
+        // From below as from above, and whatever lies farther down or leans.
+        Flat more = scene;
+        const auto grey = more.add(Lambertian{});
+        more.add(Quad{.corner{-9, -9, -0.5f}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}},
+                 grey);
+        more.add(Quad{.corner{1, 0, -0.5f}, .edge_u{0, 1, 0}, .edge_v{0.2f, 0, 1}},
+                 grey);
+        for (const Vec3 side : {up, -up})
+            for (const Flat& there : {scene, more}) {
+                const auto of = [&](float x, float y) {
+                    return detail::part_on_surface(there, at(there, x, y), side, 0.1f);
+                };
+                CHECK(of(0.05f, 0.4f) == doctest::Approx(detail::kernel_part(0.5f)));
+                CHECK(of(0.98f, 0.6f) == doctest::Approx(detail::kernel_part(0.2f)));
+                CHECK(of(0.5f, 0.45f) == 1);
+            }
         if (!triangles) // where triangles meet a corner each edge is seen by one of them
             CHECK(
                 part(0.05f, 0.02f, 0.1f) ==

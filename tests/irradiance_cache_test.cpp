@@ -201,7 +201,6 @@ TEST_CASE("irradiance cache: points where a camera ray meets something matt") {
                        .edge_v{0, 100, 0}},
                   glass);
     CHECK(gathered(panes, down, {.rays = 1}).positions.size() <= 8);
-    CHECK(gathered(panes, down, {.rays = 1}).positions.size() >= 3);
 }
 
 TEST_CASE("irradiance cache: a point in each square of pixels") {

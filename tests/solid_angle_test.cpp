@@ -313,8 +313,8 @@ TEST_CASE_TEMPLATE("solid angle: an observer at the very point that is chosen", 
 
 namespace {
 
-/// The form factor of a point to the triangle v1 + a e1 + b e2 by the midpoint rule over
-/// 2 x 300 x 300 small ones; only what faces the point counts, and lies above it.
+/// The form factor of a point to the triangle v1 + a e1 + b e2, by the midpoint rule of
+/// 90 000 small ones; only what faces the point counts, and lies above it.
 double by_rule(const glm::dvec3& from, const glm::dvec3& normal, const glm::dvec3& v1,
                const glm::dvec3& e1, const glm::dvec3& e2, double sign) {
     constexpr int n = 300;

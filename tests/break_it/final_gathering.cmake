@@ -39,3 +39,25 @@ ljus_break_it(NAME final-gathering-pi HEADER render/final_gathering.hpp
     FROM "return scattered->weight * irradiance * std::numbers::inv_pi_v<T>;"
     TO   "return scattered->weight * irradiance;"
     CASES "final gathering: in a furnace*")
+
+# Where there are few photons: the radius that was asked for, which is 0 for one that is
+# chosen, and it is dark there.
+ljus_break_it(NAME final-gathering-few HEADER photons/irradiance_points.hpp
+    TEST final_gathering
+    FROM "full ? found[0].distance2 : double(radius) * double(radius);"
+    TO   "full ? found[0].distance2 : double(settings.radius) * double(settings.radius);"
+    CASES "final gathering: an estimate of few*")
+
+# The harmonic mean of the gather rays' lengths for their mean: points count too far.
+ljus_break_it(NAME final-gathering-distance HEADER render/final_gathering.hpp
+    TEST final_gathering
+    FROM "inverse += T(1) / found.distance;"
+    TO   "inverse += found.distance;"
+    CASES "final gathering: the irradiance of a square*")
+
+# A gather ray through a mirror is as long as its last part.
+ljus_break_it(NAME final-gathering-first HEADER render/final_gathering.hpp
+    TEST final_gathering
+    FROM "if (first) found.distance = vertex->distance;"
+    TO   "found.distance = vertex->distance;"
+    CASES "final gathering: what a gather ray brings*")

@@ -223,7 +223,13 @@ def with_headers(command, folder):
 
 
 def libraries():
-    return ["-lmpfr", "-lgmp"] if Path("/usr/include/mpfr.h").exists() else []
+    """What the headers of /usr/include have to be linked with."""
+    needed = {"mpfr.h": ["-lmpfr", "-lgmp"], "tiny_obj_loader.h": ["-ltinyobjloader"]}
+    return [
+        library
+        for header, names in needed.items() for library in names
+        if Path("/usr/include", header).exists()
+    ]  # fmt: skip
 
 
 class Program:
@@ -593,8 +599,6 @@ def main():
                 result = results.get(copy.number, "left out") if copy.number else "left out"
                 before = fate.get(id(original))
                 if before == "survived" and result in ("not reached", "left out"):
-                    continue
-                if before == "not reached" and result == "left out":
                     continue
                 fate[id(original)] = result
             counts = ", ".join(f"{n} {what}" for what, n in sorted(tally.items()))
