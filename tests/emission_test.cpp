@@ -21,6 +21,7 @@
 #include "ljus/materials/mirror.hpp"
 #include "ljus/scene/query.hpp"
 #include "support/photon_samples.hpp"
+#include "support/within.hpp"
 
 using namespace ljus;
 using photon_test::integrate;

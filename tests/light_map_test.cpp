@@ -283,6 +283,9 @@ TEST_CASE("light_map: a map of another scene is refused") {
     };
     refused(stage(), all->map);
     LightMap wrong = all->map;
+    ++wrong.objects;
+    refused(room.scene, wrong);
+    wrong = all->map;
     wrong.grids[0].object.index = 99;
     refused(room.scene, wrong);
     wrong = all->map;
@@ -332,6 +335,24 @@ TEST_CASE("light_map: a file cut short or damaged is refused") {
     CHECK(with(48, {3}) == cannot + "its grid 0 is none.");
     CHECK(with(52, {0}) == cannot + "its grid 0 is none.");
     CHECK(with(52, {255, 255, 1}) == cannot + "its grid 0 is none.");
+    // The kind stands in the two lowest bits: a triangle has as many rows as columns,
+    // a ball two columns and three rows at least.
+    const auto grid = [&](int how, int columns, int rows) {
+        return with(48, {how, 0, 0, 0, columns, 0, 0, 0, rows, 0, 0, 0}) ==
+               cannot + "its grid 0 is none.";
+    };
+    for (const int sides : {0, 4, 8, 12}) {
+        CHECK_FALSE(grid(sides, 3, 2));
+        CHECK(grid(sides + 1, 3, 2));
+        CHECK_FALSE(grid(sides + 1, 3, 3));
+        CHECK(grid(sides + 2, 1, 3));
+        CHECK(grid(sides + 2, 2, 2));
+        CHECK_FALSE(grid(sides + 2, 2, 3));
+        CHECK(grid(sides + 3, 3, 3));
+        CHECK(grid(sides, 0, 1));
+        CHECK(grid(sides, 1, 0));
+    }
+    CHECK(grid(16, 3, 2));
     CHECK(with(52, {255, 255}).starts_with(cannot + "it says that it holds 655"));
     CHECK(with(light, {0, 0, 0, 0, 0, 0, 240, 127}) ==
           cannot + "it has light that is not finite, or below 0.");

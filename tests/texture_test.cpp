@@ -334,4 +334,58 @@ TEST_CASE("texture: of pictures only those are read whose reader is trusted, and
     CHECK(refusal_of(large) ==
           "a has 16386 x 16386 pixels; there can be at most 33554432.");
 }
+
+TEST_CASE("texture: the tables of a JPEG file, segment by segment") {
+    const auto add = [](Bytes& to, std::initializer_list<int> values) {
+        for (const int value : values) to.push_back(static_cast<unsigned char>(value));
+    };
+    // A table of so many entries, all of them codes of 8 bits, or the rest of 9.
+    const auto table = [&](Bytes& to, int entries) {
+        add(to, {0, 0, 0, 0, 0, 0, 0, 0, std::min(entries, 255),
+                 entries - std::min(entries, 255), 0, 0, 0, 0, 0, 0, 0});
+        for (int i = 0; i < entries; ++i) add(to, {i % 200});
+    };
+    const auto tables = [&](std::initializer_list<int> sizes) {
+        Bytes file{0xff, 0xd8, 0xff, 0xc4};
+        int length = 2;
+        for (const int entries : sizes) length += 17 + entries;
+        add(file, {length / 256, length % 256});
+        for (const int entries : sizes) table(file, entries);
+        add(file, {0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff});
+        file.resize(file.size() + 300, 0xff);
+        return file;
+    };
+    const auto trouble = [](const Bytes& file) {
+        return detail::jpeg_trouble(file) != nullptr;
+    };
+    CHECK_FALSE(trouble(tables({0})));
+    CHECK_FALSE(trouble(tables({255})));
+    CHECK(trouble(tables({256})));
+    CHECK_FALSE(trouble(tables({200, 200, 255, 3})));
+    CHECK(trouble(tables({200, 200, 256})));
+    CHECK(trouble(tables({200, 256, 200})));
+    // A long segment before it is jumped over, to the byte: its last two look like the
+    // beginning of a table, of which what follows would be a bad one.
+    for (const int length : {16, 0x110, 0x202, 0x3ff}) {
+        Bytes file{0xff, 0xd8, 0xff, 0xe0};
+        add(file, {length / 256, length % 256});
+        file.resize(4 + std::size_t(length) - 2, 0);
+        add(file, {0xff, 0xc4});
+        Bytes with_table = file;
+        add(file, {0xff, 0xfe, 0, 0x30});
+        file.resize(file.size() + 46, 0x7f);
+        CHECK_FALSE(trouble(file));
+        const Bytes bad = tables({256});
+        with_table.insert(with_table.end(), bad.begin() + 2, bad.end());
+        CHECK(trouble(with_table));
+    }
+    // After the pixels begin it may stand anywhere.
+    Bytes coded{0xff, 0xd8, 0xff, 0xda, 0, 8, 1, 2, 3, 0xff, 0, 7, 0xff, 0xe0, 0xff};
+    CHECK_FALSE(trouble(coded));
+    const Bytes bad = tables({256});
+    coded.insert(coded.end(), bad.begin() + 2, bad.end());
+    CHECK(trouble(coded));
+    CHECK_FALSE(trouble({0xff, 0xd8}));
+    CHECK_FALSE(trouble({0xff, 0xd8, 0xff, 0xe0, 0xff}));
+}
 #endif

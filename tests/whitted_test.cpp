@@ -563,3 +563,12 @@ TEST_CASE("whitted: at the extremes") {
     (void)radiance(make_whitted(hall, {.max_depth = 1000}), across, stream, counts);
     CHECK(counts.bounce_rays == 1000);
 }
+
+TEST_CASE("whitted: what is black sends no ray on") {
+    const auto scene = ball_scene<double>(MirrorT<double>{RgbT<double>{0}});
+    RandomStream stream;
+    Counts counts;
+    CHECK(radiance(make_whitted(scene), at_the_ball<double>(), stream, counts) ==
+          RgbT<double>{0});
+    CHECK(counts.bounce_rays == 0);
+}

@@ -82,9 +82,3 @@ ljus_break_it(NAME bvh-heuristic HEADER accel/detail/bvh_bins.hpp TEST bvh
     FROM "lower.bounds.half_area() * tests_of(lower.count, at_a_time) + above[i];"
     TO   "lower.bounds.half_area() * tests_of(upper.count, at_a_time) + above[i];"
     CASES "bvh: the split is the cheapest*")
-
-# A wide node takes its children in equal shares, whatever their surfaces.
-ljus_break_it(NAME bvh-collapse HEADER accel/detail/bvh_collapse.hpp TEST bvh8
-    FROM "if (low == 1 || sum < best.cost) best = {low, sum};"
-    TO   "if (low <= slots / 2) best = {low, sum};"
-    CASES "wide bvh: of all ways*")
