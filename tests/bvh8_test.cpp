@@ -297,3 +297,29 @@ TEST_CASE("wide bvh: of all ways to collapse a tree the one of least surface") {
     CHECK(wide_nodes > 120);
     CHECK(better > 0);
 }
+
+TEST_CASE("wide bvh: where its middle is, its bytes, and leaves of sixteen") {
+    Numbers n(9);
+    const Triangles triangles = soup(n, 300, 5, 0.5, Vec3{100, -50, 7});
+    const auto boxes = boxes_of(triangles);
+    Box all;
+    for (const Box& box : boxes) all = box_union(all, box);
+    const Bvh8 tree(boxes, {.leaf_size = 16});
+    const Vec3 middle = (all.low + all.high) / 2.0f, half = (all.high - all.low) / 2.0f;
+    CHECK(glm::distance(tree.wide().middle, middle) < 1e-4f);
+    CHECK(glm::distance(tree.wide().half, half) < 1e-4f);
+    CHECK(tree.box().low == all.low);
+    CHECK(tree.box().high == all.high);
+    CHECK(tree.bytes() == tree.nodes().capacity() * sizeof(detail::Bvh8Node) +
+                              tree.primitive_ids().capacity() * 4);
+    const Trees trees(triangles, 16);
+    for (int i = 0; i < 500; ++i) trees.check(some_ray(n, 5, Vec3{100, -50, 7}));
+    // Sixteen at one place, split nowhere.
+    const Triangles equal(16, triangles[0]);
+    const Trees one(equal, 16);
+    CHECK(one.wide.primitive_ids().size() == 16);
+    const Vec3 inside = (triangles[0].v1 + triangles[0].v2 + triangles[0].v3) / 3.0f;
+    const Vec3 up = glm::normalize(glm::cross(triangles[0].v2 - triangles[0].v1,
+                                              triangles[0].v3 - triangles[0].v1));
+    CHECK(one.check({.origin = inside + up, .direction = -up}));
+}

@@ -380,3 +380,16 @@ TEST_CASE("bvh: in double as in float") {
     }
     CHECK(hits > 100);
 }
+
+TEST_CASE("bvh: its box and its bytes") {
+    Numbers n(8);
+    const auto boxes = some_boxes(n, 50, Vec3{1});
+    const Bvh tree(boxes);
+    Box all;
+    for (const Box& box : boxes) all = box_union(all, box);
+    CHECK(tree.box().low == all.low);
+    CHECK(tree.box().high == all.high);
+    CHECK(tree.bytes() ==
+          tree.nodes().capacity() * 32 + tree.primitive_ids().capacity() * 4);
+    CHECK(Bvh{}.bytes() == 0);
+}

@@ -15,6 +15,7 @@
 #include "ljus/materials/glossy.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
+#include "ljus/materials/mixture.hpp"
 #include "ljus/materials/textured.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/render.hpp"
@@ -202,6 +203,45 @@ TEST_CASE("texture: a UvMap looks up by the shape's own coordinates, and repeats
     };
     CHECK(uv_of(paper) == Vec2{0.75f, 0.75f});
     CHECK(uv_of(Lambertian{}) == Vec2{0});
+}
+
+TEST_CASE("texture: what its colour is of each material, and what the base says") {
+    const Rgb half{0.5f, 0.25f, 1};
+    CHECK(detail::colored(Lambertian{.albedo = Rgb{0.5f}}, half).albedo ==
+          Rgb{0.25f, 0.125f, 0.5f});
+    CHECK(detail::colored(Mirror{.reflectance = Rgb{0.5f}}, half).reflectance ==
+          Rgb{0.25f, 0.125f, 0.5f});
+    CHECK(detail::colored(ThinGlass{.tint = Rgb{0.5f}}, half).tint ==
+          Rgb{0.25f, 0.125f, 0.5f});
+    CHECK(detail::colored(Mixture{.color = Rgb{0.5f}}, half).color ==
+          Rgb{0.25f, 0.125f, 0.5f});
+    // In no place in particular it is its base.
+    const Glossy gloss{.reflectance{0.9f, 0.5f, 0.1f}, .roughness = 0.3f};
+    const Textured<Glossy, Checker> board{gloss, {.even = Rgb{0}, .odd = Rgb{0}}};
+    const Vec3 wo = glm::normalize(Vec3{0.3f, 0.1f, 0.8f});
+    const Vec3 wi = glm::normalize(Vec3{-0.1f, 0.3f, 0.5f}), u{0.3f, 0.6f, 0.9f};
+    CHECK(lobes(board) == lobes(gloss));
+    CHECK(evaluate(board, wo, wi) == evaluate(gloss, wo, wi));
+    CHECK(pdf(board, wo, wi) == pdf(gloss, wo, wi));
+    CHECK(pdf(board, wo, wi, Lobes::diffuse) == 0);
+    const auto next = sample(board, wo, u, Transport::radiance);
+    const auto right = sample(gloss, wo, u, Transport::radiance);
+    REQUIRE((next && right));
+    CHECK(next->wi == right->wi);
+    CHECK(next->weight == right->weight);
+    CHECK_FALSE(sample(board, wo, u, Transport::radiance, Lobes::specular));
+    const Textured<Mixture, Checker> mixed{
+        {.color = Rgb{0.5f}, .emissivity = 4, .absorption = Rgb{1, 2, 3}}, {}};
+    CHECK(absorption(mixed) == Rgb{1, 2, 3});
+    CHECK(emission(mixed) == Rgb{2});
+    // A pane lets through its own colour, place by place.
+    const ThinGlass pane{.index = 1.5f};
+    const Textured<ThinGlass, Checker> window{
+        pane, {.map = flat(), .even{1, 0.5f, 0.25f}, .odd = Rgb{0}}};
+    const auto passed = pass_through(window, Vec3{0.25f, 0.25f, 7}, wo);
+    CHECK(passed == pass_through(ThinGlass{1.5f, Rgb{1, 0.5f, 0.25f}}, Vec3{0}, wo));
+    CHECK(pass_through(window, Vec3{0.75f, 0.25f, 7}, wo) ==
+          pass_through(ThinGlass{1.5f, Rgb{0}}, Vec3{0}, wo));
 }
 
 TEST_CASE("texture: each shape has its own coordinates") {
