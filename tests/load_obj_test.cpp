@@ -485,7 +485,7 @@ TEST_CASE("load_obj: which words of a material file make a mirror or glass") {
         use("i" + std::to_string(i), "illum " + std::to_string(i) + "\n");
     use("thin", "d 0.25\n");
     use("half", "d 0.5\n");
-    use("pale", "Kd 7 8 9\\nKs -7 -8 -9\\nKe -1 2e12 2e12\\n");
+    use("pale", "Kd 7 8 9\nKs -7 -8 -9\nKe -1 2e12 2e12\n");
     use("bright", "Kd 0.25 0.5 1.5\nKs -1 0.5 2\nKe 7 nan -1\nNi 2000\n");
     use("dark", "Kd nan 0 1\nKe 2e12 1e12 1\nNi 0\nd -1\n");
     ScratchFolder::write(folder.file("a.mtl"), library);

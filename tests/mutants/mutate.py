@@ -25,7 +25,7 @@ change nothing that a test could see, with the reason; they are not counted.
   --report FILE   write the survivors there as well
   --csv FILE      a table by floors there, of this run and all that ran here before
   --compiled      those that only the compiler runs as well, in a program each
-  --list          only count the mutants
+  --list          only count the mutants; with --csv the table of what is known
 """
 
 import argparse
@@ -162,24 +162,25 @@ def keep_fates(header, found, fate, options):
 def write_csv(tests_of, equivalent, options):
     """By floor: how many were tried, of those noticed, and how many are equivalent."""
     rows = defaultdict(Counter)
+    everything = 0
     for header in tests_of:
         known = known_fates(header, options)
-        if not known:
-            continue
         row = rows[floor(header)]
-        row["headers"] += 1
         for region in mutants.find(read(INCLUDE / "ljus" / header))[1]:
+            everything += len(region.mutants)
             for mutant in region.mutants:
                 result = known.get(key_in_file(mutant))
                 if key_of(header, mutant) in equivalent:
-                    row["equivalent"] += result is None or result != "left out"
+                    row["equivalent"] += result is not None and result != "left out"
                 elif result in NOTICED:
                     row["killed"] += 1
                 elif result not in (None, "left out"):
                     row["alive"] += 1
+    compiler = subprocess.run(["g++", "-dumpfullversion"], capture_output=True, text=True)
+    tried = sum(row["killed"] + row["alive"] + row["equivalent"] for row in rows.values())
     lines = [
-        "# scripts/test --mutate --csv, tests at -O1; a random choice of each header's mutants:",
-        f"# at most {options.sample or 'all'} of a header in a run.",
+        f"# scripts/test --mutate --sample, {tried} of {everything} mutants, chosen at random",
+        f"# header by header; tests at -O1; g++ {compiler.stdout.strip()}.",
         "floor,made,killed,equivalent,share",
     ]
     for name, row in [*sorted(rows.items()), ("all", sum(rows.values(), Counter()))]:
@@ -555,6 +556,8 @@ def main():
     for key in sorted(unused):
         print(f"tests/mutants/equivalent: {key[0]} has no '{key[1]}' any more.")
     if options.list:
+        if options.csv:
+            write_csv(tests_of, equivalent, options)
         for header, found in chosen_of.items():
             print(f"{len(found):6} {header}: {' '.join(tests_of[header])}")
         print(f"{sum(map(len, chosen_of.values())):6} in all")
