@@ -767,7 +767,10 @@ TEST_CASE("general map: which maps are made for what, and which photons they kee
     }
     for (const IndirectLight way :
          {IndirectLight::photons, IndirectLight::gather, IndirectLight::cache}) {
-        const auto alone = make([&](auto& s) { s.indirect = way; });
+        const auto alone = make([&](auto& s) {
+            s.indirect = way;
+            s.general.shadow_photons = false;
+        });
         CHECK(kinds(alone.general) == indirect);
         CHECK(alone.irradiance.empty() == (way == IndirectLight::photons));
         const auto all = make([&](auto& s) {
@@ -831,7 +834,8 @@ TEST_CASE("general map: how caustic photons are shared out, by which light") {
     settings.caustics = {.photons = 20000, .threads = 1};
     CHECK(caustic_shares(room, settings).empty()); // as lights see them
     settings.caustic_budget = CausticBudget::equal;
-    CHECK(caustic_shares(room, settings) == std::vector<double>{0.5, 0.5});
+    for (const double share : caustic_shares(room, settings))
+        CHECK(share == doctest::Approx(0.5));
     settings.caustics.shares = {0.25, 0.75};
     CHECK(caustic_shares(room, settings) == settings.caustics.shares);
     settings.caustics.shares.clear();
@@ -883,7 +887,8 @@ TEST_CASE("general map: a mapper's radii, and the maps that it asks") {
         auto stream = random_stream(1, Pass::user, 0, 0);
         Counts counts;
         (void)radiance(make_photon_mapper(room, made, how),
-                       Ray{.origin{0, 0, 0}, .direction{-1, 0, 0}}, stream, counts);
+                       Ray{.origin{0, 0.6f, 0.5f}, .direction{-1, 0, 0}}, stream,
+                       counts);
         CHECK(counts.shadow_rays <= 1);
         return counts.map_queries;
     };
