@@ -820,7 +820,10 @@ TEST_CASE("general map: which maps are made for what, and which photons they kee
     CHECK(said.ends_with("\n"));
     // Whoever stops a pass has maps that are not complete.
     const auto stop = [](long long, long long) { return false; };
-    CHECK_FALSE(make([&](auto& s) { s.caustics.progress = stop; }).complete);
+    CHECK_FALSE(make([&](auto& s) {
+                    s.caustics.photons = 3000;
+                    s.caustics.progress = stop;
+                }).complete);
     CHECK_FALSE(make([&](auto& s) {
                     s.general.progress = stop;
                     s.indirect = IndirectLight::gather;
