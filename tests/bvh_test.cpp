@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <tuple>
 
 #include "support/triangle_soups.hpp"
 
@@ -303,13 +302,13 @@ TEST_CASE("bvh: the split is the cheapest of all between 16 slots on three axes"
 TEST_CASE("bvh: each range is split where that is cheaper, and nowhere else") {
     Numbers n(5);
     int leaves = 0, chosen = 0;
-    for (const auto& [leaf_size, at_a_time, node_cost] :
-         {std::tuple{4u, 1u, 1.0f}, {16u, 1u, 4.0f}, {8u, 8u, 1.0f}, {16u, 4u, 0.1f}})
+    for (const BvhSettings& how :
+         {BvhSettings{.leaf_size = 4}, BvhSettings{.leaf_size = 16, .node_cost = 4},
+          BvhSettings{.leaf_size = 8, .at_a_time = 8},
+          BvhSettings{.leaf_size = 16, .at_a_time = 4, .node_cost = 0.1f}})
         for (int round = 0; round < 20; ++round) {
             const auto boxes = some_boxes(n, 100, Vec3(round % 2 ? 1 : 0.2f));
-            const Bvh tree(boxes, {.leaf_size = leaf_size,
-                                   .at_a_time = at_a_time,
-                                   .node_cost = node_cost});
+            const Bvh tree(boxes, how);
             const auto& nodes = tree.nodes();
             const auto visit = [&](const auto& self,
                                    std::uint32_t i) -> std::vector<Box> {
@@ -320,19 +319,20 @@ TEST_CASE("bvh: each range is split where that is cheaper, and nowhere else") {
                     all.push_back(boxes[tree.primitive_ids()[nodes[i].first + k]]);
                 for (std::uint32_t k = 0; k < 2 && !leaf; ++k) {
                     const auto half = self(self, nodes[i].first + k);
-                    cost += Plain::cost(half, at_a_time);
+                    cost += Plain::cost(half, how.at_a_time);
                     all.insert(all.end(), half.begin(), half.end());
                 }
-                const double best = Plain::best(all, at_a_time).cost;
-                const double split = best + double(node_cost) * Plain::half_area(all);
-                const double whole = Plain::cost(all, at_a_time);
+                const double best = Plain::best(all, how.at_a_time).cost;
+                const double split =
+                    best + double(how.node_cost) * Plain::half_area(all);
+                const double whole = Plain::cost(all, how.at_a_time);
                 if (!leaf) CHECK(cost == doctest::Approx(best).epsilon(1e-5));
                 if (all.size() == 1 || std::abs(split - whole) < 1e-4 * whole)
                     return all;
                 if (leaf) CHECK(split > whole);
-                if (!leaf && all.size() <= leaf_size) CHECK(split < whole);
+                if (!leaf && all.size() <= how.leaf_size) CHECK(split < whole);
                 leaves += leaf;
-                chosen += !leaf && all.size() <= leaf_size;
+                chosen += !leaf && all.size() <= how.leaf_size;
                 return all;
             };
             (void)visit(visit, 0);
