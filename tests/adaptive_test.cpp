@@ -322,3 +322,76 @@ TEST_CASE("adaptive: a rule without sense is refused with its value") {
     refused({.two_stage = true}, 31,
             "samples is 31; it must be at least first + more.");
 }
+
+TEST_CASE("adaptive: the relative variance of a block, by hand and in colours") {
+    // Two pixels of a row of three, five rays each: of each channel the means of mean
+    // and variance over both, then the quotient, and its mean.
+    std::vector<detail::PixelSums> sums(6);
+    const double rays[2][3][5] = {{{1, 2, 3, 4, 5}, {0, 0, 0, 0, 0}, {2, 2, 2, 2, 7}},
+                                  {{1, 1, 1, 1, 2}, {9, 0, 0, 0, 0}, {3, 3, 3, 3, 3}}};
+    double mean[3] = {}, variance[3] = {};
+    for (int p = 0; p < 2; ++p)
+        for (int c = 0; c < 3; ++c) {
+            double m = 0, v = 0;
+            for (const double x : rays[p][c]) {
+                sums[std::size_t(4 + p)].sum[c] += x;
+                sums[std::size_t(4 + p)].squares[c] += x * x;
+                m += x / 5;
+            }
+            for (const double x : rays[p][c]) v += (x - m) * (x - m) / 4;
+            mean[c] += m / 2;
+            variance[c] += v / 2;
+        }
+    detail::AdaptiveBlock block{.x = 1, .y = 1, .right = 3, .bottom = 2, .rays = 5};
+    CHECK(block.pixels() == 2);
+    double right = 0;
+    for (int c = 0; c < 3; ++c) right += variance[c] / (mean[c] * mean[c] + 0.25) / 3;
+    CHECK(detail::relative_variance(block, sums, 3, 0.25) ==
+          doctest::Approx(right).epsilon(1e-12));
+    // Every channel by itself.
+    for (int c = 0; c < 3; ++c) {
+        std::vector<detail::PixelSums> one(6);
+        for (const std::size_t p : {4u, 5u}) {
+            one[p].sum[c] = sums[p].sum[c];
+            one[p].squares[c] = sums[p].squares[c];
+        }
+        CHECK(detail::relative_variance(block, one, 3, 0.25) ==
+              doctest::Approx(variance[c] / (mean[c] * mean[c] + 0.25) / 3));
+    }
+    block.rays = 0;
+    CHECK(detail::relative_variance(block, sums, 3, 0.25) == 0); // not NaN
+}
+
+TEST_CASE("adaptive: what is left goes to the largest errors first") {
+    // Of four blocks of one pixel with ten rays each, and ten rays to spare.
+    const double variances[] = {1, 9, 4, 0};
+    for (const double disagreement : {0.0, 0.1}) {
+        std::vector<detail::AdaptiveBlock> blocks;
+        for (int i = 0; i < 4; ++i)
+            blocks.push_back({.x = i,
+                              .right = i + 1,
+                              .bottom = 1,
+                              .rays = 10,
+                              .variance = variances[i]});
+        const AdaptiveSettings rule{
+            .first = 10, .more = 5, .disagreement = disagreement};
+        REQUIRE(detail::plan_round(blocks, rule, 12.5));
+        // By disagreement a batch each, as long as there are any; by shares those that
+        // lie above what they have.
+        CHECK(blocks[1].wanted >= 1);
+        CHECK(blocks[3].wanted == 0);
+        CHECK(blocks[0].wanted + blocks[1].wanted + blocks[2].wanted == 2);
+        CHECK(blocks[1].wanted >= blocks[2].wanted);
+        CHECK(blocks[0].wanted == 0);
+        if (disagreement > 0) CHECK(blocks[2].wanted == 1);
+        CHECK_FALSE(detail::plan_round(blocks, rule, 10)); // nothing to spare
+    }
+    // A part that is settled has its error and its rays, in its own size.
+    using Parts = std::vector<detail::RayShare>;
+    const auto rest = detail::ray_shares(Parts{{3, 2, 1000}, {1, 16, 1}}, 0.01, 1e9);
+    CHECK(rest[0] == 1000);
+    CHECK(rest[1] == doctest::Approx(16 / (0.04 - 3 * 2 / 1000.0)));
+    const auto limited = detail::ray_shares(Parts{{3, 0.01, 50}, {1, 16, 1}}, 0, 100);
+    CHECK(limited[0] == 50);
+    CHECK(limited[1] == doctest::Approx(4 * 100 - 3 * 50));
+}

@@ -90,3 +90,26 @@ TEST_CASE("bsdf: a delta has no density") {
     static_assert(!d.specular && d.pdf == 0.3f);
     CHECK(s.weight == d.weight);
 }
+
+TEST_CASE("bsdf: what a sample of a delta carries") {
+    const auto mirrored = ljus::specular_sample(Vec3{0.6f, 0, 0.8f}, Rgb{4, 2, 1});
+    CHECK(mirrored.wi == Vec3{0.6f, 0, 0.8f});
+    CHECK(mirrored.weight == Rgb{4, 2, 1});
+    CHECK(mirrored.eta_scale == 1);
+    CHECK(mirrored.specular);
+    CHECK(mirrored.pdf == 0);
+    const auto through = ljus::specular_sample(Vec3{0, 0, -1}, Rgb{4, 2, 1}, 0.25f);
+    CHECK(through.weight == Rgb{1, 0.5f, 0.25f});
+    CHECK(through.eta_scale == 0.25f);
+    CHECK(through.specular);
+    const auto matt = ljus::diffuse_sample(Vec3{0, 0, 1}, Rgb{4, 2, 1}, 0.5f);
+    CHECK(matt.weight == Rgb{4, 2, 1});
+    CHECK(matt.pdf == 0.5f);
+    CHECK(matt.eta_scale == 1);
+    CHECK_FALSE(matt.specular);
+    for (const float side : {1.0f, -1.0f}) {
+        CHECK_FALSE(ljus::same_side(Vec3{0, 0, side}, Vec3{1, 0, 0}));
+        CHECK_FALSE(ljus::same_side(Vec3{1, 0, 0}, Vec3{0, 0, side}));
+        CHECK_FALSE(ljus::same_side(Vec3{0, 0, side}, Vec3{1, 0, -0.0f}));
+    }
+}

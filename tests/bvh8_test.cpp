@@ -237,3 +237,89 @@ TEST_CASE("wide bvh: few nodes, for most of their places are taken") {
     MESSAGE("nodes at most: " << most);
     CHECK(most <= 10); // a cut without a choice makes 14
 }
+
+TEST_CASE("wide bvh: of all ways to collapse a tree the one of least surface") {
+    // By trying them all: what lies below a wide node is any row of at most eight nodes
+    // that covers its leaves, and the surfaces of all wide nodes are added up.
+    Numbers n(6);
+    int wide_nodes = 0, better = 0;
+    for (int round = 0; round < 60; ++round) {
+        std::vector<Box> boxes;
+        for (int k = 0; k < 9 + round % 5; ++k) {
+            const Vec3 at(n.point(5));
+            boxes.push_back({at, at + glm::abs(Vec3(n.point(2)))});
+        }
+        const auto tree =
+            detail::build_bvh(std::span<const Box>(boxes), {.leaf_size = 1});
+        const auto surface = [&](std::uint32_t i) {
+            const glm::dvec3 d(tree.nodes[i].box.high - tree.nodes[i].box.low);
+            return d.x * d.y + d.y * d.z + d.z * d.x;
+        };
+        // Least sums by node, from the last, whose children stand behind it; and all
+        // rows below a node, as the sums that they give by how many nodes they have.
+        std::vector<double> least(tree.nodes.size(), 0.0);
+        const auto rows = [&](const auto& self, std::uint32_t i,
+                              bool open) -> std::vector<std::pair<int, double>> {
+            std::vector<std::pair<int, double>> result;
+            if (!open) result.push_back({1, least[i]});
+            if (tree.nodes[i].count > 0) return result;
+            for (const auto& [a, low] : self(self, tree.nodes[i].first, false))
+                for (const auto& [b, high] : self(self, tree.nodes[i].first + 1, false))
+                    if (a + b <= 8) result.push_back({a + b, low + high});
+            return result;
+        };
+        for (std::size_t i = tree.nodes.size(); i-- > 0;) {
+            if (tree.nodes[i].count > 0) continue;
+            double best = 1e300;
+            for (const auto& [count, sum] : rows(rows, std::uint32_t(i), true))
+                best = std::min(best, sum);
+            least[i] = surface(std::uint32_t(i)) + best;
+        }
+        const detail::BvhCollapse<float> collapse(tree);
+        double sum = 0;
+        std::size_t leaves = 0;
+        const auto visit = [&](const auto& self, std::uint32_t i) -> void {
+            ++wide_nodes;
+            sum += surface(i);
+            const auto below = collapse.children(i);
+            REQUIRE(below.count <= 8);
+            for (std::size_t k = 0; k < below.count; ++k)
+                if (tree.nodes[below.node[k]].count > 0)
+                    ++leaves;
+                else
+                    self(self, below.node[k]);
+        };
+        visit(visit, 0);
+        CHECK(leaves == boxes.size());
+        CHECK(sum == doctest::Approx(least[0]).epsilon(1e-9));
+        better += sum < 2 * surface(0);
+    }
+    CHECK(wide_nodes > 120);
+    CHECK(better > 0);
+}
+
+TEST_CASE("wide bvh: where its middle is, its bytes, and leaves of sixteen") {
+    Numbers n(9);
+    const Triangles triangles = soup(n, 300, 5, 0.5, Vec3{100, -50, 7});
+    const auto boxes = boxes_of(triangles);
+    Box all;
+    for (const Box& box : boxes) all = box_union(all, box);
+    const Bvh8 tree(boxes, {.leaf_size = 16});
+    const Vec3 middle = (all.low + all.high) / 2.0f, half = (all.high - all.low) / 2.0f;
+    CHECK(glm::distance(tree.wide().middle, middle) < 1e-4f);
+    CHECK(glm::distance(tree.wide().half, half) < 1e-4f);
+    CHECK(tree.box().low == all.low);
+    CHECK(tree.box().high == all.high);
+    CHECK(tree.bytes() == tree.nodes().capacity() * sizeof(detail::Bvh8Node) +
+                              tree.primitive_ids().capacity() * 4);
+    const Trees trees(triangles, 16);
+    for (int i = 0; i < 500; ++i) trees.check(some_ray(n, 5, Vec3{100, -50, 7}));
+    // Sixteen at one place, split nowhere.
+    const Triangles equal(16, triangles[0]);
+    const Trees one(equal, 16);
+    CHECK(one.wide.primitive_ids().size() == 16);
+    const Vec3 inside = (triangles[0].v1 + triangles[0].v2 + triangles[0].v3) / 3.0f;
+    const Vec3 up = glm::normalize(glm::cross(triangles[0].v2 - triangles[0].v1,
+                                              triangles[0].v3 - triangles[0].v1));
+    CHECK(one.check({.origin = inside + up, .direction = -up}));
+}

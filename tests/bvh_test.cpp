@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -186,6 +187,160 @@ TEST_CASE("bvh: the nearer child first, so that little is visited") {
     CHECK(tests / rays < 80);
 }
 
+// --- The surface area heuristic, by adding everything up -----------------------------
+
+namespace {
+
+/// What a range of boxes costs if it is split, by the definition: surface times tests.
+struct Plain {
+    static double half_area(const std::vector<Box>& boxes) {
+        glm::dvec3 low{1e300}, high{-1e300};
+        for (const Box& box : boxes) {
+            low = glm::min(low, glm::dvec3(box.low));
+            high = glm::max(high, glm::dvec3(box.high));
+        }
+        const glm::dvec3 d = high - low;
+        return d.x * d.y + d.y * d.z + d.z * d.x;
+    }
+    static double cost(const std::vector<Box>& boxes, unsigned at_a_time) {
+        return half_area(boxes) * std::ceil(double(boxes.size()) / double(at_a_time));
+    }
+    /// The least over 3 axes and 15 borders of 16 equal slots of the centres.
+    static detail::Split best(const std::vector<Box>& boxes, unsigned at_a_time) {
+        detail::Split best;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto center = [axis](const Box& box) {
+                return 0.5 * (double(box.low[axis]) + double(box.high[axis]));
+            };
+            double low = 1e300, high = -1e300;
+            for (const Box& box : boxes) {
+                low = std::min(low, center(box));
+                high = std::max(high, center(box));
+            }
+            for (int bin = 1; bin < 16 && high > low; ++bin) {
+                std::vector<Box> lower, upper;
+                for (const Box& box : boxes) {
+                    const int slot =
+                        std::min(15, int(16 * (center(box) - low) / (high - low)));
+                    (slot < bin ? lower : upper).push_back(box);
+                }
+                if (lower.empty() || upper.empty()) continue;
+                const double sum = cost(lower, at_a_time) + cost(upper, at_a_time);
+                if (sum < best.cost * (1 - 1e-9)) best = {axis, bin, sum};
+            }
+        }
+        return best;
+    }
+};
+
+std::vector<Box> some_boxes(Numbers& n, int count, const Vec3& stretch) {
+    std::vector<Box> boxes;
+    for (int i = 0; i < count; ++i) {
+        const Vec3 low = Vec3(n.point(5)) * stretch;
+        boxes.push_back({low, low + glm::abs(Vec3(n.point(1)))});
+    }
+    return boxes;
+}
+
+} // namespace
+
+TEST_CASE("bvh: the split is the cheapest of all between 16 slots on three axes") {
+    Numbers n(4);
+    int axes[3] = {};
+    for (int round = 0; round < 300; ++round) {
+        const Vec3 stretch{round % 3 == 0 ? 3 : 0.3f, round % 3 == 1 ? 3 : 0.3f,
+                           round % 3 == 2 ? 3 : 0.3f};
+        const auto boxes = some_boxes(n, 2 + n.below(40), stretch);
+        std::vector<detail::PrimitiveRefT<float>> refs;
+        for (const Box& box : boxes)
+            refs.push_back({{{box.low.x, box.low.y, box.low.z, 0, -box.high.x,
+                              -box.high.y, -box.high.z, 0}},
+                            std::uint32_t(refs.size())});
+        for (const unsigned at_a_time : {1u, 4u, 8u}) {
+            detail::PrimitiveRangeT<float> range{.last = std::uint32_t(refs.size())};
+            for (const auto& ref : refs) range.take(ref);
+            const auto found = detail::best_split(refs, range, at_a_time);
+            const auto right = Plain::best(boxes, at_a_time);
+            CHECK(found.cost == doctest::Approx(right.cost).epsilon(1e-5));
+            REQUIRE(found.axis >= 0);
+            ++axes[found.axis];
+            // The two halves are what was counted, each box once.
+            auto sorted = refs;
+            const auto halves = detail::divide(sorted, range, found);
+            REQUIRE(halves.low.first == 0);
+            REQUIRE(halves.low.last == halves.high.first);
+            REQUIRE(halves.high.last == refs.size());
+            CHECK(halves.low.depth == 1);
+            CHECK(halves.high.depth == 1);
+            std::vector<Box> lower, upper;
+            std::vector<int> seen(refs.size());
+            for (std::uint32_t i = 0; i < refs.size(); ++i) {
+                ++seen[sorted[i].id];
+                (i < halves.low.last ? lower : upper).push_back(boxes[sorted[i].id]);
+            }
+            for (const int times : seen) CHECK(times == 1);
+            CHECK(Plain::cost(lower, at_a_time) + Plain::cost(upper, at_a_time) ==
+                  doctest::Approx(right.cost).epsilon(1e-5));
+            CHECK(halves.low.bounds.half_area() ==
+                  doctest::Approx(Plain::half_area(lower)).epsilon(1e-5));
+            CHECK(halves.high.bounds.half_area() ==
+                  doctest::Approx(Plain::half_area(upper)).epsilon(1e-5));
+        }
+    }
+    for (const int times : axes) CHECK(times > 30);
+    // Centres in one place: no split.
+    const std::vector<detail::PrimitiveRefT<float>> equal(
+        5, {{{0, 0, 0, 0, -1, -1, -1, 0}}, 0});
+    detail::PrimitiveRangeT<float> range{.last = 5};
+    for (const auto& ref : equal) range.take(ref);
+    CHECK(detail::best_split(equal, range, 1).axis == -1);
+    CHECK(detail::tests_of(8, 8) == 1);
+    CHECK(detail::tests_of(9, 8) == 2);
+    CHECK(detail::tests_of(7, 1) == 7);
+}
+
+TEST_CASE("bvh: each range is split where that is cheaper, and nowhere else") {
+    Numbers n(5);
+    int leaves = 0, chosen = 0;
+    for (const BvhSettings& how :
+         {BvhSettings{.leaf_size = 4}, BvhSettings{.leaf_size = 16, .node_cost = 4},
+          BvhSettings{.leaf_size = 8, .at_a_time = 8},
+          BvhSettings{.leaf_size = 16, .at_a_time = 4, .node_cost = 0.1f}})
+        for (int round = 0; round < 20; ++round) {
+            const auto boxes = some_boxes(n, 100, Vec3(round % 2 ? 1 : 0.2f));
+            const Bvh tree(boxes, how);
+            const auto& nodes = tree.nodes();
+            const auto visit = [&](const auto& self,
+                                   std::uint32_t i) -> std::vector<Box> {
+                std::vector<Box> all;
+                const bool leaf = nodes[i].count > 0;
+                double cost = 0;
+                for (std::uint32_t k = 0; k < nodes[i].count; ++k)
+                    all.push_back(boxes[tree.primitive_ids()[nodes[i].first + k]]);
+                for (std::uint32_t k = 0; k < 2 && !leaf; ++k) {
+                    const auto half = self(self, nodes[i].first + k);
+                    cost += Plain::cost(half, how.at_a_time);
+                    all.insert(all.end(), half.begin(), half.end());
+                }
+                const double best = Plain::best(all, how.at_a_time).cost;
+                const double split =
+                    best + double(how.node_cost) * Plain::half_area(all);
+                const double whole = Plain::cost(all, how.at_a_time);
+                if (!leaf) CHECK(cost == doctest::Approx(best).epsilon(1e-5));
+                if (all.size() == 1 || std::abs(split - whole) < 1e-4 * whole)
+                    return all;
+                if (leaf) CHECK(split > whole);
+                if (!leaf && all.size() <= how.leaf_size) CHECK(split < whole);
+                leaves += leaf;
+                chosen += !leaf && all.size() <= how.leaf_size;
+                return all;
+            };
+            (void)visit(visit, 0);
+        }
+    CHECK(leaves > 100);
+    CHECK(chosen > 100);
+}
+
 TEST_CASE("bvh: refuses boxes that are none") {
     for (const float bad : {not_a_number, inf, -inf}) {
         const std::vector<Box> boxes{{Vec3{0}, Vec3{1}}, {Vec3{0}, Vec3{1, bad, 1}}};
@@ -224,4 +379,17 @@ TEST_CASE("bvh: in double as in float") {
         hits += found < 1e300;
     }
     CHECK(hits > 100);
+}
+
+TEST_CASE("bvh: its box and its bytes") {
+    Numbers n(8);
+    const auto boxes = some_boxes(n, 50, Vec3{1});
+    const Bvh tree(boxes);
+    Box all;
+    for (const Box& box : boxes) all = box_union(all, box);
+    CHECK(tree.box().low == all.low);
+    CHECK(tree.box().high == all.high);
+    CHECK(tree.bytes() ==
+          tree.nodes().capacity() * 32 + tree.primitive_ids().capacity() * 4);
+    CHECK(Bvh{}.bytes() == 0);
 }

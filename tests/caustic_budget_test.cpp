@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -531,4 +532,59 @@ TEST_CASE("caustic_budget: what cannot be is refused, and extremes are none") {
     settings.caustic_budget = CausticBudget::as_seen;
     CHECK(survey(room, settings).caustics_map.why ==
           "2 of 3 objects mirror or refract");
+}
+
+TEST_CASE("caustic_budget: each object is chosen with its share, and pays for it") {
+    // Three mirror balls around a light; 20 000 photons, 5 standard errors.
+    Room room;
+    const auto mirror = room.add(Mirror{});
+    for (const Vec3 at : {Vec3{3, 0, 0}, Vec3{-3, 0, 0}, Vec3{0, 3, 0}, Vec3{0, -3, 0}})
+        room.add(Sphere{.center = at, .radius = 0.5f}, mirror);
+    room.add(PointLight{.intensity = Rgb{1}});
+    const auto targets = specular_objects(room);
+    const LightChoice choice = light_choice(room.lights);
+    const std::vector<double> shares{0.1, 0.2, 0, 0.7};
+    std::array<int, 4> counts{};
+    constexpr int photons = 20000;
+    for (int i = 0; i < photons; ++i) {
+        auto stream = random_stream(1, Pass::user, 0, std::uint64_t(i));
+        const auto aimed = detail::aim_by_share(room, choice, targets, shares, stream);
+        REQUIRE(aimed);
+        const auto k = std::size_t(
+            std::find(targets.begin(), targets.end(), aimed->target) - targets.begin());
+        ++counts[k];
+        // All of the cone's flux, 2 pi (1 - cos), over the chance.
+        const double cone = 2 * pi * (1 - std::sqrt(1 - 1 / 36.0));
+        REQUIRE(double(aimed->photon.flux.x) ==
+                ljus_test::within(cone / shares[k], 1e-4));
+    }
+    for (std::size_t k = 0; k < 4; ++k)
+        CHECK(std::abs(counts[k] - photons * shares[k]) <=
+              5 * std::sqrt(photons * shares[k] * (1 - shares[k])));
+}
+
+TEST_CASE("caustic_budget: the mean irradiance is that of thousands of photons") {
+    // One photon alone, first of all, and 5000 on a square of side 1, 1 W in all.
+    std::vector<Photon> photons;
+    const auto add = [&](float x, float z, float flux) {
+        photons.push_back({.position{x, 0, z},
+                           .direction{0, -1, 0},
+                           .flux = Rgb{flux},
+                           .normal = small_normal(Vec3{0, 1, 0})});
+    };
+    add(50, 50, 1e-4f);
+    for (int i = 0; i < 100; ++i)
+        for (int k = 0; k < 50; ++k)
+            add(0.01f * float(i), 0.02f * float(k), 1 / 5000.0f);
+    const PhotonMap map = make_photon_map(photons);
+    const double mean = detail::mean_irradiance(map, photons, 0.05f);
+    CHECK(mean == ljus_test::within(1, 0.07)); // the edges see less
+    CHECK(detail::mean_irradiance(map, std::vector<Photon>{}, 0.05f) == 0);
+    // By the flux that each brings: 3 W where it is 3 times as light.
+    std::vector<Photon> two{photons[0], photons[0]};
+    two[1].position.x = -50;
+    two[0].flux = Rgb{1};
+    two[1].flux = Rgb{3};
+    CHECK(detail::mean_irradiance(make_photon_map(two), two, 0.5f) ==
+          ljus_test::within((1 * 1 + 3 * 3) / 4.0 / (pi * 0.25), 1e-5));
 }

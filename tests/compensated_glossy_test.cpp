@@ -170,3 +170,27 @@ TEST_CASE("full glossy: what is not made by compensated_glossy() is refused by n
             (void)compensated_glossy(ljus::Glossy{.reflectance{}, .roughness = bad}),
             std::invalid_argument);
 }
+
+TEST_CASE("compensated glossy: what comes back is a geometric series, in colours") {
+    // Reflected twice, of which a share finds out; or three times, ...
+    for (const double loss : {0.0, 0.1, 0.5, 0.9}) {
+        const ljus::RgbT<double> facet{1, 0.6, 0.2};
+        const auto found = ljus::detail::multiple_scattering(facet, loss);
+        for (int c = 0; c < 3; ++c) {
+            double sum = 0, left = facet[c] * facet[c];
+            for (int k = 0; k < 400; ++k, left *= facet[c] * loss)
+                sum += left * (1 - loss);
+            CHECK(found[c] == doctest::Approx(sum).epsilon(1e-12));
+        }
+    }
+    auto bad = white<double>(0.5);
+    CHECK(refusal(bad).empty());
+    bad.first.reflectance.y = 1.5;
+    CHECK(refusal(bad).find("glossy.reflectance") == 0);
+    bad = white<double>(0.5);
+    bad.mean.z = -1;
+    CHECK(refusal(bad).find("compensated_glossy.mean") == 0);
+    bad = white<double>(0.5);
+    bad.first.roughness = 0.6;
+    CHECK(refusal(bad).find("compensated_glossy.loss.alpha") == 0);
+}

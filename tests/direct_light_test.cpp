@@ -264,3 +264,82 @@ TEST_CASE("direct light: of all lights, by several rays each") {
     }
     CHECK(spread[1] < spread[0] / 6); // 16 by chance would give 1/4: they are spread
 }
+
+TEST_CASE_TEMPLATE("direct light: the weights of two ways to one light", T, float,
+                   double) {
+    using detail::balance_heuristic;
+    using detail::power_heuristic;
+    const T u = std::numeric_limits<T>::epsilon();
+    for (const double a : {1e-30, 1e-3, 0.5, 1.0, 3.0, 1e3, 1e30})
+        for (const double b : {1e-30, 1e-3, 0.5, 1.0, 3.0, 1e3, 1e30}) {
+            const double balance = double(balance_heuristic(T(a), T(b)));
+            const double power = double(power_heuristic(T(a), T(b)));
+            const double right = 1 / (1 + b / a); // 1e-60 may be 0
+            CHECK(std::abs(balance - right) <= 4 * double(u) * right + 1e-37);
+            const double square =
+                1 / (1 + (b / a) * (b / a)); // 0 is the best of 1e-120
+            CHECK(std::abs(power - square) <= 8 * double(u) * square + 1e-37);
+            // All of the light once, by both ways together.
+            CHECK(balance + double(balance_heuristic(T(b), T(a))) ==
+                  ljus_test::within(1, 4 * double(u)));
+            CHECK(power + double(power_heuristic(T(b), T(a))) ==
+                  ljus_test::within(1, 4 * double(u)));
+        }
+    const T none = 0, delta = std::numeric_limits<T>::infinity();
+    for (const auto weight : {balance_heuristic<T>, power_heuristic<T>}) {
+        CHECK(weight(T(2), none) == 1);
+        CHECK(weight(none, T(2)) == 0);
+        CHECK(weight(delta, T(2)) == 1);
+        CHECK(weight(T(2), delta) == 0);
+    }
+}
+
+TEST_CASE("direct light: what is known is taken, and one side by both normals") {
+    using D3 = glm::dvec3;
+    auto room = floor_room<double>();
+    room.add(QuadT<double>{{-50, 1, 50}, {100, 0, 0}, {0, 0, -100}},
+             room.add(LambertianT<double>{})); // a screen
+    room.add(PointLightT<double>{.position{3, 4, 0}, .intensity{7, 11, 13}});
+    const LambertianT<double> matt{.albedo{0.8, 0.5, 0.2}};
+    const RayT<double> ray{.origin{0, 0.5, 0}, .direction{0, -1, 0}};
+    VertexT<double> at = vertex_at(room, ray, *closest_hit(room, ray));
+    const auto whole = [](const auto&, const auto&) { return 0.5; };
+    const auto share = [&](Verdict verdict, Counts& counts) {
+        return detail::light_share(room, room.lights[0], at, matt,
+                                   Vec2T<double>{0.5, 0.5}, whole, counts, verdict);
+    };
+    const D3 sent = 0.5 * matt.albedo / pi * D3{7, 11, 13} * 0.8 / 25.0;
+    Counts counts;
+    const auto asked = share(Verdict::unknown, counts);
+    CHECK(glm::distance(asked.sent, sent) < 1e-12);
+    CHECK(asked.arrived == D3{0});
+    CHECK(counts.shadow_rays == 1);
+    CHECK(counts.skipped_rays == 0);
+    const auto known = share(Verdict::lit, counts);
+    CHECK(glm::distance(known.sent, sent) < 1e-12);
+    CHECK(glm::distance(known.arrived, sent) < 1e-12);
+    CHECK(counts.shadow_rays == 1);
+    CHECK(counts.skipped_rays == 1);
+    CHECK(glm::distance(direct_light(room, room.lights[0], at, matt,
+                                     Vec2T<double>{0, 0}, whole, counts, Verdict::lit),
+                        sent) < 1e-12);
+    // A shading normal that leans: a light that lies before one normal and behind the
+    // other gives nothing; before both it gives by the shading one's cosine.
+    at.smooth = true;
+    for (const double lean : {-2.0, -1.0, 0.5, 2.0}) {
+        const D3 normal = glm::normalize(D3{lean, 1, 0});
+        at.frame = frame_around(normal);
+        at.wo = to_local(at.frame, glm::normalize(D3{lean, 4, 0}));
+        const double cosine = glm::dot(normal, D3{0.6, 0.8, 0});
+        const D3 right = cosine > 0 ? sent / 0.8 * cosine : D3{0};
+        CAPTURE(lean);
+        CHECK(glm::distance(share(Verdict::lit, counts).arrived, right) < 1e-12);
+    }
+    at.point.normal = {1, 0, 0}; // the light is before it by 0.6
+    at.frame = frame_around(D3{0, 1, 0});
+    at.wo = D3{0, 0, 1};
+    CHECK(glm::length(share(Verdict::lit, counts).arrived) > 0);
+    at.point.normal = {-1, 0, 0};
+    CHECK(share(Verdict::lit, counts).arrived == D3{0});
+    CHECK(share(Verdict::lit, counts).sent == D3{0});
+}

@@ -21,6 +21,7 @@
 #include "ljus/materials/mirror.hpp"
 #include "ljus/scene/query.hpp"
 #include "support/photon_samples.hpp"
+#include "support/within.hpp"
 
 using namespace ljus;
 using photon_test::integrate;
@@ -848,4 +849,98 @@ TEST_CASE("emission: chosen by power all photons weigh the same; chosen evenly t
     CHECK(weight[0].variance() < 1e-10 * flux * flux);
     CHECK(std::abs(weight[1].sigmas(flux)) < 4.5);
     CHECK(weight[1].variance() > flux * flux);
+}
+
+TEST_CASE(
+    "emission: where things move, a photon has a time and a lamp its place then") {
+    Scene<Shapes<Moving<Quad>, Sphere>, Materials<Lambertian, Mirror>> scene;
+    const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
+    const Quad lamp{.corner{0, 0, 0}, .edge_u{1, 0, 0}, .edge_v{0, 1, 0}};
+    scene.add(Moving<Quad>{lamp, {100, 0, 0}}, black, Rgb{1});
+    scene.add(PointLight{.position{0, 0, 5}, .intensity = Rgb{1}});
+    const LightChoice choice = light_choice(scene.lights);
+    double times = 0;
+    int of_lamp = 0;
+    for (long long i = 0; i < 4000; ++i) {
+        RandomStream stream = stream_of(i);
+        const auto photon = emit(scene, choice, stream);
+        times += double(photon.ray.time) / 4000;
+        REQUIRE(photon.ray.time >= 0);
+        REQUIRE(photon.ray.time < 1);
+        if (photon.light != 0) continue;
+        ++of_lamp;
+        const float along = photon.ray.origin.x - 100 * photon.ray.time;
+        REQUIRE(along > -1e-3f);
+        REQUIRE(along < 1 + 1e-3f);
+    }
+    CHECK(of_lamp > 100);
+    CHECK(std::abs(times - 0.5) < 5 / std::sqrt(12 * 4000.0));
+}
+
+TEST_CASE(
+    "emission: aimed photons, too, know when they fly and where the lamp is then") {
+    Scene<Shapes<Moving<Quad>, Sphere>, Materials<Lambertian, Mirror>> scene;
+    const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
+    const Quad lamp{.corner{0, 0, 0}, .edge_u{1, 0, 0}, .edge_v{0, 1, 0}};
+    scene.add(Moving<Quad>{lamp, {100, 0, 0}}, black, Rgb{1});
+    scene.add(Sphere{.center{50, 0, 30}, .radius = 5}, scene.add(Mirror{}));
+    scene.add(SunLight{.direction{0, 0, -1}, .irradiance = Rgb{0.001f}});
+    const LightChoice choice = light_choice(scene.lights);
+    const auto targets = specular_objects(scene);
+    REQUIRE(targets.size() == 1);
+    double times[2] = {}, counts[2] = {};
+    for (long long i = 0; i < 4000; ++i) {
+        RandomStream stream = stream_of(i);
+        const auto aimed = aim(scene, choice, targets, stream);
+        REQUIRE(aimed);
+        const Ray& ray = aimed->photon.ray;
+        counts[aimed->photon.light] += 1;
+        times[aimed->photon.light] += double(ray.time);
+        if (aimed->photon.light != 0) continue;
+        REQUIRE(ray.origin.x - 100 * ray.time > -1e-3f);
+        REQUIRE(ray.origin.x - 100 * ray.time < 1 + 1e-3f);
+        REQUIRE(intersect(ray, Sphere{.center{50, 0, 30}, .radius = 5}));
+    }
+    for (const int light : {0, 1}) {
+        CHECK(counts[light] > 100);
+        CHECK(std::abs(times[light] / counts[light] - 0.5) <
+              5 / std::sqrt(12 * counts[light]));
+    }
+}
+
+TEST_CASE("emission: how a light aims at each kind of object, and how often") {
+    using detail::aim_at;
+    Stage stage;
+    const auto mirror = stage.mirror;
+    stage.scene.add(Sphere{.center{0, 0, 10}, .radius = 1}, mirror);
+    const Quad flat{
+        .corner{-0.1f, -0.2f, 20}, .edge_u{0.2f, 0, 0}, .edge_v{0, 0.4f, 0}};
+    stage.scene.add(flat, mirror);
+    stage.scene.add(PointLight{.position{0, 0, 0}});
+    stage.scene.add(SpotLight{.position{0, 0, 0},
+                              .direction{0, 0, 1},
+                              .intensity = Rgb{1},
+                              .inner_degrees = 0.1f,
+                              .outer_degrees = 0.2f});
+    const auto targets = specular_objects(stage.scene);
+    REQUIRE(targets.size() == 2);
+    const SurfacePoint from{};
+    for (const ObjectId target : targets) {
+        const bool round = stage.scene.visit_shape(target, [](const auto& shape) {
+            return std::same_as<std::remove_cvref_t<decltype(shape)>, Sphere>;
+        });
+        const auto at = aim_at(stage.scene, stage.scene.lights[0], from, target);
+        // A ball by its cone, 1 - cos; a rectangle by its area over 2 pi d^2.
+        const double right =
+            round ? 1 - std::sqrt(1 - 0.01) : 0.2 * 0.4 / (2 * pi * 400);
+        CHECK(at.at_area == !round);
+        CHECK(double(at.size) == ljus_test::within(right, 1e-3));
+        // The spot's own cone is narrower: within 0.2 degrees.
+        const auto spot = aim_at(stage.scene, stage.scene.lights[1], from, target);
+        const double narrow = 1 - std::cos(0.2 * pi / 180);
+        CHECK_FALSE(spot.at_area);
+        CHECK(double(spot.size) == ljus_test::within(narrow, 1e-2));
+        CHECK(double(spot.cone.one_minus_cos) == ljus_test::within(narrow, 1e-2));
+        CHECK(spot.cone.axis == Vec3{0, 0, 1});
+    }
 }

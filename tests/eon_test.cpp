@@ -235,3 +235,9 @@ TEST_CASE("eon: the back is the front's mirror image, in value, density and samp
         CHECK(pdf(surface, below(wo), back->wi) == doctest::Approx(back->pdf));
     }
 }
+
+TEST_CASE("eon: the same from all around, and from both sides") {
+    for (const double roughness : {0.0, 0.3, 1.0})
+        check_symmetry(EonT<double>{.albedo = ljus::RgbT<double>{0.9, 0.5, 0.1},
+                                    .roughness = roughness});
+}

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "ljus/materials/mirror.hpp"
+#include "ljus/materials/mixture.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/scenes/furnaces.hpp"
 #include "support/mean.hpp"
@@ -92,6 +94,22 @@ TEST_CASE("final gathering: what lies on the surface near its edges") {
         CHECK(part(0.5f, 0.45f, 0.1f) == 1); // the diagonal is no edge
         CHECK(part(0.05f, 0.4f, 0.1f) == doctest::Approx(detail::kernel_part(0.5f)));
         CHECK(part(0.98f, 0.6f, 0.1f) == doctest::Approx(detail::kernel_part(0.2f)));
+        // From below as from above, and whatever lies farther down or leans.
+        Flat more = scene;
+        const auto grey = more.add(Lambertian{});
+        more.add(Quad{.corner{-9, -9, -0.5f}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}},
+                 grey);
+        more.add(Quad{.corner{1, 0, -0.5f}, .edge_u{0, 1, 0}, .edge_v{0.2f, 0, 1}},
+                 grey);
+        for (const Vec3 side : {up, -up})
+            for (const Flat& there : {scene, more}) {
+                const auto of = [&](float x, float y) {
+                    return detail::part_on_surface(there, at(there, x, y), side, 0.1f);
+                };
+                CHECK(of(0.05f, 0.4f) == doctest::Approx(detail::kernel_part(0.5f)));
+                CHECK(of(0.98f, 0.6f) == doctest::Approx(detail::kernel_part(0.2f)));
+                CHECK(of(0.5f, 0.45f) == 1);
+            }
         if (!triangles) // where triangles meet a corner each edge is seen by one of them
             CHECK(
                 part(0.05f, 0.02f, 0.1f) ==
@@ -257,6 +275,291 @@ TEST_CASE("final gathering: in a furnace every way of gathering finds L / (1 - a
     }
 }
 
+TEST_CASE("final gathering: an estimate of few photons, added up by hand") {
+    // Epanechnikov's weights 2 (1 - d^2 / r^2), over pi r^2, in colours.
+    const Flat scene = square(false);
+    const Vec3 up{0, 0, 1};
+    const auto photon = [&](float x, PhotonKind kind, float down, Rgb flux) {
+        return Photon{.position{x, 0.5f, 0},
+                      .direction = glm::normalize(Vec3{0.3f, 0, -down}),
+                      .flux = flux,
+                      .kind = kind,
+                      .normal = small_normal(up)};
+    };
+    const PhotonMap map = make_photon_map(
+        std::vector{photon(0.6f, PhotonKind::indirect, 1, {1, 2, 3}),
+                    photon(0.3f, PhotonKind::indirect, 1, {5, 7, 4}),
+                    photon(0.55f, PhotonKind::direct, 1, {20, 20, 20}),
+                    photon(0.45f, PhotonKind::indirect, -1, {40, 0, 0}),
+                    photon(0.95f, PhotonKind::indirect, 1, {90, 0, 0})});
+    const auto estimate = [&](const IrradiancePointSettings& how, float radius) {
+        const auto indirect = [&](std::uint32_t i) {
+            const detail::PhotonRecordT<float> record = map.records[i];
+            return record.kind == PhotonKind::indirect;
+        };
+        return detail::estimate_irradiance(scene, map, at(scene, 0.5f, 0.5f), up, how,
+                                           radius, indirect);
+    };
+    const auto near = [](const Rgb& a, const glm::dvec3& b) {
+        for (int c = 0; c < 3; ++c)
+            CHECK(double(a[c]) == ljus_test::within(b[c], 1e-5));
+    };
+    const glm::dvec3 one{1, 2, 3}, two{5, 7, 4};
+    // Fewer than asked for: as far as the radius that is given, whatever the settings'
+    // own says, which may be 0 for one that is chosen.
+    for (const float said : {0.0f, 0.1f})
+        near(estimate({.nearest = 50, .radius = said}, 0.4f),
+             2.0 * ((1 - 0.0625) * one + (1 - 0.25) * two) / (pi * 0.16));
+    // Three, of which one is below the floor: the farthest gives the radius alone.
+    near(estimate({.nearest = 3}, 0.4f), 2.0 * (1 - 0.25) * one / (pi * 0.04));
+    CHECK(estimate({.nearest = 2}, 0.4f) == Rgb{0}); // the other one lies below
+    CHECK(estimate({.nearest = 50}, 0.04f) == Rgb{0});
+    // Near an edge the disc is cut, if one asks for it.
+    const auto beside = [&](bool edges) {
+        const PhotonMap alone = make_photon_map(
+            std::vector{photon(0.2f, PhotonKind::indirect, 1, {1, 1, 1})});
+        return double(detail::estimate_irradiance(scene, alone, at(scene, 0.1f, 0.5f),
+                                                  up, {.nearest = 50, .edges = edges},
+                                                  0.2f, all_photons)
+                          .x);
+    };
+    CHECK(beside(false) == ljus_test::within(2 * 0.75 / (pi * 0.04), 1e-5));
+    CHECK(beside(true) ==
+          ljus_test::within(beside(false) / detail::kernel_part(0.5), 1e-5));
+}
+
+TEST_CASE("final gathering: points at photons, with all the light that is there") {
+    // A floor in the void under a point light; photons so far apart that each is alone.
+    Flat scene;
+    const auto grey = scene.add(Lambertian{.albedo = Rgb{0.5f}});
+    scene.add(Quad{.corner{-9, -9, 0}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}}, grey);
+    scene.add(PointLight{.position{0, 0, 2}, .intensity{8, 4, 2}});
+    std::vector<Photon> photons;
+    for (int i = 0; i < 7; ++i)
+        photons.push_back({.position{float(i) - 3, 0.5f, i == 6 ? 1.0f : 0.0f},
+                           .direction{0, 0, i == 5 ? 1.0f : -1.0f},
+                           .flux = Rgb{1},
+                           .kind = PhotonKind::indirect,
+                           .normal = small_normal(Vec3{0, 0, 1})});
+    const PhotonMap general = make_photon_map(photons);
+    std::vector<Photon> bright; // beside each, as a caustic
+    for (const Photon& photon : photons)
+        bright.push_back({.position = photon.position + Vec3{0.1f, 0, 0},
+                          .direction{0, 0, -1},
+                          .flux{1, 2, 3},
+                          .kind = PhotonKind::caustic,
+                          .normal = photon.normal});
+    bright.push_back(bright[2]);
+    bright.back().kind = PhotonKind::direct; // is none of it
+    const PhotonMap caustics = make_photon_map(bright);
+    for (const int every : {2, 3, 100})
+        for (const bool with : {false, true}) {
+            const IrradiancePoints points = make_irradiance_points(
+                scene, general, with ? caustics : PhotonMap{},
+                {.every = every, .nearest = 50, .radius = 0.2f}, 1, 1);
+            REQUIRE(points.records.size() == std::size_t((6 + every) / every));
+            CHECK(points.radius == 0.2f);
+            CHECK_FALSE(points.empty());
+            for (std::size_t i = 0; i < points.records.size(); ++i) {
+                const Vec3 place = points.tree.point(i);
+                const bool below = place.x == 2;
+                CHECK(points.records[i].normal == Vec3{0, 0, below ? -1.0f : 1.0f});
+                // I cos / d^2, and 2 (1 - 1/4) of a photon over its disc.
+                const double d2 = 4 + double(place.x) * double(place.x) + 0.25;
+                glm::dvec3 right = glm::dvec3{8, 4, 2} * 2.0 / (d2 * std::sqrt(d2));
+                if (with) right += glm::dvec3{1, 2, 3} * 1.5 / (pi * 0.04);
+                if (below || place.z == 1) right = {}; // no light, or no surface
+                for (int c = 0; c < 3; ++c)
+                    CHECK(double(points.records[i].irradiance[c]) ==
+                          ljus_test::within(right[c], 1e-4));
+            }
+        }
+    // Each twice, 0.05 apart, and seven numbers: of two one is a point and the other one
+    // counts, for both of them.
+    for (int i = 0; i < 7; ++i) {
+        photons.push_back(photons[std::size_t(i)]);
+        photons.back().position.y += 0.05f;
+    }
+    const PhotonMap pairs = make_photon_map(photons);
+    const auto of_pairs = [&](float radius, int threads) {
+        return make_irradiance_points(
+            scene, pairs, PhotonMap{},
+            {.every = 2, .nearest = 50, .radius = radius, .shadow_rays = 3}, 1,
+            threads);
+    };
+    const IrradiancePoints two = of_pairs(0.1f, 1);
+    REQUIRE(two.records.size() == 7);
+    for (std::size_t i = 0; i < 7; ++i) {
+        const Vec3 place = two.tree.point(i);
+        if (place.x == 2 || place.z == 1) continue;
+        const double d2 = glm::dot(glm::dvec3(place) - glm::dvec3{0, 0, 2},
+                                   glm::dvec3(place) - glm::dvec3{0, 0, 2});
+        CHECK(
+            double(two.records[i].irradiance.y) ==
+            ljus_test::within(8 / (d2 * std::sqrt(d2)) + 2 * 1.5 / (pi * 0.01), 1e-3));
+    }
+    // Without a radius: four times as far as so many photons lie typically.
+    const IrradiancePoints chosen = of_pairs(0, 3);
+    CHECK(chosen.radius == 4 * typical_radius(pairs, 50));
+    for (const auto& record : of_pairs(0, 1).records)
+        CHECK(is_finite(record.irradiance));
+}
+
+namespace {
+
+using Hall = Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Mirror, Mixture>>;
+
+/// One point that knows the irradiance of everything that faces some way.
+IrradiancePoints everywhere(const Rgb& irradiance, std::vector<Vec3> normals) {
+    IrradiancePoints points;
+    points.tree = KdTree8(std::vector<Vec3>(normals.size(), Vec3{0}));
+    for (const std::uint32_t i : points.tree.point_ids())
+        points.records.push_back({irradiance, normals[i]});
+    points.radius = 1000;
+    return points;
+}
+
+} // namespace
+
+TEST_CASE("final gathering: what a gather ray brings, along a known way") {
+    // A wall behind a mirror of 45 degrees, all in a fog: 3 to the mirror, 2 on.
+    Hall hall;
+    const Rgb albedo{0.8f, 0.5f, 0.2f}, fog{0.1f, 0.2f, 0.3f}, known{3, 5, 7};
+    const auto matt = hall.add(Lambertian{.albedo = albedo});
+    hall.add(Quad{.corner{-9, 2, -9}, .edge_u{18, 0, 0}, .edge_v{0, 0, 18}}, matt,
+             Rgb{100}); // it shines: nothing that a gather ray takes along
+    hall.add(Quad{.corner{2, -1, -1}, .edge_u{2, 2, 0}, .edge_v{0, 0, 2}},
+             hall.add(Mirror{.reflectance = Rgb{1}}));
+    const IrradiancePoints points = everywhere(known, {{0, -1, 0}});
+    const auto gathered = [&](const Vec3& way, int depth, Counts& counts) {
+        auto stream = random_stream(1, Pass::user, 0, 0);
+        const PathState path{.ray{.direction = way},
+                             .throughput{2, 2, 2},
+                             .medium = fog,
+                             .met_diffuse = true,
+                             .depth = 1};
+        return gather_ray(hall, points, path, depth, stream, counts);
+    };
+    for (const bool mirrored : {false, true}) {
+        Counts counts;
+        const auto found =
+            gathered(mirrored ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, 100, counts);
+        const double way = mirrored ? 5 : 2;
+        for (int c = 0; c < 3; ++c)
+            CHECK(double(found.radiance[c]) ==
+                  ljus_test::within(2 * double(albedo[c]) * double(known[c]) / pi *
+                                        std::exp(-way * double(fog[c])),
+                                    1e-5));
+        CHECK(found.distance == doctest::Approx(mirrored ? 3 : 2)); // to the first
+        CHECK(counts.bounce_rays == (mirrored ? 2 : 1));
+        CHECK(counts.map_queries == 1);
+        CHECK(counts.camera_rays + counts.shadow_rays == 0);
+    }
+    Counts counts;
+    CHECK(gathered({1, 0, 0}, 2, counts).radiance == Rgb{0}); // the mirror, no more
+    CHECK(counts.bounce_rays == 1);
+    CHECK(counts.map_queries == 0);
+    const auto nothing = gathered({0, 0, 1}, 100, counts);
+    CHECK(nothing.radiance == Rgb{0});
+    CHECK(std::isinf(nothing.distance));
+    CHECK(gathered({0, 1, 0}, 1, counts).radiance == Rgb{0});
+}
+
+TEST_CASE("final gathering: the irradiance of a square, from its own side") {
+    // A square of side 2 at height 1, of which each point sends albedo E / pi: its form
+    // factor by Howell's C-11, four corners. 2000 even rays know it to a per cent. In
+    // a fog, and a ray's length 1 / cos: the harmonic mean of those that meet it.
+    Hall hall;
+    const auto floor = hall.add(Lambertian{});
+    hall.add(Quad{.corner{-9, -9, 0}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}}, floor);
+    hall.add(Quad{.corner{-1, -1, 1}, .edge_u{2, 0, 0}, .edge_v{0, 2, 0}},
+             hall.add(Lambertian{.albedo{0.8f, 0.5f, 0.2f}}));
+    const IrradiancePoints points = everywhere(Rgb{3, 5, 7}, {{0, 0, -1}, {0, 0, 1}});
+    const double r = std::sqrt(2.0), factor = 4 / (2 * pi) * 2 / r * std::atan(1 / r);
+    for (const bool above : {true, false})
+        for (const int rays : {2000, 1}) {
+            const Ray ray{.origin{0, 0, above ? 0.5f : -0.5f},
+                          .direction{0, 0, above ? -1.0f : 1.0f}};
+            const Vertex vertex = vertex_at(hall, ray, *closest_hit(hall, ray));
+            auto stream = random_stream(1, Pass::user, 0, 0);
+            Counts counts;
+            const auto seen =
+                gather_irradiance(hall, points, vertex, {.rays = rays}, stream, counts);
+            CHECK(seen.normal == Vec3{0, 0, above ? 1.0f : -1.0f});
+            CHECK(counts.bounce_rays == std::uint64_t(rays));
+            if (!above) {
+                CHECK(seen.irradiance == Rgb{0});
+                CHECK(std::isinf(seen.distance));
+            } else if (rays > 1) {
+                CHECK(double(seen.irradiance.x) ==
+                      ljus_test::within(0.8 * 3 * factor, 0.01));
+                CHECK(double(seen.irradiance.y) ==
+                      ljus_test::within(0.5 * 5 * factor, 0.01));
+                CHECK(double(seen.irradiance.z) ==
+                      ljus_test::within(0.2 * 7 * factor, 0.01));
+                // The mean of cos over a cosine's directions that meet it, by the
+                // midpoint rule over the square.
+                double inverse = 0;
+                for (int i = 0; i < 200; ++i)
+                    for (int j = 0; j < 200; ++j) {
+                        const double x = (i + 0.5) / 100 - 1, y = (j + 0.5) / 100 - 1;
+                        const double d2 = x * x + y * y + 1;
+                        inverse += 1e-4 / (pi * d2 * d2 * std::sqrt(d2));
+                    }
+                CHECK(double(seen.distance) == ljus_test::within(1 / inverse, 0.01));
+            }
+        }
+    // Inside of a sphere all rays are as long, and meet what is known.
+    Hall ball;
+    ball.add(Sphere{.radius = 2}, ball.add(Lambertian{.albedo = Rgb{0.5f}}));
+    const auto disc = ball.add(Lambertian{});
+    ball.add(Quad{.corner{-0.1f, -0.1f, 0}, .edge_u{0.2f, 0, 0}, .edge_v{0, 0.2f, 0}},
+             disc);
+    std::vector<Vec3> ways;
+    auto numbers = random_stream(2, Pass::user, 0, 0);
+    for (int i = 0; i < 4000; ++i)
+        ways.push_back(sample_uniform_sphere(next_2d<float>(numbers)));
+    const IrradiancePoints all = everywhere(Rgb{3, 5, 7}, ways);
+    const Ray down{.origin{0, 0, 0.5f}, .direction{0, 0, -1}};
+    Counts counts;
+    const auto seen =
+        gather_irradiance(ball, all, vertex_at(ball, down, *closest_hit(ball, down)),
+                          {.rays = 24}, numbers, counts);
+    CHECK(double(seen.distance) == ljus_test::within(2, 1e-4));
+    for (int c = 0; c < 3; ++c) // albedo E / pi from everywhere
+        CHECK(double(seen.irradiance[c]) == ljus_test::within(0.5 * (3 + 2 * c), 1e-4));
+}
+
+TEST_CASE("final gathering: what a material reflects of an irradiance") {
+    const Vec3 wo = glm::normalize(Vec3{0.3f, 0.2f, 0.9f});
+    const Rgb known{3, 5, 7}, albedo{0.8f, 0.5f, 0.2f};
+    Mean gloss;
+    for (std::uint64_t i = 0; i < 200; ++i) {
+        auto stream = random_stream(3, Pass::user, 0, i);
+        auto twin = stream;
+        const Rgb seen = detail::reflected(Lambertian{.albedo = albedo}, wo, known,
+                                           Lobes::non_specular, stream);
+        for (int c = 0; c < 3; ++c)
+            CHECK(double(seen[c]) ==
+                  ljus_test::within(double(albedo[c]) * double(known[c]) / pi, 1e-5));
+        CHECK(detail::reflected(Lambertian{.albedo = albedo}, wo, known, Lobes::glossy,
+                                stream) == Rgb{0});
+        CHECK(detail::reflected(Mirror{}, wo, known, Lobes::non_specular, stream) ==
+              Rgb{0});
+        (void)next_3d<float>(twin);
+        (void)next_3d<float>(twin);
+        (void)next_3d<float>(twin);
+        CHECK(next_1d<float>(stream) == next_1d<float>(twin)); // three numbers each
+    }
+    // The normal on the side that is seen.
+    Vertex vertex;
+    vertex.frame = frame_around(Vec3{0, 1, 0});
+    vertex.wo = {0.6f, 0, 0.8f};
+    CHECK(detail::seen_normal(vertex) == Vec3{0, 1, 0});
+    vertex.wo.z = -0.8f;
+    CHECK(detail::seen_normal(vertex) == Vec3{0, -1, 0});
+}
+
 TEST_CASE("final gathering: settings that give no picture are refused") {
     const auto room = box_furnace(Rgb{1}, Rgb{0.5f});
     const auto refused = [&](auto change) {
@@ -276,5 +579,26 @@ TEST_CASE("final gathering: settings that give no picture are refused") {
     refused([](auto& s) { s.gather.nearest = 65; });
     refused([](auto& s) { s.gather.reach = 0; });
     refused([](auto& s) { s.gather.max_depth = 1; });
+    refused([](auto& s) { s.irradiance.radius = std::nanf(""); });
+    refused([](auto& s) { s.irradiance.radius = HUGE_VALF; });
+    refused([](auto& s) { s.gather.reach = HUGE_VALF; });
+    refused([](auto& s) { s.general_estimate.radius = -0.1f; });
+    refused([](auto& s) { s.general_estimate.thickness = 0; });
+    refused([](auto& s) { s.caustics_estimate.nearest = 1; });
+    refused([](auto& s) { s.max_depth = 0; });
+    refused([](auto& s) { s.shadow_rays = 0; });
+    refused([](auto& s) { s.caustics.photons = -1; });
+    refused([](auto& s) { s.general.photons = -1; });
+    refused([](auto& s) { s.skip.risk = 0; });
+    // The last that are none.
+    PhotonMappingSettings least{.max_depth = 1, .indirect = IndirectLight::gather};
+    least.caustics.photons = least.general.photons = 0;
+    least.caustics_estimate.radius = least.general_estimate.radius = 0;
+    least.irradiance = {.every = 2, .nearest = 2, .shadow_rays = 1};
+    least.gather = {.rays = 1, .tile = 1, .nearest = 2, .max_depth = 2};
+    check(least);
+    least.irradiance.nearest = 512;
+    least.gather.nearest = 64;
+    check(least);
     refused([](auto& s) { s.caustics_estimate.radius = -0.1f; });
 }

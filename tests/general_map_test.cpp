@@ -682,3 +682,222 @@ TEST_CASE("general map: the size of a scene and its place do not matter") {
     CHECK(coarse[PhotonKind::direct].photons <= 2000);
     CHECK(std::isfinite(coarse[PhotonKind::direct].flux.x));
 }
+
+TEST_CASE("general map: what the presets ask for") {
+    const auto draft = preset_settings(Preset::draft, 400, 300);
+    CHECK(draft.general.photons == 30000); // a quarter of the pixels
+    CHECK(draft.caustics.photons == 15000);
+    CHECK(draft.shadow_rays == 2);
+    CHECK(draft.direct == DirectLight::analytic);
+    CHECK(draft.indirect == IndirectLight::cache);
+    CHECK(draft.gather.rays == 16);
+    CHECK(draft.gather.tile == 5);
+    const auto fast = preset_settings(Preset::fast, 400, 300);
+    CHECK(fast.general.photons == 120000); // as many as pixels
+    CHECK(fast.caustics.photons == 60000);
+    CHECK(fast.shadow_rays == 4);
+    CHECK(fast.direct == DirectLight::analytic);
+    CHECK(fast.indirect == IndirectLight::cache);
+    CHECK(fast.gather.rays == GatherSettings{}.rays);
+    CHECK(fast.gather.tile == GatherSettings{}.tile);
+    const auto exact = preset_settings(Preset::exact, 400, 300);
+    CHECK(exact.caustics.photons == 2000000);
+    CHECK(exact.direct == DirectLight::mis);
+    CHECK(exact.indirect == IndirectLight::rays);
+    CHECK(exact.shadow_rays == 1);
+    for (const auto& settings : {draft, fast, exact}) {
+        CHECK(settings.split_glass);
+        CHECK_FALSE(settings.general.shadow_photons);
+        CHECK(settings.caustics_estimate.radius == 0);
+        CHECK(settings.general_estimate.radius == 0);
+        check(settings);
+    }
+    for (const Preset preset : {Preset::draft, Preset::fast}) {
+        CHECK(preset_settings(preset, 10, 10).general.photons == 10000);
+        CHECK(preset_settings(preset, 20000, 20000).general.photons == 1000000);
+        CHECK(preset_settings(preset, 20000, 20000).caustics.photons == 500000);
+    }
+    CHECK(detail::gathers(IndirectLight::map));
+    CHECK(detail::gathers(IndirectLight::gather));
+    CHECK(detail::gathers(IndirectLight::cache));
+    CHECK_FALSE(detail::gathers(IndirectLight::rays));
+    CHECK_FALSE(detail::gathers(IndirectLight::photons));
+    CHECK_FALSE(detail::gathers(IndirectLight::none));
+}
+
+TEST_CASE("general map: which maps are made for what, and which photons they keep") {
+    const Room room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    const auto maps_of = [&](auto change, const Room& of) {
+        PhotonMappingSettings settings;
+        settings.caustics = {.photons = 300, .threads = 1};
+        settings.general = {.photons = 3000, .threads = 1};
+        change(settings);
+        return make_photon_maps(of, settings);
+    };
+    const auto make = [&](auto change) { return maps_of(change, room); };
+    const auto kinds = [](const PhotonMap& map) {
+        int bits = 0;
+        for (const auto& record : map.records) bits |= one_kind(record.kind).bits;
+        return bits;
+    };
+    constexpr int direct = 1, caustic = 2, indirect = 4, shadow = 8;
+    const auto rays = make([](auto&) {});
+    CHECK(rays.general.empty());
+    CHECK(rays.irradiance.empty());
+    CHECK(rays.cache.empty());
+    CHECK(rays.verdicts.empty());
+    CHECK(rays.complete);
+    CHECK(rays.remarks.empty());
+    CHECK(kinds(rays.caustics) == caustic);
+    CHECK(rays.caustics_audit.emitted.x > 0);
+    CHECK(rays.general_audit.emitted.x == 0);
+    for (const bool shadows : {true, false}) {
+        const auto kept = make([&](auto& s) {
+            s.keep_general_map = true;
+            s.general.shadow_photons = shadows;
+        });
+        CHECK(kinds(kept.general) == (direct | indirect | (shadows ? shadow : 0)));
+        CHECK(kept.general_audit.emitted.x > 0);
+        const auto map = make([&](auto& s) {
+            s.indirect = IndirectLight::map;
+            s.general.shadow_photons = shadows;
+        });
+        CHECK(kinds(map.general) == kinds(kept.general));
+        CHECK(map.irradiance.empty());
+    }
+    for (const IndirectLight way :
+         {IndirectLight::photons, IndirectLight::gather, IndirectLight::cache}) {
+        const auto alone = make([&](auto& s) {
+            s.indirect = way;
+            s.general.shadow_photons = false;
+        });
+        CHECK(kinds(alone.general) == indirect);
+        CHECK(alone.irradiance.empty() == (way == IndirectLight::photons));
+        const auto all = make([&](auto& s) {
+            s.indirect = way;
+            s.keep_general_map = true;
+        });
+        CHECK(kinds(all.general) == (direct | indirect | shadow));
+    }
+    // For shadow rays alone: no photon's second surface, and no map.
+    const auto skipped = make([](auto& s) { s.skip.rule = SkipRule::any; });
+    CHECK(skipped.general.empty());
+    CHECK_FALSE(skipped.verdicts.empty());
+    CHECK_FALSE(skipped.verdicts.dark_known);
+    CHECK(skipped.general_audit.cut.x > 0.2 * skipped.general_audit.emitted.x);
+    const auto bounces = make([](auto& s) { s.skip.indirect_rays = true; });
+    CHECK(bounces.general.empty());
+    CHECK(bounces.verdicts.dark_known);
+    CHECK(bounces.general_audit.cut.x == 0);
+    const auto both = make([](auto& s) {
+        s.skip = {.rule = SkipRule::any, .indirect_rays = true};
+        s.indirect = IndirectLight::map;
+        s.general.shadow_photons = false;
+    });
+    CHECK_FALSE(both.verdicts.empty());
+    CHECK(both.verdicts.dark_known);
+    CHECK(kinds(both.general) == (direct | indirect));
+    CHECK(both.general_audit.cut.x == 0);
+    // A cache is made if it is asked for, and not else.
+    const Camera camera = room_camera<float>();
+    const RenderSettings picture{.width = 12, .height = 12, .samples = 1, .threads = 1};
+    for (const bool cache : {false, true}) {
+        PhotonMappingSettings settings{.indirect = cache ? IndirectLight::cache
+                                                         : IndirectLight::gather};
+        settings.general = {.photons = 2000, .threads = 1};
+        auto maps = make_photon_maps(room, settings);
+        CHECK(maps.cache.empty());
+        add_irradiance_cache(maps, room, camera, picture, settings);
+        CHECK(maps.cache.empty() == !cache);
+    }
+    // What there is to say of scene and passes, a line each.
+    Room far;
+    add_walls(far);
+    add_lamps(far, Lamp::quad, 1);
+    far.add(Sphere{.center{4e5f, 0, 0}, .radius = 0.01f}, far.add(Glass{}));
+    const auto said = maps_of([](auto& s) { s.caustics.give_up = 100; }, far).remarks;
+    CHECK(said.find("float keeps") != std::string::npos);
+    CHECK(said.ends_with("\n"));
+    // Whoever stops a pass has maps that are not complete.
+    const auto stop = [](long long, long long) { return false; };
+    CHECK_FALSE(make([&](auto& s) {
+                    s.caustics.photons = 3000;
+                    s.caustics.progress = stop;
+                }).complete);
+    CHECK_FALSE(make([&](auto& s) {
+                    s.general.progress = stop;
+                    s.indirect = IndirectLight::gather;
+                }).complete);
+}
+
+TEST_CASE("general map: how caustic photons are shared out, by which light") {
+    Room room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    room.add(Sphere{.center{-0.5f, 0.3f, 0}, .radius = 0.2f}, room.add(Mirror{}));
+    PhotonMappingSettings settings;
+    settings.caustics = {.photons = 20000, .threads = 1};
+    CHECK(caustic_shares(room, settings).empty()); // as lights see them
+    settings.caustic_budget = CausticBudget::equal;
+    for (const double share : caustic_shares(room, settings))
+        CHECK(share == doctest::Approx(0.5));
+    settings.caustics.shares = {0.25, 0.75};
+    CHECK(caustic_shares(room, settings) == settings.caustics.shares);
+    settings.caustics.shares.clear();
+    settings.caustic_budget = CausticBudget::brightness;
+    const auto shares = caustic_shares(room, settings);
+    const auto in_the_dark = caustic_shares(
+        CausticBudget::brightness,
+        pilot_caustics(room, settings.caustics, settings.caustics_estimate.radius));
+    REQUIRE(shares.size() == 2);
+    CHECK(shares[0] + shares[1] == doctest::Approx(1));
+    CHECK(shares[0] != in_the_dark[0]); // the light of the room counts
+    // By twenty thousand photons of the other pass, another repetition of it.
+    PhotonPassSettings pass = settings.general;
+    pass.photons = 20000;
+    pass.shadow_photons = false;
+    pass.iteration = ~std::uint64_t{0};
+    const auto light = trace_photons(room, MapType::general, pass).photons;
+    CHECK(shares ==
+          caustic_shares(CausticBudget::brightness,
+                         pilot_caustics(room, settings.caustics,
+                                        settings.caustics_estimate.radius, light,
+                                        settings.general_estimate.radius)));
+}
+
+TEST_CASE("general map: a mapper's radii, and the maps that it asks") {
+    const Room room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    PhotonMappingSettings settings{.indirect = IndirectLight::photons};
+    settings.caustics = {.photons = 2000, .threads = 1};
+    settings.general = {.photons = 2000, .threads = 1};
+    const auto maps = make_photon_maps(room, settings);
+    for (const float caustics : {0.0f, 0.2f})
+        for (const float general : {0.0f, 0.4f}) {
+            settings.caustics_estimate.radius = caustics;
+            settings.general_estimate.radius = general;
+            const auto mapper = make_photon_mapper(room, maps, settings);
+            CHECK(mapper.settings.caustics_estimate.radius ==
+                  (caustics > 0 ? caustics : typical_radius(maps.caustics, 32)));
+            CHECK(mapper.settings.general_estimate.radius ==
+                  (general > 0 ? general : typical_radius(maps.general, 64)));
+        }
+    // At a matt surface: one query of each map that there is, and is asked for.
+    const auto queries = [&](IndirectLight indirect, bool with_caustics) {
+        PhotonMappingSettings how{.max_depth = 1, .indirect = indirect};
+        how.general = settings.general;
+        how.caustics = settings.caustics;
+        how.keep_general_map = true;
+        how.caustics.photons = with_caustics ? 2000 : 0;
+        const auto made = make_photon_maps(room, how);
+        auto stream = random_stream(1, Pass::user, 0, 0);
+        Counts counts;
+        (void)radiance(make_photon_mapper(room, made, how),
+                       Ray{.origin{0, 0.6f, 0.5f}, .direction{-1, 0, 0}}, stream,
+                       counts);
+        CHECK(counts.shadow_rays <= 1);
+        return counts.map_queries;
+    };
+    CHECK(queries(IndirectLight::none, false) == 0);
+    CHECK(queries(IndirectLight::rays, false) == 0);
+    CHECK(queries(IndirectLight::rays, true) == 1);
+    CHECK(queries(IndirectLight::photons, false) == 1);
+    CHECK(queries(IndirectLight::photons, true) == 2);
+}

@@ -212,3 +212,34 @@ TEST_CASE("glossy: what no facet can be is refused by name and value") {
     }
     CHECK(refusal(Glossy{.reflectance{}, .roughness = 0}).empty());
 }
+
+TEST_CASE("glossy: the same from all around, and each colour by itself") {
+    const ljus::RgbT<double> color{0.9, 0.5, 0.1};
+    for (const double roughness : {0.1, 0.4, 1.0}) {
+        const GlossyT<double> gloss{.reflectance = color, .roughness = roughness};
+        check_symmetry(gloss);
+        Draws draws{5};
+        for (int i = 0; i < 300; ++i) {
+            auto wo = draws.direction<double>(), wi = draws.direction<double>();
+            wi.z = std::copysign(wi.z, wo.z);
+            const auto u = draws.cube<double>();
+            const auto all = evaluate(gloss, wo, wi);
+            const auto next = sample(gloss, wo, u, Transport::radiance);
+            for (int c = 0; c < 3; ++c) {
+                const GlossyT<double> grey{.reflectance = ljus::RgbT<double>{color[c]},
+                                           .roughness = roughness};
+                REQUIRE(evaluate(grey, wo, wi).x == all[c]);
+                const auto one = sample(grey, wo, u, Transport::radiance);
+                REQUIRE(bool(one) == bool(next));
+                if (one) REQUIRE(one->weight.y == next->weight[c]);
+            }
+        }
+    }
+    // Along the surface f may be beyond all numbers, and then is none.
+    for (const float z : {1e-20f, 1e-30f, 1e-38f, 1e-44f})
+        for (const float roughness : {0.0f, 0.01f, 1.0f}) {
+            const Glossy gloss{.roughness = roughness};
+            CHECK(ljus::is_finite(
+                evaluate(gloss, Vec3T<float>{1, 0, z}, Vec3T<float>{-1, 0, z})));
+        }
+}

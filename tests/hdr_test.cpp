@@ -254,3 +254,48 @@ TEST_CASE("hdr: a truncated, longer or foreign file is refused in a sentence") {
         CHECK(message_of_load(path) != "loaded");
     }
 }
+
+TEST_CASE("hdr: what is wrong with a header or a row is said, word by word") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("a.hdr");
+    const auto message = [&](const std::string& text) {
+        ScratchFolder::write(path, text);
+        return message_of_load(path);
+    };
+    const std::string start = "#?RADIANCE\n", row(12, '\x40');
+    const std::string only = "; only -Y +X is read.";
+    CHECK(message(start + "\n-Y 1 +X 3\n" + row) == "loaded");
+    CHECK(message(start + "\n+Y 1 +X 3\n" + row) == "its rows go +Y +X" + only);
+    CHECK(message(start + "\n-Y 1 -X 3\n" + row) == "its rows go -Y -X" + only);
+    CHECK(message(start + "\n+X 1 -Y 3\n" + row) == "its rows go +X -Y" + only);
+    for (const char* const exposure : {"0", "-1", "1e999", "nan"})
+        CHECK(message(start + "EXPOSURE=" + exposure + "\n\n-Y 1 +X 3\n" + row)
+                  .find("which is no number above 0") != std::string::npos);
+    CHECK(message(start + "\n-Y 2 +X 3\n" + row) ==
+          "it ends before its last row does.");
+    CHECK(message(start + "\n-Y 1 +X 3\n" + row.substr(1)) ==
+          "it ends before its last row does.");
+    CHECK(message(start + "\n-Y 1 +X 3\n\1\1\1" + row.substr(3)) ==
+          "it has the run-length coding of before 1991, which is not read.");
+    // A coded row of 8 that says 9, or whose runs are empty or too long.
+    const std::string coded = start + "\n-Y 1 +X 8\n\2\2";
+    const auto bytes = [](std::initializer_list<int> values) {
+        std::string text;
+        for (const int value : values) text += static_cast<char>(value);
+        return text;
+    };
+    std::string good = bytes({0, 8});
+    for (int part = 0; part < 4; ++part) good += bytes({128 + 8, 100 + part});
+    CHECK(message(coded + good) == "loaded");
+    CHECK(message(coded + bytes({0, 9}) + good.substr(2)) ==
+          "a row says that its width is another than the header's.");
+    for (const int run : {0, 9, 128, 128 + 9})
+        CHECK(message(coded + bytes({0, 8, run}) + good.substr(3)) ==
+              "a run of its coded pixels is empty or leaves its row.");
+    CHECK(message(coded + bytes({0, 8, 3, 1, 2, 3, 128 + 5, 9}) + good.substr(4)) ==
+          "loaded");
+    const auto image = ljus::load_hdr(path);
+    CHECK(image.pixels[2].x == 3 * std::ldexp(1.0f, 103 - 136));
+    CHECK(image.pixels[3].x == 9 * std::ldexp(1.0f, 103 - 136));
+    CHECK(image.pixels[7].z == 102 * std::ldexp(1.0f, 103 - 136));
+}

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ljus/materials/glossy.hpp"
 #include "ljus/math/stratified_stream.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping.hpp"
@@ -58,6 +59,195 @@ TEST_CASE("irradiance cache: the mean by distance, within the reach of each poin
     const GatheredT<float> same{Rgb{1}, up, 10, 0};
     CHECK(!interpolate(cache_of({Vec3{0}, Vec3{0}}, {same, same}), Vec3{0}, up, 1.0f));
     CHECK(!interpolate(cache, Vec3{std::nanf("")}, up, 1.0f));
+}
+
+TEST_CASE("irradiance cache: a point counts as far as its nearest like ones lie") {
+    // On a line at 0, 1, 3 and 7, itself counted among the nearest; what faces another
+    // way is not asked.
+    const GatheredT<float> one{.irradiance = Rgb{1}, .normal = up, .distance = 10};
+    GatheredT<float> leaning = one, other = one;
+    leaning.normal = glm::normalize(Vec3{0.3f, 0, 1}); // cosine 0.958: still like
+    other.normal = glm::normalize(Vec3{0.4f, 0, 1});   // 0.928
+    const std::vector<Vec3> places{{0, 0, 0}, {1, 0, 0},    {3, 0, 0},
+                                   {7, 0, 0}, {0.1f, 0, 0}, {2.9f, 0, 0}};
+    const auto spacings = [&](std::size_t nearest, int threads) {
+        auto cache = cache_of(places, {one, one, leaning, one, other, other});
+        detail::measure_spacing(cache, {.nearest = nearest}, threads);
+        std::vector<float> found(places.size());
+        for (std::size_t i = 0; i < places.size(); ++i)
+            for (std::size_t k = 0; k < places.size(); ++k)
+                if (cache.tree.point(i) == places[k])
+                    found[k] = cache.records[i].spacing;
+        return found;
+    };
+    for (const int threads : {1, 3}) {
+        const auto third = spacings(3, threads);
+        const std::vector<float> right{3, 2, 2, 6}; // 2.9 is like the leaning one
+        for (std::size_t k = 0; k < right.size(); ++k)
+            CHECK(third[k] == doctest::Approx(right[k]));
+        const auto second = spacings(2, threads);
+        const std::vector<float> close{1, 1, 0.1f, 4};
+        for (std::size_t k = 0; k < close.size(); ++k)
+            CHECK(second[k] == doctest::Approx(close[k]));
+        // Fewer than asked for: as far as the farthest.
+        CHECK(spacings(60, threads)[0] == doctest::Approx(7));
+        // The two that face elsewhere: the leaning one is like them, too (0.995).
+        CHECK(second[4] == doctest::Approx(2.8f));
+        CHECK(second[5] == doctest::Approx(0.1f));
+    }
+    auto alone = cache_of({Vec3{0}}, {one});
+    detail::measure_spacing(alone, {}, 1);
+    CHECK(alone.records[0].spacing == 0); // it says nothing of how far it counts
+}
+
+namespace {
+
+using Hall = Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Mirror, Glass, Glossy>>;
+
+/// A floor at z = 0 under a ceiling of which each point sends E / (2 pi).
+Hall hall(bool glass = false) {
+    Hall scene;
+    scene.add(Quad{.corner{-50, -50, 0}, .edge_u{100, 0, 0}, .edge_v{0, 100, 0}},
+              scene.add(Lambertian{}));
+    scene.add(Quad{.corner{-50, -50, 4}, .edge_u{0, 100, 0}, .edge_v{100, 0, 0}},
+              scene.add(Lambertian{.albedo = Rgb{0.5f}}));
+    if (glass)
+        scene.add(Quad{.corner{-50, -50, 1}, .edge_u{100, 0, 0}, .edge_v{0, 100, 0}},
+                  scene.add(Glass{}));
+    return scene;
+}
+
+/// Points that know an irradiance above and below, wherever.
+IrradiancePoints known(const Rgb& irradiance) {
+    IrradiancePoints points;
+    const std::vector<Vec3> normals{up, -up};
+    points.tree = KdTree8(std::vector<Vec3>(2, Vec3{0}));
+    for (const std::uint32_t i : points.tree.point_ids())
+        points.records.push_back({irradiance, normals[i]});
+    points.radius = 1000;
+    return points;
+}
+
+} // namespace
+
+TEST_CASE("irradiance cache: what is known is taken, what is not is gathered") {
+    const Hall scene = hall();
+    const IrradiancePoints points = known(Rgb{2});
+    const Ray ray{.origin{0, 0, 1}, .direction{0, 0, -1}};
+    const Vertex vertex = vertex_at(scene, ray, *closest_hit(scene, ray));
+    auto cache = cache_of({{0.5f, 0, 0}, {-0.5f, 0, 0}},
+                          {{Rgb{1}, up, 0.6f, 1}, {Rgb{3}, up, 0.6f, 1}});
+    const auto find = [&](float reach, Counts& counts) {
+        auto stream = random_stream(1, Pass::user, 0, 0);
+        return irradiance_between(scene, points, cache, vertex,
+                                  {.rays = 9, .reach = reach}, stream, counts)
+            .x;
+    };
+    Counts counts;
+    CHECK(find(1, counts) == doctest::Approx(2));
+    CHECK(counts.map_queries == 1);
+    CHECK(counts.bounce_rays == 0);
+    CHECK(find(0.8f, counts) == doctest::Approx(1)); // neither reaches: 0.5 times 2
+    CHECK(counts.bounce_rays == 9);
+    CHECK(counts.map_queries == 11);
+}
+
+TEST_CASE("irradiance cache: points where a camera ray meets something matt") {
+    const IrradiancePoints points = known(Rgb{2});
+    const auto gathered = [&](const Hall& scene, const Ray& ray,
+                              const GatherSettings& how) {
+        auto stream = random_stream(1, Pass::user, 0, 0);
+        detail::GatheredRowT<float> row;
+        detail::gather_along(scene, points, ray, how, stream, row);
+        REQUIRE(row.positions.size() == row.records.size());
+        return row;
+    };
+    const Ray down{.origin{0, 0, 3}, .direction{0, 0, -1}};
+    const auto floor = gathered(hall(), down, {.rays = 7});
+    REQUIRE(floor.positions.size() == 1);
+    CHECK(glm::length(floor.positions[0]) < 1e-5f);
+    CHECK(floor.records[0].normal == up);
+    CHECK(floor.records[0].irradiance.x == doctest::Approx(1).epsilon(0.02));
+    CHECK(floor.counts.bounce_rays == 7);
+    // By mirrors that are bright enough, and no farther than the depth.
+    for (const float bright : {1.0f, 0.02f, 0.005f}) {
+        Hall scene = hall();
+        scene.add(Quad{.corner{-1, -1, 1}, .edge_u{2, 0, 0}, .edge_v{0, 2, 0}},
+                  scene.add(Mirror{.reflectance = Rgb{bright}}));
+        const auto up_there = gathered(scene, down, {.rays = 3});
+        CHECK(up_there.positions.size() == (bright > 0.01f ? 1 : 0));
+        if (bright == 1) CHECK(up_there.positions[0].z == doctest::Approx(4));
+        CHECK(gathered(scene, down, {.rays = 3, .max_depth = 2}).positions.size() ==
+              (bright > 0.01f ? 1 : 0));
+        CHECK(gathered(scene, down, {.rays = 3, .max_depth = 1}).positions.empty());
+    }
+    // At glass both ways: through it to the floor, and back to the ceiling.
+    const auto both = gathered(hall(true), down, {.rays = 3});
+    int below = 0, above = 0;
+    for (const Vec3& p : both.positions) (p.z < 2 ? below : above) += 1;
+    CHECK(below == 1);
+    CHECK(above == 1);
+    // Gloss is not gathered: its light comes by rays.
+    Hall shiny;
+    shiny.add(Quad{.corner{-9, -9, 0}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}},
+              shiny.add(Glossy{}));
+    CHECK(gathered(shiny, down, {}).positions.empty());
+    // Of many slabs only so many ways as are rendered, eight; at 80
+    // degrees both ways are strong.
+    Hall panes = hall();
+    const auto glass = panes.add(Glass{.index = 1.5f});
+    for (int i = 0; i < 12; ++i) {
+        const Vec3 x{1000, 0, 0}, y{0, 1000, 0};
+        panes.add(Quad{.corner{-500, -500, 1 + 0.1f * float(i)},
+                       .edge_u = i % 2 == 0 ? y : x,
+                       .edge_v = i % 2 == 0 ? x : y},
+                  glass);
+    }
+    for (int i = 0; i < 8; ++i) {
+        const Ray slanted{.origin{0, 0, 3},
+                          .direction = glm::normalize(Vec3{5.7f, 0.1f * float(i), -1})};
+        const std::size_t ways = gathered(panes, slanted, {.rays = 1}).positions.size();
+        CHECK(ways <= 8);
+        CHECK(ways >= 5); // but for those that are too faint
+    }
+}
+
+TEST_CASE("irradiance cache: a point in each square of pixels") {
+    const Hall scene = hall();
+    const IrradiancePoints points = known(Rgb{2});
+    const Camera camera = look_at({.position{0, 0, 3}, .target{0, 0, 0}, .up{0, 1, 0}});
+    for (const int tile : {1, 3, 4})
+        for (const int threads : {1, 3}) {
+            const RenderSettings picture{
+                .width = 10, .height = 7, .seed = 3, .threads = threads};
+            const auto cache =
+                make_irradiance_cache(scene, points, camera, picture,
+                                      {.rays = 5, .tile = tile, .nearest = 4});
+            const int columns = (9 + tile) / tile, rows = (6 + tile) / tile;
+            REQUIRE(cache.records.size() == std::size_t(columns * rows));
+            CHECK(cache.complete);
+            CHECK_FALSE(cache.empty());
+            CHECK(cache.counts.bounce_rays == std::uint64_t(5 * columns * rows));
+            std::vector<int> seen(std::size_t(columns * rows));
+            double aside = 0;
+            for (std::size_t i = 0; i < cache.records.size(); ++i) {
+                const auto pixel = project(camera, cache.tree.point(i), 10, 7);
+                REQUIRE(pixel);
+                const int x = int(pixel->x) / tile, y = int(pixel->y) / tile;
+                ++seen[std::size_t(y * columns + x)];
+                aside += double(pixel->x / float(tile)) - x;
+                CHECK(cache.records[i].spacing > 0);
+                CHECK(cache.records[i].irradiance.x == doctest::Approx(1).epsilon(0.2));
+            }
+            for (const int count : seen) CHECK(count == 1);
+            CHECK(aside / double(columns * rows) > 0.2); // not at their corners
+            CHECK(aside / double(columns * rows) < 0.8);
+        }
+    // Stopped, it says so.
+    const auto stop = [](long long, long long) { return false; };
+    RenderSettings picture{.width = 10, .height = 30, .threads = 1};
+    picture.progress = stop;
+    CHECK_FALSE(make_irradiance_cache(scene, points, camera, picture, {}).complete);
 }
 
 TEST_CASE("irradiance cache: it equals path tracing, block by block") {

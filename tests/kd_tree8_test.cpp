@@ -154,3 +154,15 @@ TEST_CASE("kd_tree8: a million points take 17 bytes each") {
     const KdTree8 tree{std::span<const Vec3>(points)};
     CHECK(double(tree.bytes()) / 1e6 < 17.5);
 }
+
+TEST_CASE("kd_tree8: the bytes that it takes are those of its parts") {
+    // 17 blocks' worth of points: at least their coordinates and their numbers.
+    const auto set = photon_test::point_sets<float>(1000, 1, 0)[0];
+    const ljus::KdTree8T<float> tree{std::span<const ljus::Vec3>(set.points)};
+    CHECK(tree.bytes() >= 1000 * (12 + 4) + 500); // and the boxes of nodes
+    CHECK(tree.bytes() <= 1000 * (12 + 4) * 2);
+    const auto more = photon_test::point_sets<float>(8000, 1, 0)[0];
+    const ljus::KdTree8T<float> large{std::span<const ljus::Vec3>(more.points)};
+    CHECK(double(large.bytes()) / double(tree.bytes()) ==
+          doctest::Approx(8).epsilon(0.2));
+}

@@ -80,3 +80,7 @@ TEST_CASE("kernel: float is double, rounded") {
                              kernel_weight(kernel, double(x))) < 5e-7);
         }
 }
+
+TEST_CASE("kernel: one that is not listed has no weight") {
+    CHECK(ljus::kernel_weight(static_cast<ljus::Kernel>(99), 0.25f) == 0);
+}

@@ -158,6 +158,99 @@ TEST_CASE("light_map: what a ray finds") {
     CHECK(log.lines[0].what == "light map");
 }
 
+TEST_CASE("light_map: each side has its own light, where the ray meets it") {
+    // A map by hand: all cells differ, in three channels. What a ray sees is the light
+    // of the cell, or between its corners, that the place itself tells.
+    for (const bool inside_out : {false, true}) {
+        Scene<Shapes<Quad, Triangle, Sphere>, Materials<Mirror, Lambertian>> scene;
+        const Rgb albedo{0.8f, 0.5f, 0.2f}, shines{3, 5, 7};
+        const auto matt = scene.add(Lambertian{.albedo = albedo});
+        scene.add(Quad{{0, 0, 0}, {2, 0, 0}, {0, 1, 0}}, matt, shines, inside_out);
+        scene.add(Triangle{{9, 0, 0}, {12, 0, 0}, {9, 3, 0}}, matt, shines, inside_out);
+        scene.add(Sphere{.center{20, 0, 0}, .radius = 1}, matt, shines, inside_out);
+        const std::vector<PatchGrid> forms{
+            patch_grid(Quad{{0, 0, 0}, {2, 0, 0}, {0, 1, 0}}, 0.5),
+            patch_grid(Triangle{{9, 0, 0}, {12, 0, 0}, {9, 3, 0}}, 1.2),
+            patch_grid(Sphere{.radius = 1}, 0.9)};
+        CHECK(forms[0].columns == 4);
+        CHECK(forms[0].rows == 2);
+        CHECK(forms[1].columns == 4); // the longest side is 4.24
+        CHECK(forms[1].rows == 4);
+        CHECK(forms[2].columns == 4); // pi over 0.9
+        CHECK(forms[2].rows == 7);    // 2 pi over 0.9
+        LightMap map{.objects = 3};
+        for (std::uint32_t type = 0; type < 3; ++type)
+            for (const bool back : {false, true}) {
+                PatchGrid grid = forms[type];
+                grid.object = {type, 0};
+                grid.back = back;
+                grid.inward = back != inside_out;
+                grid.first = std::uint32_t(map.irradiance.size());
+                map.grids.push_back(grid);
+                for (std::uint32_t cell = 0; cell < grid.size(); ++cell) {
+                    const double light = 1 + double(map.irradiance.size());
+                    map.irradiance.push_back(Color(light, 2 * light, 100 - light));
+                }
+            }
+        const auto plain = make_light_map_view(scene, map, {.smooth = false});
+        const auto smooth = make_light_map_view(scene, map);
+        RandomStream stream = random_stream(4, Pass::user, 0, 0);
+        for (int i = 0; i < 600; ++i) {
+            const std::uint32_t type = std::uint32_t(i % 3);
+            const bool inward = i % 2 == 1; // the ray goes along the shape's normal
+            glm::dvec2 u{next_2d<double>(stream)};
+            if (type == 1 && u.x + u.y > 1) u = 1.0 - u;
+            Vec3 place, outer{0, 0, 1};
+            glm::dvec2 at = u;
+            if (type == 0) place = {2 * u.x, u.y, 0};
+            if (type == 1) place = {9 + 3 * u.x, 3 * u.y, 0};
+            if (type == 2) { // from the north pole down, and around from x to y
+                const double z = 1 - 2 * u.x, r = std::sqrt(1 - z * z);
+                const double turn = 2 * std::numbers::pi * u.y;
+                outer = {r * std::cos(turn), r * std::sin(turn), z};
+                place = Vec3{20, 0, 0} + outer;
+            }
+            const float before = inward ? -0.2f : 0.2f;
+            const Ray ray{.origin = place + before * outer,
+                          .direction = inward ? outer : -outer};
+            const bool back = inward != inside_out;
+            const PatchGrid& grid = map.grids[2 * type + back];
+            // Too near to a cell's border to say by float whose it is.
+            const glm::dvec2 cells{at.x * grid.columns, at.y * grid.rows};
+            const glm::dvec2 off = glm::abs(cells - glm::round(cells));
+            const double slanted = cells.x + cells.y;
+            if (off.x < 1e-4 || off.y < 1e-4 ||
+                std::abs(slanted - std::round(slanted)) < 1e-4)
+                continue;
+            // Which cell: those whose corners are around the place.
+            const glm::dvec2 whole = glm::floor(cells), in = cells - whole;
+            std::uint32_t cell =
+                std::uint32_t(whole.y) * grid.columns + std::uint32_t(whole.x);
+            if (type == 1) { // rows of 7, 5, 3 and 1
+                const std::uint32_t before_row[] = {0, 7, 12, 15};
+                cell = before_row[int(whole.y)] + 2 * std::uint32_t(whole.x) +
+                       (in.x + in.y > 1 ? 1 : 0);
+            }
+            Counts counts;
+            const auto seen = [&](const auto& view) {
+                return glm::dvec3(radiance(view, ray, stream, counts));
+            };
+            const glm::dvec3 own = back ? glm::dvec3(0) : glm::dvec3(shines);
+            const auto reflected = [&](const Color& light) {
+                return own + glm::dvec3(albedo) / std::numbers::pi * light;
+            };
+            CAPTURE(type);
+            CAPTURE(back);
+            const glm::dvec3 right = reflected(map.irradiance[grid.first + cell]);
+            CHECK(glm::distance(seen(plain), right) < 1e-4 * glm::length(right));
+            const auto blended =
+                reflected(blended_light(grid, at, smooth.vertices[2 * type + back]));
+            CHECK(glm::distance(seen(smooth), blended) < 1e-3 * glm::length(blended));
+            CHECK(counts.rays() == 0);
+        }
+    }
+}
+
 TEST_CASE("light_map: it comes back, bit by bit, and gives the same picture") {
     const ScratchFolder folder;
     const std::string path = folder.file("a.light");
@@ -190,6 +283,9 @@ TEST_CASE("light_map: a map of another scene is refused") {
     };
     refused(stage(), all->map);
     LightMap wrong = all->map;
+    ++wrong.objects;
+    refused(room.scene, wrong);
+    wrong = all->map;
     wrong.grids[0].object.index = 99;
     refused(room.scene, wrong);
     wrong = all->map;
@@ -239,6 +335,24 @@ TEST_CASE("light_map: a file cut short or damaged is refused") {
     CHECK(with(48, {3}) == cannot + "its grid 0 is none.");
     CHECK(with(52, {0}) == cannot + "its grid 0 is none.");
     CHECK(with(52, {255, 255, 1}) == cannot + "its grid 0 is none.");
+    // The kind stands in the two lowest bits: a triangle has as many rows as columns,
+    // a ball two columns and three rows at least.
+    const auto grid = [&](int how, int columns, int rows) {
+        return with(48, {how, 0, 0, 0, columns, 0, 0, 0, rows, 0, 0, 0}) ==
+               cannot + "its grid 0 is none.";
+    };
+    for (const int sides : {0, 4, 8, 12}) {
+        CHECK_FALSE(grid(sides, 3, 2));
+        CHECK(grid(sides + 1, 3, 2));
+        CHECK_FALSE(grid(sides + 1, 3, 3));
+        CHECK(grid(sides + 2, 1, 3));
+        CHECK(grid(sides + 2, 2, 2));
+        CHECK_FALSE(grid(sides + 2, 2, 3));
+        CHECK(grid(sides + 3, 3, 3));
+        CHECK(grid(sides, 0, 1));
+        CHECK(grid(sides, 1, 0));
+    }
+    CHECK(grid(16, 3, 2));
     CHECK(with(52, {255, 255}).starts_with(cannot + "it says that it holds 655"));
     CHECK(with(light, {0, 0, 0, 0, 0, 0, 240, 127}) ==
           cannot + "it has light that is not finite, or below 0.");

@@ -111,8 +111,18 @@ TEST_CASE("light_transport: an expression that is none is refused with its place
     CHECK(refusal("EXL") ==
           "The class of paths 'EXL' has something else at place 2; it "
           "is made of E, D, S, L, '.' for D or S, and | ( ) * + ?.");
-    for (const char* words : {"E(S|D", "E)L", "*", "E L", "(", "E{2}L"})
-        CHECK(refusal(words).find("The class of paths") == 0);
+    const auto said = [&](const char* words, const char* what, int place) {
+        return refusal(words) ==
+               std::string("The class of paths '") + words + "' has " + what +
+                   " at place " + std::to_string(place) +
+                   "; it is made of E, D, S, L, '.' for D or S, and | ( ) * + ?.";
+    };
+    CHECK(said("E(S|D", "no closing bracket", 6));
+    CHECK(said("E)L", "a bracket that closes nothing", 2));
+    CHECK(said("*", "something else", 1));
+    CHECK(said("E L", "something else", 2));
+    CHECK(said("E(S|D)(", "no closing bracket", 8));
+    CHECK(said("E{2}L", "something else", 2));
     CHECK(refusal(std::string(64, 'D').c_str()).find("64th") != std::string::npos);
     CHECK(refusal(std::string(63, 'D').c_str()) == "");
 }
@@ -205,4 +215,32 @@ TEST_CASE("light_transport: in a furnace each bounce has its power of the albedo
         CHECK(double(mean.z) == ljus_test::within(std::pow(0.1, bounce), 0.19));
         words += "D";
     }
+}
+
+TEST_CASE("light_transport: a map's terms count by the shortest path of their class") {
+    // "DL|D..DL" is one lookup for two classes, "DS+L" for all caustics.
+    const auto counted = [](const char* words, const char* way, const char* term) {
+        const LightPathExpression wanted = light_path_expression(words);
+        detail::ExpressionLog<double> log{.wanted = wanted};
+        log.begin();
+        for (const char letter : std::string(way))
+            log.vertex(letter, Vec3T<double>{0}, RgbT<double>{1}, 0.0);
+        const std::uint64_t states = log.states;
+        log.term("map", term, RgbT<double>{1, 2, 3});
+        log.term("map", term, RgbT<double>{1, 2, 3});
+        CHECK(log.states == states); // the path goes on from where it was
+        const bool none = log.sum == RgbT<double>{0};
+        CHECK((none || log.sum == RgbT<double>{2, 4, 6}));
+        return !none;
+    };
+    CHECK(counted("EDL", "", "DL"));
+    CHECK_FALSE(counted("EDL", "D", "DL"));
+    CHECK(counted("EDDL", "D", "DL"));
+    CHECK(counted("EDL", "", "DL|D..DL"));
+    CHECK_FALSE(counted("EDDL", "", "DL|D..DL"));
+    CHECK(counted("EDDL", "", "D..DL"));
+    CHECK_FALSE(counted("EDL", "", "D..DL"));
+    CHECK(counted("ESDSL", "S", "DS+L"));
+    CHECK_FALSE(counted("ESDL", "S", "DS+L"));
+    CHECK_FALSE(counted("ESDSSL", "S", "DS+L"));
 }

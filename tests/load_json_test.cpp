@@ -684,3 +684,95 @@ TEST_CASE("load_json: garbage is refused, or gives a scene that can be used") {
 }
 
 #endif
+
+TEST_CASE("load_json: each number of each material and light has its limits") {
+    // With the least and the most it is accepted, just beyond it is not.
+    struct Limit {
+        const char* start; // of the material, its type and the fields that it needs
+        const char* field;
+        double low, high;
+    };
+    const char* const metal = R"({"type": "rough-metal", "metal": "gold")";
+    const char* const gloss = R"({"type": "glossy", "reflectance": [1, 1, 1])";
+    const char* const mixture = R"({"type": "mixture", "color": [0.1, 0.1, 0.1])";
+    const char* const film = R"({"type": "soap-film", "ior": 1.33)";
+    const auto read = [&](const std::string& material) {
+        return refusal(R"({"type": "lambertian", "albedo": [0.75, 0.5, 0.25]})",
+                       material);
+    };
+    for (const Limit& limit :
+         {Limit{R"({"type": "oren-nayar", "albedo": [1, 1, 1])", "sigma_deg", 0, 90},
+          Limit{R"({"type": "fujii", "albedo": [1, 1, 1])", "sigma_deg", 0, 90},
+          Limit{R"({"type": "dielectric")", "ior", 1e-3, 1e3},
+          Limit{R"({"type": "thin-glass", "tint": [1, 1, 1])", "ior", 1e-3, 1e3},
+          Limit{R"({"type": "fon", "albedo": [1, 1, 1])", "roughness", 0, 1},
+          Limit{R"({"type": "eon", "albedo": [1, 1, 1])", "roughness", 0, 1},
+          Limit{metal, "roughness", 0.01, 1}, Limit{gloss, "roughness", 0.01, 1},
+          Limit{mixture, "reflectivity", 0, 1}, Limit{mixture, "transparency", 0, 1},
+          Limit{mixture, "specularity", 0, 1}, Limit{mixture, "sigma_deg", 0, 90},
+          Limit{mixture, "ior", 1e-3, 1e3}, Limit{mixture, "emissivity", 0, 1e12},
+          Limit{film, "thickness_nm", 0, 1e6}}) {
+        CAPTURE(limit.start);
+        CAPTURE(limit.field);
+        const auto with = [&](double value) {
+            return read(std::string(limit.start) + ", \"" + limit.field +
+                        "\": " + to_text(value) + "}");
+        };
+        CHECK(with(limit.low) == "accepted");
+        CHECK(with(limit.high) == "accepted");
+        const std::string place = std::string("a.json: materials.matt.") + limit.field;
+        for (const double beyond :
+             {limit.low > 0 ? limit.low * 0.999 : -1e-6, limit.high * 1.001})
+            CHECK(with(beyond).find(place + " is ") == 0);
+    }
+    for (const char* const field : {"reflectivity", "transparency"})
+        CHECK(read(std::string(mixture) + ", \"" + field + "\": true}") != "accepted");
+    CHECK(read(std::string(metal) + R"(, "roughness": 0})") == "accepted");
+    // A field that a type does not have is refused with those that it has.
+    for (const char* const type :
+         {R"({"type": "mirror", "reflectance": [1, 1, 1])",
+          R"({"type": "metal", "metal": "gold")",
+          R"({"type": "dielectric", "ior": 1.5)",
+          R"({"type": "checker", "even": [1, 1, 1], "odd": [0, 0, 0], "map": "uv")"})
+        CHECK(
+            read(std::string(type) + R"(, "zzz": 1})").find("matt.zzz is not known") !=
+            std::string::npos);
+    const char* const lights[] = {
+        R"({"type": "point", "position": [0, 2, 1], "intensity": [1, 1, 1])",
+        R"({"type": "sun", "direction": [0, -1, 0], "irradiance": [1, 1, 1])",
+        R"({"type": "spot", "position": [0, 2, 1], "direction": [0, -1, 0],
+            "intensity": [1, 1, 1], "inner_deg": 1, "outer_deg": 180)"};
+    for (const std::string light : lights) {
+        CHECK(refusal(lit(light + "}")) == "accepted");
+        CHECK(
+            refusal(lit(light + R"(, "zzz": 1})")).find("lights[0].zzz is not known") !=
+            std::string::npos);
+        const auto replaced = [&](const std::string& from, const std::string& to) {
+            std::string text = light + "}";
+            const std::size_t at = text.find(from);
+            if (at == text.npos) return std::string("none");
+            return refusal(lit(text.replace(at, from.size(), to)));
+        };
+        CHECK(replaced("[1, 1, 1]", "[1, 1, 1e12]") == "accepted");
+        CHECK(replaced("[1, 1, 1]", "[1, 1, 1.001e12]") != "accepted");
+        if (light.find("spot") == light.npos) continue;
+        CHECK(replaced("180", "180.1") != "accepted");
+        CHECK(replaced("\"inner_deg\": 1", "\"inner_deg\": 0") == "accepted");
+        CHECK(replaced("\"inner_deg\": 1", "\"inner_deg\": -0.1") != "accepted");
+    }
+}
+
+TEST_CASE("load_json: a file beside the scene, or anywhere if its name is whole") {
+    const auto beside = [](const char* file, const char* name) {
+        const nlohmann::json value = name;
+        const std::string whole = file;
+        const detail::JsonField field{value, whole, "x"};
+        return detail::path_beside(field);
+    };
+    CHECK(beside("scenes/a.json", "b.obj") == "scenes/b.obj");
+    CHECK(beside("scenes/a.json", "sub/b.obj") == "scenes/sub/b.obj");
+    CHECK(beside("c:\\scenes\\a.json", "b.obj") == "c:\\scenes\\b.obj");
+    CHECK(beside("a.json", "b.obj") == "b.obj");
+    CHECK(beside("scenes/a.json", "/whole/b.obj") == "/whole/b.obj");
+    CHECK(beside("scenes/a.json", "") == "scenes/");
+}

@@ -167,6 +167,37 @@ TEST_CASE("load_obj: polygons are cut along their own shape") {
           std::string::npos);
 }
 
+TEST_CASE("load_obj: random polygons are cut into triangles that all turn one way") {
+    RandomStream stream = random_stream(7, Pass::user, 0, 0);
+    for (int round = 0; round < 300; ++round) {
+        // Around a point, at any radius: mostly hollow corners.
+        const int count = 4 + int(next_1d<double>(stream) * 9);
+        std::vector<glm::dvec3> corners;
+        for (int i = 0; i < count; ++i) {
+            const double a = 2 * std::numbers::pi *
+                             (i + 0.5 * next_1d<double>(stream)) / count,
+                         r = 0.1 + next_1d<double>(stream);
+            corners.push_back({r * std::cos(a), r * std::sin(a), 0});
+        }
+        double right = 0;
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const auto &a = corners[i], &b = corners[(i + 1) % corners.size()];
+            right += (a.x * b.y - a.y * b.x) / 2;
+        }
+        const auto triangles = detail::cut_polygon(corners);
+        REQUIRE(triangles.size() == corners.size() - 2);
+        double sum = 0;
+        for (const auto& t : triangles) {
+            const double twice =
+                glm::cross(corners[t[1]] - corners[t[0]], corners[t[2]] - corners[t[0]])
+                    .z;
+            REQUIRE(twice > 0);
+            sum += twice / 2;
+        }
+        REQUIRE(sum == doctest::Approx(right).epsilon(1e-12));
+    }
+}
+
 TEST_CASE("load_obj: many corners, in and out, are cut in no time") {
     // Stars: every second corner is hollow. A second or two in n^2, not in n^3.
     constexpr int count = 1000;
@@ -441,6 +472,84 @@ TEST_CASE("load_obj: a picture that cannot be read is named with its line") {
                                           "': No such file or directory.\n");
     const auto unread = load_obj(folder.file("wall.obj"), {.pictures = false});
     CHECK(unread.report.pictures.empty());
+}
+
+TEST_CASE("load_obj: which words of a material file make a mirror or glass") {
+    const ScratchFolder folder;
+    std::string library, text = "mtllib a.mtl b.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    const auto use = [&](const std::string& name, const std::string& lines) {
+        library.append("newmtl ").append(name).append("\n").append(lines);
+        text.append("usemtl ").append(name).append("\nf 1 2 3\n");
+    };
+    for (int i = 0; i <= 10; ++i)
+        use("i" + std::to_string(i), "illum " + std::to_string(i) + "\n");
+    use("thin", "d 0.25\n");
+    use("half", "d 0.5\n");
+    use("pale", "Kd 7 8 9\nKs -7 -8 -9\nKe -1 2e12 2e12\n");
+    use("bright", "Kd 0.25 0.5 1.5\nKs -1 0.5 2\nKe 7 nan -1\nNi 2000\n");
+    use("dark", "Kd nan 0 1\nKe 2e12 1e12 1\nNi 0\nd -1\n");
+    ScratchFolder::write(folder.file("a.mtl"), library);
+    // Of a name that stands in both the first counts; others come from the second.
+    ScratchFolder::write(folder.file("b.mtl"),
+                         "newmtl thin\nKd 0 0 0\nnewmtl late\nKd 1 0 0\n");
+    text.append("usemtl late\nf 1 2 3\n");
+    const auto loaded = read_obj(text, folder.file("x.obj"));
+    REQUIRE(loaded.parts.size() == 17);
+    const auto is = [&](std::size_t i) { return loaded.parts[i].material; };
+    for (std::size_t i = 0; i <= 10; ++i) {
+        CAPTURE(i);
+        CHECK(is(i).is_glass() == (i == 4 || i == 6 || i == 7 || i == 9));
+        CHECK(is(i).is_mirror() == (i == 3 || i == 5 || i == 8));
+        CHECK(is(i).dissolve == 1);
+    }
+    CHECK(is(11).is_glass());
+    CHECK(is(11).dissolve == 0.25);
+    CHECK_FALSE(is(12).is_glass());
+    CHECK(is(13).diffuse == glm::dvec3{1, 1, 1});
+    CHECK(is(13).specular == glm::dvec3{0});
+    CHECK(is(13).emission == glm::dvec3{0, 1e12, 1e12});
+    CHECK(is(14).diffuse == glm::dvec3{0.25, 0.5, 1});
+    CHECK(is(14).specular == glm::dvec3{0, 0.5, 1});
+    CHECK(is(14).emission == glm::dvec3{7, 0, 0});
+    CHECK(is(14).index == 1000);
+    CHECK(is(15).diffuse == glm::dvec3{0, 0, 1});
+    CHECK(is(15).emission.x == doctest::Approx(1e12));
+    CHECK(is(15).index == 0.001);
+    CHECK(is(15).dissolve == 0);
+    CHECK(is(16).diffuse == glm::dvec3{1, 0, 0});
+    CHECK(is(16).name == "late");
+    // What a scene makes of it, and of another material for all.
+    Scene<Shapes<Mesh>, Materials<Lambertian, Glass, Mirror>> scene;
+    add_obj(scene, loaded);
+    for (std::uint32_t i = 0; i < 17; ++i)
+        CHECK(scene.object({0, i}).material.type == (is(i).is_glass()    ? 1u
+                                                     : is(i).is_mirror() ? 2u
+                                                                         : 0u));
+    const auto& glasses = std::get<std::vector<Glass>>(scene.materials);
+    CHECK(glasses.back().index == 0.001f);
+    CHECK(scene.lights.size() == 3);
+    Scene<Shapes<Mesh>, Materials<Lambertian>> painted;
+    const auto white = painted.add(Lambertian{.albedo = Rgb{0.75f}});
+    add_obj(painted, loaded, white, Rgb{1, 2, 3});
+    CHECK(painted.size() == 17);
+    CHECK(painted.lights.size() == 17);
+    CHECK(painted.object({0, 3}).emission == Rgb{1, 2, 3});
+    CHECK(painted.object({0, 3}).material == white);
+    add_obj(painted, loaded, white);
+    CHECK(painted.lights.size() == 17);
+    // A file of meshes for a scene in JSON, with the normals that it asks for.
+    ScratchFolder::write(folder.file("cube.obj"), cube);
+    std::string report;
+    const ObjMeshes meshes{&report};
+    CHECK(meshes(folder.file("cube.obj"), 2, "flat")[0].data().normals.empty());
+    CHECK(meshes(folder.file("cube.obj"), 2, "smooth")[0].data().normals[0] != Vec3{0});
+    CHECK(area(meshes(folder.file("cube.obj"), 2, "file")[0]) ==
+          doctest::Approx(6 * 16));
+    CHECK(report.empty());
+    ScratchFolder::write(folder.file("odd.obj"), cube + "f 1 2 99\n");
+    (void)meshes(folder.file("odd.obj"), 2, "file");
+    CHECK(report.find(folder.file("odd.obj") + ":\nline 18: ") == 0);
+    CHECK(ObjMeshes{}(folder.file("odd.obj"), 2, "file").size() == 1);
 }
 
 TEST_CASE("load_obj: a path-traced wall shows the four colours") {

@@ -602,3 +602,18 @@ TEST_CASE("mesh: triangles that collapse to a line are never what a ray meets") 
         check(intersect<Watertight>(ray, globe));
     }
 }
+
+TEST_CASE("mesh: no point is chosen on a triangle that has no area") {
+    MeshData data;
+    data.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 5, 5}};
+    data.triangles = {{3, 3, 3}, {0, 1, 2}, {3, 3, 3}, {2, 1, 0}, {3, 3, 3}};
+    const Mesh mesh(data);
+    CHECK(area(mesh) == 1);
+    for (const float x : {0.0f, 1e-30f, 0.25f, 0.5f, 0.75f, 0.9999999f, 1.0f})
+        for (const float y : {0.0f, 0.5f, 1.0f}) {
+            const SurfacePoint point = sample_area(mesh, Vec2{x, y});
+            CHECK(point.position.z == 0);
+            CHECK(std::abs(point.normal.z) == 1);
+            CHECK(point.normal.z == (x < 0.5f ? 1 : -1));
+        }
+}

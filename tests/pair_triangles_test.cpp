@@ -111,3 +111,23 @@ TEST_CASE("pair_triangles: every triangle is used once, and the area is kept") {
     const double one = glm::length(glm::cross(glm::dvec3{1, 0, 0.5}, {0.25, 1, 0}));
     CHECK(sum == doctest::Approx(20 * one));
 }
+
+TEST_CASE("pair_triangles: points that differ in one coordinate are two") {
+    for (int axis = 0; axis < 3; ++axis) {
+        // The halves of a square, in the plane across the axis, one of them lifted.
+        const auto at = [&](double u, double v, double height) {
+            glm::dvec3 point;
+            point[axis] = height;
+            point[(axis + 1) % 3] = u;
+            point[(axis + 2) % 3] = v;
+            return point;
+        };
+        for (const double lift : {0.0, 1.0}) {
+            const auto found = shapes({at(0, 0, 0), at(1, 0, 0), at(1, 1, 0),
+                                       at(0, 0, lift), at(1, 1, lift), at(0, 1, lift)},
+                                      {{0, 1, 2}, {3, 4, 5}});
+            CHECK(found.quads.size() == (lift == 0 ? 1 : 0));
+            CHECK(found.triangles.size() == (lift == 0 ? 0 : 2));
+        }
+    }
+}

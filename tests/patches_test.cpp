@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include "ljus/geometry/moving.hpp"
 #include "ljus/radiosity/form_factor_matrix.hpp"
 #include "ljus/scenes/cornell_box.hpp"
 #include "ljus/scenes/furnaces.hpp"
@@ -294,4 +295,78 @@ TEST_CASE("form_factors: within a ball each patch sees all alike") {
     CHECK(ball == doctest::Approx(std::numbers::pi));
     const double c39 = std::asin(1 / (1 + 4.0)) / std::numbers::pi;
     CHECK(sum / ball == doctest::Approx(c39).epsilon(0.03));
+}
+
+TEST_CASE("patches: how many cells, at least, and what a ball reaches over") {
+    const PatchGrid ball = patch_grid(SphereT<double>{.radius = 0.1}, 10);
+    CHECK(ball.columns == 2);
+    CHECK(ball.rows == 3);
+    const PatchGrid quad =
+        patch_grid(QuadT<double>{{0, 0, 0}, {3, 4, 0}, {0, 0, 2}}, 1);
+    CHECK(quad.columns == 5);
+    CHECK(quad.rows == 2);
+    CHECK(quad.size() == 10);
+    CHECK(quad.vertices() == 18);
+    const PatchGrid triangle =
+        patch_grid(TriangleT<double>{{0, 0, 0}, {3, 0, 0}, {0, 4, 0}}, 1.001);
+    CHECK(triangle.columns == 5);
+    CHECK(triangle.size() == 25);
+    CHECK(triangle.vertices() == 21);
+    // A ball below a floor that is cut by it lies before its upper side, too.
+    Stage<double> stage;
+    const auto white = stage.add(LambertianT<double>{});
+    stage.add(QuadT<double>{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}}, white);
+    stage.add(SphereT<double>{.center{0, 0, -0.3}, .radius = 0.2}, white);
+    CHECK(make_patches(stage, {.size = 9}).grids.size() ==
+          2); // the lower side, the ball
+    stage.add(SphereT<double>{.center{0, 0, -0.3}, .radius = 0.5}, white);
+    CHECK(make_patches(stage, {.size = 9}).grids.size() == 4);
+    // What has no patches is said.
+    Scene<Shapes<Quad, Moving<Quad>>, Materials<Lambertian>> moving;
+    const auto grey = moving.add(Lambertian{});
+    moving.add(Quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, grey);
+    moving.add(Moving<Quad>{Quad{{0, 0, 1}, {0, 1, 0}, {1, 0, 0}}, {0, 0, 1}}, grey);
+    const Patches all = make_patches(moving, {.size = 9});
+    CHECK(all.left_out == std::vector<std::string>{
+                              "1 object is of a shape that is not cut into patches"});
+    moving.add(Moving<Quad>{Quad{{0, 0, 5}, {0, 1, 0}, {1, 0, 0}}, {0, 0, 1}}, grey);
+    CHECK(make_patches(moving, {.size = 9}).left_out[0] ==
+          "2 objects are of a shape that is not cut into patches");
+}
+
+TEST_CASE("form_factors: the visible share has the weights of the form factor") {
+    using V = Vec3T<double>;
+    // Two squares of side 1 at a distance h, and half way between them a screen that
+    // ends at x = 1/4: against the midpoint rule over both.
+    for (const double h : {0.3, 1.0, 100.0}) {
+        Stage<double> stage;
+        const auto white = stage.add(LambertianT<double>{});
+        stage.add(QuadT<double>{V(0), {1, 0, 0}, {0, 1, 0}}, white);
+        stage.add(QuadT<double>{{0, 0, h}, {0, 1, 0}, {1, 0, 0}}, white);
+        const Patches open = make_patches(stage, {.size = 1});
+        CHECK(detail::visible_share(IndexedScene<Stage<double>>(stage), open, 0, 1, 100,
+                                    1) == 1);
+        stage.add(QuadT<double>{{0.25, -50, h / 2}, {50, 0, 0}, {0, 100, 0}},
+                  stage.add(MirrorT<double>{}));
+        const Patches all = make_patches(stage, {.size = 1});
+        constexpr int n = 24;
+        double seen = 0, whole = 0;
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j < n; ++j)
+                for (int k = 0; k < n; ++k)
+                    for (int l = 0; l < n; ++l) {
+                        const double dx = double(i - j) / n, dy = double(k - l) / n;
+                        const double d2 = dx * dx + dy * dy + h * h;
+                        const double weight = h * h / (d2 * d2);
+                        whole += weight;
+                        const double middle = (i + j + 1) / 2.0 / n;
+                        seen += middle < 0.25    ? weight
+                                : middle == 0.25 ? weight / 2
+                                                 : 0;
+                    }
+        const double share = detail::visible_share(IndexedScene<Stage<double>>(stage),
+                                                   all, 0, 1, 10000, 1);
+        CAPTURE(h);
+        CHECK(share == doctest::Approx(seen / whole).epsilon(0.02));
+    }
 }

@@ -296,3 +296,77 @@ TEST_CASE("path log: a gather ray that reaches a lamp adds nothing") {
         }
     }
 }
+
+TEST_CASE("path log: a line is a vertex with its density, or a term without one") {
+    PathLog log;
+    log.begin();
+    log.vertex('D', Vec3{1, 2, 3}, Rgb{0.5f, 0.25f, 0.125f}, 0.75f);
+    log.vertex('S', Vec3{4, 5, 6}, Rgb{0.25f}, 0.0f);
+    log.term("shadow ray", "DL", Rgb{0});
+    log.term("shadow ray", "DL", Rgb{0, 0, 2});
+    REQUIRE(log.lines.size() == 3); // a black one is none
+    CHECK(log.lines[0].path == "ED");
+    CHECK(log.lines[0].what == "vertex");
+    CHECK(log.lines[0].value == glm::dvec3{0.5, 0.25, 0.125});
+    CHECK(log.lines[0].position == glm::dvec3{1, 2, 3});
+    CHECK(log.lines[0].pdf == 0.75);
+    CHECK(log.lines[1].path == "EDS");
+    CHECK(log.lines[1].pdf == 0);
+    CHECK(log.lines[2].path == "EDSDL");
+    CHECK(log.lines[2].what == "shadow ray");
+    CHECK(log.lines[2].value == glm::dvec3{0, 0, 2});
+    CHECK(log.lines[2].position == glm::dvec3{0});
+    CHECK(log.lines[2].pdf == 0);
+    // A path tells its last scattering; one that split off tells all of them again.
+    PathState path{.throughput{3, 2, 1}, .previous{7, 8, 9}, .pdf = 0.5f, .depth = 3};
+    detail::log_vertex(log, path);
+    CHECK(log.lines.back().path == "EDSD");
+    CHECK(log.lines.back().value == glm::dvec3{3, 2, 1});
+    CHECK(log.lines.back().position == glm::dvec3{7, 8, 9});
+    CHECK(log.lines.back().pdf == 0.5);
+    path.specular = true;
+    path.pdf = 0;
+    log.lines.clear();
+    detail::log_specular_path(log, path);
+    REQUIRE(log.lines.size() == 3);
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(log.lines[i].path == std::string("ESSS").substr(0, i + 2));
+        CHECK(log.lines[i].what == "vertex");
+    }
+    log.begin();
+    CHECK(log.letters == "E");
+}
+
+TEST_CASE("path log: at glass that splits both ways are told from the eye") {
+    // Above a pane of glass: what it mirrors is ESDL by the shadow ray on the ceiling,
+    // what it lets through ESDL by that on the floor; each has its own vertex.
+    Room room;
+    const auto white = room.add(Lambertian{.albedo = Rgb{0.5f}});
+    room.add(Quad{.corner{-9, 0, -9}, .edge_u{0, 0, 18}, .edge_v{18, 0, 0}}, white);
+    room.add(Quad{.corner{-9, 4, -9}, .edge_u{18, 0, 0}, .edge_v{0, 0, 18}}, white);
+    room.add(Quad{.corner{-9, 1, -9}, .edge_u{0, 0, 18}, .edge_v{18, 0, 0}},
+             room.add(Glass{.index = 1.5f}));
+    room.add(PointLight{.position{0, 3, 2}, .intensity = Rgb{1}});
+    PhotonMappingSettings settings{.max_depth = 2, .split_glass = true};
+    settings.caustics.photons = 0;
+    const auto maps = make_photon_maps(room, settings);
+    const auto mapper = make_photon_mapper(room, maps, settings);
+    auto stream = random_stream(1, Pass::camera, 0, 0);
+    Counts counts;
+    PathLog log;
+    (void)radiance(mapper, Ray{.origin{0, 2, 0}, .direction{0, -1, 0}}, stream, counts,
+                   log);
+    int vertices = 0, terms = 0;
+    for (const PathLogLine& line : log.lines) {
+        if (line.what == "vertex") {
+            CHECK((line.path == "ES" || line.path == "ESD"));
+            vertices += line.path == "ES";
+        } else {
+            CHECK(line.path == "ESDL");
+            CHECK(line.what == "shadow ray");
+            ++terms;
+        }
+    }
+    CHECK(vertices == 2);
+    CHECK(terms == 1); // the floor's light is hidden by the pane
+}

@@ -596,3 +596,39 @@ TEST_CASE("path tracing: the plain one finds the same light") {
                          "max_depth is 0; it must be at least 1.",
                          std::invalid_argument);
 }
+
+TEST_CASE("path tracing: a ray for each turn is counted, and what leaves is black") {
+    // In a furnace without roulette every path goes as far as it may: from the last
+    // matt surface, too, to what its shadow ray left over.
+    const auto hall = furnace<double>(0.9);
+    for (const int depth : {1, 2, 7}) {
+        Counts counts;
+        auto stream = random_stream(1, Pass::user, 0, 0);
+        (void)radiance(
+            make_path_tracer(hall, {.max_depth = depth, .roulette_depth = no_roulette}),
+            any_ray<double>(stream), stream, counts);
+        CHECK(counts.bounce_rays == std::uint64_t(depth));
+        CHECK(counts.shadow_rays <= std::uint64_t(depth));
+        counts = {};
+        (void)radiance(make_plain_path_tracer(hall, depth), any_ray<double>(stream),
+                       stream, counts);
+        CHECK(counts.bounce_rays <= std::uint64_t(depth));
+    }
+    // A lamp in the void: rays that miss it bring nothing, with both tracers.
+    Furnace<double> lamp;
+    lamp.add(SphereT<double>{.radius = 1},
+             lamp.add(LambertianT<double>{.albedo = RgbT<double>{0.5}}),
+             RgbT<double>{1, 2, 3});
+    const auto fast = make_path_tracer(lamp);
+    const auto plain = make_plain_path_tracer(lamp);
+    Counts counts;
+    auto stream = random_stream(1, Pass::user, 0, 0);
+    const auto both = [&](const RayT<double>& ray) {
+        const auto a = radiance(fast, ray, stream, counts);
+        CHECK(radiance(plain, ray, stream, counts) == a);
+        return a;
+    };
+    CHECK(both({.origin{0, 0, 5}, .direction{0, 0, -1}}) == RgbT<double>{1, 2, 3});
+    CHECK(both({.origin{0, 0, 5}, .direction{0, 0, 1}}) == RgbT<double>{0});
+    CHECK(both({.origin{0, 2, 5}, .direction{0, 0, -1}}) == RgbT<double>{0});
+}

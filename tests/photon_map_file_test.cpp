@@ -166,6 +166,10 @@ TEST_CASE(
     };
     const std::string cannot = "cannot read '" + path + "': ";
     CHECK(with(40, {0, 0, 128, 127}) == cannot + "it has a photon that is not finite.");
+    for (int number = 0; number < 9; ++number) // of position, direction and flux
+        for (const int sign : {0, 128})
+            CHECK(with(40 + 4 * std::size_t(number), {0, 0, 128, sign + 127}) ==
+                  cannot + "it has a photon that is not finite.");
     CHECK(with(40 + 38, {4}) == cannot + "it has a photon of kind 4.");
     CHECK(with(40 + 38, {3}) == "it was read");
 }
@@ -175,4 +179,12 @@ TEST_CASE("photon_map_file: a save that fails leaves the older file as it was") 
     CHECK_THROWS_AS(
         ljus::save_photon_map(folder.file("nowhere/a.map"), some_map<float>(3)),
         std::runtime_error);
+}
+
+TEST_CASE("photon_map_file: the limit of a file's bytes, and none without one") {
+    constexpr std::size_t all = static_cast<std::size_t>(-1);
+    CHECK(ljus::detail::map_limit(3, 42) == 40 + 3 * 42);
+    CHECK(ljus::detail::map_limit(0, 42) == 40);
+    CHECK(ljus::detail::map_limit(all, 42) == all);
+    CHECK(ljus::detail::map_limit(all / 42, 42) == all);
 }

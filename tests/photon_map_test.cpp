@@ -645,3 +645,91 @@ TEST_CASE("photon_map: a way to gather that gives no estimate is refused") {
         "gather.nearest is 513; it must be 0 for all within the radius, or "
         "2 to 512 (one photon sets the radius).");
 }
+
+TEST_CASE("photon_map: kind, light and normal of a record, each to the last bit") {
+    std::vector<Photon> photons;
+    Numbers numbers{91};
+    for (int i = 0; i < 777; ++i)
+        photons.push_back({.position{float(i), 0, 0},
+                           .direction{0, 0, -1},
+                           .flux = Rgb{float(i), 2, 3},
+                           .light = static_cast<std::uint16_t>(84 * i),
+                           .kind = static_cast<PhotonKind>(i % 4),
+                           .normal{std::int8_t(numbers.between(-127, 127)),
+                                   std::int8_t(numbers.between(-127, 127)),
+                                   std::int8_t(numbers.between(-127, 127))}});
+    const auto map = ljus::make_photon_map(photons);
+    CHECK(map.records.bytes() == 98 * sizeof(map.records.blocks()[0]));
+    std::size_t i = 0;
+    for (const auto& record : map.records) {
+        const Photon& photon = photons[map.tree.point_ids()[i]];
+        REQUIRE(record.normal == photon.normal);
+        REQUIRE(record.light == photon.light);
+        REQUIRE(record.kind == photon.kind);
+        REQUIRE(record.flux == photon.flux);
+        ++i;
+    }
+    CHECK(i == 777);
+    CHECK(map.records.begin()->light == photons[map.tree.point_ids()[0]].light);
+    CHECK(map.records.size() == 777);
+    CHECK_FALSE(map.records.empty());
+}
+
+TEST_CASE("photon_map: which surfaces' photons count: those within 60 degrees") {
+    // Eight photons or more at once, and few: in lanes and one by one.
+    for (const int count : {1, 2, 8, 11})
+        for (const double degrees : {0.0, 40.0, 58.0, 62.0, 80.0, 100.0, 180.0})
+            for (const double around : {0.0, 1.0, 2.5}) {
+                const double a = degrees * std::numbers::pi / 180;
+                const Vec3 normal(std::sin(a) * std::cos(around),
+                                  std::sin(a) * std::sin(around), std::cos(a));
+                std::vector<Photon> photons(
+                    std::size_t(count), Photon{.direction{0, 0, -1},
+                                               .flux = Rgb{1},
+                                               .normal = ljus::small_normal(normal)});
+                CAPTURE(count);
+                CAPTURE(degrees);
+                const auto map = ljus::make_photon_map(photons);
+                const auto seen = estimate(map, {.radius = 1, .kernel = Kernel::box});
+                const double right = degrees < 60 ? count : 0;
+                CHECK(double(seen.x) ==
+                      doctest::Approx(right * double(matt.albedo.x) / std::numbers::pi /
+                                      std::numbers::pi));
+            }
+}
+
+TEST_CASE("photon_map: the radius that k photons typically take, by hand") {
+    // On a line at 0, 1, 3 and 7: the distance to the second other one is 3, 2, 3, 6,
+    // and what is typical is their geometric mean.
+    const auto line = [](std::initializer_list<float> places) {
+        std::vector<Photon> photons;
+        for (const float x : places) photons.push_back({.position{x, 0, 0}});
+        return ljus::make_photon_map(photons);
+    };
+    const auto four = line({0, 1, 3, 7});
+    CHECK(double(ljus::typical_radius(four, 2)) ==
+          doctest::Approx(std::pow(3.0 * 2 * 3 * 6, 0.25)));
+    CHECK(double(ljus::typical_radius(four, 1)) ==
+          doctest::Approx(std::pow(1.0 * 1 * 2 * 4, 0.25)));
+    CHECK(double(ljus::typical_radius(four, 100)) == // as far as there are some
+          doctest::Approx(std::pow(7.0 * 6 * 4 * 7, 0.25)));
+    // Those that lie in one place say nothing; without any it is 1.
+    CHECK(double(ljus::typical_radius(line({0, 0, 0, 5}), 1)) == doctest::Approx(5));
+    CHECK(ljus::typical_radius(line({}), 5) == 1);
+    CHECK(ljus::typical_radius(line({4}), 5) == 1);
+    CHECK(ljus::typical_radius(line({4, 4, 4}), 2) == 1);
+    // Of many every few are asked: of 600 in the order of the tree each third.
+    std::vector<Photon> many;
+    for (int i = 0; i < 600; ++i)
+        many.push_back({.position{float(i) * float(i), 0, 0}});
+    const auto map = ljus::make_photon_map(many);
+    double sum = 0;
+    int count = 0;
+    for (std::size_t i = 0; i < 600; i += 3) {
+        const double n = std::sqrt(double(map.tree.point(i).x));
+        sum += std::log(n > 0 ? 2 * n - 1 : 1); // to the neighbour below
+        ++count;
+    }
+    CHECK(double(ljus::typical_radius(map, 1)) ==
+          doctest::Approx(std::exp(sum / count)).epsilon(1e-4));
+}

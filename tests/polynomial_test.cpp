@@ -304,3 +304,57 @@ TEST_CASE("polynomial: the bound of rounding is that of the largest coefficient"
     CHECK(detail::noise(P{{1, 2, 3, 4}}) == 8 * eps * 4);
     CHECK(detail::noise(P{{0, 0, 0, 0}}) == 0);
 }
+
+TEST_CASE("polynomial: the formula finds what is well apart: four roots, two or none") {
+    Numbers draws(9);
+    int negative = 0, positive = 0; // both ways of the resolvent
+    for (int i = 0; i < 3000; ++i) {
+        // (x^2 - s x + t) twice, with roots m - h and m + h, or m - ih and m + ih.
+        std::vector<double> right;
+        double quadratic[2][2];
+        const int real = i % 3; // of the two quadratics
+        for (int k = 0; k < 2; ++k) {
+            const double m = draws.between(-2.0, 2.0), h = draws.between(0.3, 2.0);
+            const double sign = k < real ? -1 : 1;
+            quadratic[k][0] = -2 * m;
+            quadratic[k][1] = m * m + sign * h * h;
+            if (k < real) right.insert(right.end(), {m - h, m + h});
+        }
+        std::sort(right.begin(), right.end());
+        bool apart = true;
+        for (std::size_t k = 1; k < right.size(); ++k)
+            apart = apart && right[k] - right[k - 1] > 0.2;
+        if (!apart) continue;
+        const auto& [b, c] = quadratic[0];
+        const auto& [d, e] = quadratic[1];
+        const double lead = draws.between(0.5, 2.0) * (i % 2 == 0 ? 1 : -1);
+        const std::array<double, 5> powers{lead * c * e, lead * (b * e + c * d),
+                                           lead * (c + e + b * d), lead * (b + d),
+                                           lead};
+        const auto found = detail::quartic_formula(powers);
+        std::vector<double> roots(found.begin(), found.end());
+        std::sort(roots.begin(), roots.end());
+        CAPTURE(real);
+        REQUIRE(roots.size() == right.size());
+        for (std::size_t k = 0; k < roots.size(); ++k)
+            REQUIRE(std::abs(roots[k] - right[k]) < 1e-5);
+        (real == 1 ? positive : negative) += 1;
+    }
+    CHECK(negative > 500);
+    CHECK(positive > 500);
+    // One that is even, and one shifted by 3.
+    const auto roots_of = [](const std::array<double, 5>& powers) {
+        const auto found = detail::quartic_formula(powers);
+        std::vector<double> roots(found.begin(), found.end());
+        std::sort(roots.begin(), roots.end());
+        return roots;
+    };
+    const auto even = roots_of({4, 0, -5, 0, 1});
+    REQUIRE(even.size() == 4);
+    for (std::size_t k = 0; k < 4; ++k)
+        CHECK(even[k] == doctest::Approx(std::array{-2, -1, 1, 2}[k]).epsilon(1e-9));
+    const auto shifted = roots_of({40, -78, 49, -12, 1}); // 1, 2, 4, 5
+    REQUIRE(shifted.size() == 4);
+    for (std::size_t k = 0; k < 4; ++k)
+        CHECK(shifted[k] == doctest::Approx(std::array{1, 2, 4, 5}[k]).epsilon(1e-9));
+}

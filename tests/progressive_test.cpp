@@ -539,6 +539,13 @@ TEST_CASE("progressive: a checkpoint comes back, and nothing else does") {
     CHECK(forged(24, 6, 4).find("do not go with") != std::string::npos);
     CHECK(forged(40, 0x7ff8000000000000u, 8).find("not finite") != std::string::npos);
     CHECK(forged(40, 0, 8).find("out of range") != std::string::npos); // alpha
+    for (const double shrink : {0.0, -0.5, 1.001})                     // of the radius
+        CHECK(
+            forged(48, std::bit_cast<std::uint64_t>(shrink), 8).find("out of range") !=
+            std::string::npos);
+    CHECK(forged(40, std::bit_cast<std::uint64_t>(1.001), 8).find("out of range") !=
+          std::string::npos);
+    CHECK(forged(48, std::bit_cast<std::uint64_t>(1.0), 8) == "it was read");
     CHECK(forged(56, 0, 8).find("out of range") != std::string::npos); // passes
     CHECK(forged(40, std::bit_cast<std::uint64_t>(0.5), 8) == "it was read");
 }
@@ -670,3 +677,46 @@ TEST_CASE("progressive: 150 passes take the memory of ten") {
 }
 
 #endif
+
+TEST_CASE("progressive: the standard error is over all channels and pixels") {
+    auto squares = make_image<double>(2, 1);
+    squares.pixels = {{1, 2, 4}, {8, 16, 32}};
+    CHECK(detail::standard_error(squares, 5) ==
+          doctest::Approx(std::sqrt(63 / 6.0 / (5 * 4))));
+    const auto image = [](double a, double b) {
+        auto one = make_image<double>(1, 1);
+        one.pixels[0] = {a, b, 3 * a};
+        return one;
+    };
+    auto sum = image(7, 1), known = image(0, 0);
+    detail::add_squares(known, image(3, 2), sum, 0); // the first has no mean yet
+    CHECK(known.pixels[0] == RgbT<double>{0});
+    detail::add_squares(known, image(3, 2), sum, 2); // means 3.5, 0.5 and 10.5
+    CHECK(known.pixels[0].x == doctest::Approx(0.25 * 2 / 3));
+    CHECK(known.pixels[0].y == doctest::Approx(2.25 * 2 / 3));
+    CHECK(known.pixels[0].z == doctest::Approx(2.25 * 2 / 3));
+    // Blocks at the border have fewer pixels.
+    auto five = make_image<double>(5, 3);
+    for (int y = 0; y < 3; ++y)
+        for (int x = 0; x < 5; ++x) pixel(five, x, y) = RgbT<double>(x + 10.0 * y);
+    const auto means = detail::means_of_blocks(five, 2);
+    REQUIRE(means.width == 3);
+    REQUIRE(means.height == 2);
+    CHECK(pixel(means, 0, 0).x == doctest::Approx(5.5));
+    CHECK(pixel(means, 2, 0).x == doctest::Approx(9));
+    CHECK(pixel(means, 1, 1).x == doctest::Approx(22.5));
+    CHECK(pixel(means, 2, 1).x == doctest::Approx(24));
+    // Another picture, another hash: by any channel, any pixel, and the form.
+    const std::uint64_t hash = detail::hash_of(five);
+    for (int c = 0; c < 3; ++c) {
+        auto other = five;
+        other.pixels[7][c] += 1e-12;
+        CHECK(detail::hash_of(other) != hash);
+    }
+    auto turned = five;
+    std::swap(turned.pixels[3], turned.pixels[9]);
+    CHECK(detail::hash_of(turned) != hash);
+    turned = five;
+    std::swap(turned.width, turned.height);
+    CHECK(detail::hash_of(turned) != hash);
+}

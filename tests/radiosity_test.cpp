@@ -304,3 +304,50 @@ TEST_CASE(
     CHECK(first({some, dark, some, some}) == 0); // the first of equals
     CHECK(first({dark, dark, dark, dark}) == 0);
 }
+
+TEST_CASE("radiosity: elimination exchanges rows where it has to") {
+    // Random matrices with zeros on the diagonal, and their products with a known x.
+    auto stream = random_stream(1, Pass::user, 0, 0);
+    const auto number = [&] { return 2 * next_1d<double>(stream) - 1; };
+    for (const std::size_t n : {1u, 2u, 3u, 4u, 7u, 12u})
+        for (int round = 0; round < 30; ++round) {
+            std::vector<double> a(n * n);
+            std::vector<Color> right(n), b(n);
+            for (double& x : a)
+                x = round % 3 == 0 ? std::round(2 * number()) : number();
+            for (std::size_t i = 0; i < n && n > 1; ++i) a[i * n + i] = 0;
+            if (n == 1) a[0] = -3;
+            for (Color& x : right) x = Color(number(), number(), number());
+            // Far from singular: a row of its own for each column, in another order.
+            for (std::size_t i = 0; i < n && n > 1; ++i)
+                a[i * n + (i + 1) % n] += (i + round) % 2 == 0 ? 9 : -9;
+            for (std::size_t i = 0; i < n; ++i)
+                for (std::size_t j = 0; j < n; ++j) b[i] += a[i * n + j] * right[j];
+            detail::eliminate(a, b);
+            for (std::size_t i = 0; i < n; ++i)
+                CHECK(glm::distance(b[i], right[i]) < 1e-11);
+        }
+    // The largest by its size, whatever its sign: 1e-20 would lose all digits.
+    for (const double sign : {1.0, -1.0}) {
+        std::vector<double> a{1e-20, 1, -0.5 * sign, sign, 3, 2, 0.5, 1, 1};
+        std::vector<Color> b{Color(1 - 0.5 * sign), Color(sign + 5), Color(2.5)};
+        detail::eliminate(a, b);
+        for (const Color& x : b) CHECK(glm::distance(x, Color(1)) < 1e-14);
+    }
+}
+
+TEST_CASE("radiosity: what is not yet sent, as a share of what is emitted") {
+    FormFactors factors;
+    factors.area = {2, 3};
+    const std::vector<Color> unsent{Color(0.1, -0.2, 0.5), Color(-0.3, 0.1, 0)};
+    // Sums 1.1, 0.7 and 1; where nothing is emitted there is no share.
+    CHECK(detail::unsent_share(factors, unsent, Color(10, 10, 10)) ==
+          doctest::Approx(0.11));
+    CHECK(detail::unsent_share(factors, unsent, Color(100, 10, 10)) ==
+          doctest::Approx(0.1));
+    CHECK(detail::unsent_share(factors, unsent, Color(100, 7, 100)) ==
+          doctest::Approx(0.1));
+    CHECK(detail::unsent_share(factors, unsent, Color(0, 14, 0)) ==
+          doctest::Approx(0.05));
+    CHECK(detail::unsent_share(factors, unsent, Color(0)) == 0);
+}

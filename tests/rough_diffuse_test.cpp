@@ -208,3 +208,10 @@ TEST_CASE_TEMPLATE("rough_diffuse: light is never negative, and finite down to t
     CHECK(double(raw.single + T(0.1) * raw.twice) ==
           doctest::Approx(-0.134).epsilon(0.02));
 }
+
+TEST_CASE("rough diffuse: the same from all around, and from both sides") {
+    for (const RoughModel model : models)
+        for (const double sigma : {0.0, 0.4, 0.9})
+            check_symmetry(
+                RoughDiffuseT<double>{ljus::RgbT<double>{0.9, 0.5, 0.1}, sigma, model});
+}

@@ -722,3 +722,141 @@ TEST_CASE("shadow photons: settings that make no sense") {
     check(SkipSettings{});
     check(enough);
 }
+
+TEST_CASE("shadow photons: cells, bricks and the table that finds them") {
+    using detail::BrickTable;
+    const detail::CellsT<float> cells{.corner{1, 2, 3}, .length = 0.5f};
+    const auto cell =
+        cells.cell_of({1 + 0.5f * 4.5f, 2 + 0.5f * 9.5f, 3 + 0.5f * 100.5f}, 5);
+    REQUIRE(cell);
+    CHECK(cell->x == 4);
+    CHECK(cell->y == 9);
+    CHECK(cell->z == 100);
+    CHECK(cell->way == 5);
+    CHECK(cell->in_brick() == (0u | 1u << 2 | 0u << 4));
+    // Out of the cells along any one axis: nowhere.
+    const Vec3 inside = cells.corner + Vec3{5};
+    REQUIRE(cells.cell_of(inside, 0));
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float bad : {0.5f * 3.9f, -100.0f, 0.5f * float(detail::most_cells),
+                                std::numeric_limits<float>::quiet_NaN(),
+                                std::numeric_limits<float>::infinity()}) {
+            Vec3 point = inside;
+            point[axis] = cells.corner[axis] + bad;
+            CHECK_FALSE(cells.cell_of(point, 0));
+        }
+    // A key is a brick and a way, and back; bricks are numbered as they come.
+    auto stream = random_stream(3, Pass::user, 0, 0);
+    const auto some = [&] {
+        return int(next_1d<float>(stream) * float(detail::most_cells));
+    };
+    BrickTable table;
+    CHECK(table.find(detail::brick_key({4, 4, 4, 0})) == BrickTable::none);
+    std::vector<std::uint64_t> keys;
+    for (int i = 0; i < 3000; ++i) {
+        const detail::VerdictCell at{some(), some(), some(), i % 6};
+        const std::uint64_t key = detail::brick_key(at);
+        const auto first = detail::first_cell(key);
+        REQUIRE(first.x == at.x / 4 * 4);
+        REQUIRE(first.y == at.y / 4 * 4);
+        REQUIRE(first.z == at.z / 4 * 4);
+        REQUIRE(first.way == at.way);
+        REQUIRE(detail::brick_key(first) == key);
+        REQUIRE(key != 0);
+        REQUIRE(table.find(key) == BrickTable::none);
+        REQUIRE(table.insert(key) == std::uint32_t(i));
+        REQUIRE(table.insert(key) == std::uint32_t(i));
+        keys.push_back(key);
+    }
+    CHECK(table.size() == 3000);
+    CHECK(table.keys() == keys);
+    for (std::uint32_t i = 0; i < 3000; ++i) REQUIRE(table.find(keys[i]) == i);
+    // At most half full: 8192 places of 16 bytes, and a key for each brick.
+    CHECK(table.bytes() == 8192 * 16 + 3000 * 8);
+    VerdictGrid grid;
+    grid.known.table = table;
+    grid.known.bits.resize(7);
+    CHECK(grid.bytes() == table.bytes() + 56);
+}
+
+TEST_CASE("shadow photons: the cells' length is that of enough photons in nine cells") {
+    // One photon in the middle of each of 32 x 32 squares of side 1.
+    std::vector<Photon> photons;
+    BoxT<float> box;
+    for (int i = 0; i < 32; ++i)
+        for (int k = 0; k < 32; ++k) {
+            photons.push_back(on_floor(float(i), float(k), PhotonKind::direct));
+            box = box_union(box, photons.back().position);
+        }
+    const auto length = [&](const SkipSettings& skip, std::size_t lights = 1) {
+        return double(detail::cell_length(photons, box, lights, skip));
+    };
+    // Each is in a cell of 31/32 of its own: 9 cells of length l hold 9 l^2 of them per
+    // (31/32)^2.
+    const double one = 31.0 / 32;
+    CHECK(length(enough) == doctest::Approx(one * std::sqrt(59 / 9.0)).epsilon(1e-4));
+    CHECK(length(any) == doctest::Approx(one * std::sqrt(20 / 9.0)).epsilon(1e-4));
+    CHECK(length(any, 4) ==
+          doctest::Approx(2 * one * std::sqrt(20 / 9.0)).epsilon(1e-4));
+    SkipSettings given = any;
+    given.radius = 0.75f;
+    CHECK(length(given) == 0.75);
+    given.radius = 1e-20f; // no more cells than there are numbers for
+    CHECK(length(given) == doctest::Approx(31.0 / (detail::most_cells / 2)));
+    // Four in each place make it half as long; those that say nothing do not count.
+    const auto once = photons;
+    for (const Photon& photon : once) {
+        for (int i = 0; i < 3; ++i) photons.push_back(photon);
+        photons.push_back(photon);
+        photons.back().kind = PhotonKind::caustic;
+        photons.push_back(photon);
+        photons.back().kind = PhotonKind::indirect;
+        photons.push_back(photon);
+        photons.back().light = 7;
+        photons.push_back(photon);
+        photons.back().normal = detail::SmallNormal{0};
+    }
+    CHECK(length(any) == doctest::Approx(one * std::sqrt(5 / 9.0)).epsilon(1e-4));
+    given = {.rule = SkipRule::any, .indirect_rays = true};
+    CHECK(length(given) == doctest::Approx(one * std::sqrt(4 / 9.0)).epsilon(1e-4));
+    given.rule = SkipRule::none; // indirect ones alone
+    CHECK(length(given) == doctest::Approx(one * std::sqrt(20 / 9.0)).epsilon(1e-4));
+}
+
+TEST_CASE("shadow photons: verdicts in a ball, by side, light and kind") {
+    using detail::judge;
+    CHECK(judge({1, 1200}, SkipRule::report, 50) == Verdict::unknown);
+    CHECK(judge({2, 1300}, SkipRule::report, 50) == Verdict::unknown);
+    CHECK(judge({1300, 2}, SkipRule::report, 50) == Verdict::unknown);
+    std::vector<Photon> photons;
+    const auto add = [&](int count, PhotonKind kind, std::uint16_t light, bool below) {
+        for (int i = 0; i < count; ++i) {
+            photons.push_back(on_floor(0.01f * float(i % 10), 0, kind, light));
+            if (below) photons.back().direction.y = 1;
+        }
+    };
+    add(60, PhotonKind::direct, 0, false);
+    add(60, PhotonKind::shadow, 0, true);
+    add(60, PhotonKind::shadow, 1, false);
+    add(60, PhotonKind::indirect, 2, false);
+    add(60, PhotonKind::caustic, 3, false);
+    const PhotonMap map = make_photon_map(photons);
+    const auto verdict = [&](std::size_t light, int side,
+                             SkipRule rule = SkipRule::enough, float radius = 1) {
+        return verdict_at(map, floor_point(0, 0), side, light, radius, {.rule = rule});
+    };
+    CHECK(verdict(0, 1) == Verdict::lit);
+    CHECK(verdict(0, -1) == Verdict::shadow);
+    CHECK(verdict(1, 1) == Verdict::shadow);
+    CHECK(verdict(1, -1) == Verdict::unknown);
+    CHECK(verdict(2, 1) == Verdict::unknown);
+    CHECK(verdict(3, 1) == Verdict::unknown);
+    CHECK(verdict(0, 1, SkipRule::enough, 0.025f) == Verdict::unknown); // 18 of them
+    CHECK(verdict(0, 1, SkipRule::any, 0.025f) == Verdict::lit);
+    CHECK(verdict(0, 1, SkipRule::report) == Verdict::unknown); // all lights together
+    CHECK(verdict(0, -1, SkipRule::report) == Verdict::shadow);
+    CHECK(verdict(0, 1, SkipRule::none) == Verdict::unknown);
+    SurfacePoint wall = floor_point(0, 0);
+    wall.normal = {1, 0, 0};
+    CHECK(verdict_at(map, wall, 1, 0, 1.0f, enough) == Verdict::unknown);
+}

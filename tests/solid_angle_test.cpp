@@ -310,3 +310,68 @@ TEST_CASE_TEMPLATE("solid angle: an observer at the very point that is chosen", 
     }
     CHECK(wrong == 0);
 }
+
+namespace {
+
+/// The form factor of a point to the triangle v1 + a e1 + b e2, by the midpoint rule of
+/// 90 000 small ones; only what faces the point counts, and lies above it.
+double by_rule(const glm::dvec3& from, const glm::dvec3& normal, const glm::dvec3& v1,
+               const glm::dvec3& e1, const glm::dvec3& e2, double sign) {
+    constexpr int n = 300;
+    const glm::dvec3 area = sign * glm::cross(e1, e2);
+    double sum = 0;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; i + j < n; ++j)
+            for (const double third : {1.0, 2.0}) {
+                if (third == 2 && i + j + 1 >= n) continue;
+                const glm::dvec3 way =
+                    v1 + (i + third / 3) / n * e1 + (j + third / 3) / n * e2 - from;
+                const double here = glm::dot(way, normal), there = -glm::dot(way, area);
+                const double d2 = glm::dot(way, way);
+                if (here > 0 && there > 0) sum += here * there / (d2 * d2);
+            }
+    return sum / (2.0 * n * n) / pi;
+}
+
+} // namespace
+
+TEST_CASE("solid angle: form factors of lamps, cut by the horizon or not") {
+    Numbers n(3);
+    int some = 0;
+    for (int i = 0; i < 60; ++i) {
+        const glm::dvec3 from = n.point(1), normal = n.direction();
+        const glm::dvec3 v1 = from + 3.0 * n.direction();
+        const glm::dvec3 e1 = n.point(1.5), e2 = n.point(1.5);
+        // Not through the point's own place, where the rule has no end.
+        if (std::abs(glm::dot(v1 - from, glm::normalize(glm::cross(e1, e2)))) < 0.5)
+            continue;
+        const QuadT<double> quad{v1, e1, e2};
+        const TriangleT<double> triangle{v1, v1 + e1, v1 + e2};
+        for (const bool inside_out : {false, true}) {
+            const double sign = inside_out ? -1 : 1;
+            const double half = by_rule(from, normal, v1, e1, e2, sign);
+            const double rest = by_rule(from, normal, v1 + e1 + e2, -e1, -e2, sign);
+            CHECK(std::abs(*form_factor_from(from, normal, triangle, inside_out) -
+                           half) < 1e-4);
+            CHECK(std::abs(*form_factor_from(from, normal, quad, inside_out) - half -
+                           rest) < 1e-4);
+            some += half > 1e-3;
+        }
+    }
+    CHECK(some > 10);
+    // A sphere: (r/d)^2 cos, if all of it stands above the horizon.
+    for (int i = 0; i < 200; ++i) {
+        const glm::dvec3 from = n.point(9), normal = n.direction();
+        const SphereT<double> ball{from + n.between(0.5, 9) * n.direction(),
+                                   n.between(0.1, 2)};
+        const double d = glm::distance(from, ball.center);
+        const double height = glm::dot(ball.center - from, normal);
+        const auto found = form_factor_from(from, normal, ball, false);
+        CHECK_FALSE(form_factor_from(from, normal, ball, true));
+        CHECK(bool(found) == (d > ball.radius && std::abs(height) >= ball.radius));
+        if (found && height > 0)
+            CHECK(*found ==
+                  ljus_test::within(std::pow(ball.radius / d, 2) * height / d, 1e-12));
+        if (found && height < 0) CHECK(*found == 0);
+    }
+}

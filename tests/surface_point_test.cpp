@@ -165,3 +165,28 @@ TEST_CASE_TEMPLATE("surface: no lamp and no floor is in its own light", T, float
                 check(shadow_rays<T>(offset, distance, lamp_near, quad));
             }
 }
+
+TEST_CASE(
+    "surface point: whether two edges span an area, in any plane and of any size") {
+    const Vec3T<double> x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, slanted{3, -5, 7};
+    for (const double size : {1e-60, 1e-12, 1.0, 1e12, 1e60}) {
+        for (const auto& [a, b] : {std::pair{x, y},
+                                   {y, z},
+                                   {z, x},
+                                   {x, slanted},
+                                   {slanted, y},
+                                   {slanted, z}}) {
+            CHECK(detail::span_area(size * a, size * b));
+            CHECK(detail::span_area(size * b, -size * a));
+        }
+        for (const Vec3T<double>& a : {x, y, z, slanted, x + y, y + z, z + x})
+            for (const double k : {1.0, -1.0, 3.0, -0.25, 0.0}) {
+                CHECK_FALSE(detail::span_area(size * a, k * (size * a)));
+                CHECK_FALSE(detail::span_area(k * (size * a), size * a));
+            }
+        // An angle of a millionth is one.
+        CHECK(detail::span_area(size * slanted, size * (slanted + 1e-6 * x)));
+        CHECK(detail::span_area(size * slanted, size * (slanted + 1e-6 * y)));
+        CHECK(detail::span_area(size * slanted, size * (slanted + 1e-6 * z)));
+    }
+}

@@ -367,3 +367,74 @@ TEST_CASE("survey: a lobe that shadow rays do not find is named") {
     CHECK(remarks(0.01f, DirectLight::mis).empty());
     CHECK(remarks(0.01f, DirectLight::analytic).empty());
 }
+
+TEST_CASE("survey: which passes each way of indirect light needs, and from how many") {
+    const SceneNeeds found{.objects = 3, .diffuse = 2, .specular = 1, .lights = 2};
+    const auto passes = [&](IndirectLight indirect, int depth, long long photons) {
+        PhotonMappingSettings settings{.max_depth = depth, .indirect = indirect};
+        settings.general.photons = photons;
+        return detail::choose_passes(found, settings);
+    };
+    struct Row {
+        IndirectLight indirect;
+        bool rays, general, irradiance, cache; // at a depth of two surfaces
+        bool general_at_one, irradiance_at_one;
+    };
+    for (const Row& row : {Row{IndirectLight::rays, 1, 0, 0, 0, 0, 0},
+                           Row{IndirectLight::map, 1, 1, 0, 0, 0, 0},
+                           Row{IndirectLight::gather, 1, 1, 1, 0, 0, 0},
+                           Row{IndirectLight::photons, 0, 1, 0, 0, 1, 0},
+                           Row{IndirectLight::cache, 0, 1, 1, 1, 1, 1},
+                           Row{IndirectLight::none, 0, 0, 0, 0, 0, 0}}) {
+        CAPTURE(int(row.indirect));
+        const auto two = passes(row.indirect, 2, 1);
+        CHECK(two.shadow_rays);
+        CHECK(two.indirect_rays == row.rays);
+        CHECK(two.general_map == row.general);
+        CHECK(two.shadow_photons == row.general);
+        CHECK(two.irradiance == row.irradiance);
+        CHECK(two.cache == row.cache);
+        CHECK(two.caustics_map);
+        const auto one = passes(row.indirect, 1, 1);
+        CHECK_FALSE(one.indirect_rays);
+        CHECK(one.general_map == row.general_at_one);
+        CHECK(one.irradiance == row.irradiance_at_one);
+        const auto none = passes(row.indirect, 2, 0);
+        CHECK_FALSE((none.general_map || none.irradiance || none.cache));
+        CHECK_FALSE(none.shadow_photons);
+    }
+    // Rays are left out if each of both lights has the 59 photons that it takes; those
+    // of indirect light if there are such rays, and a photon.
+    for (const long long photons : {0LL, 1LL, 117LL, 118LL}) {
+        PhotonMappingSettings settings;
+        settings.general.photons = photons;
+        settings.skip = {.rule = SkipRule::enough, .indirect_rays = true};
+        const auto run = detail::choose_passes(found, settings);
+        CHECK(run.skipped_rays == (photons == 118));
+        CHECK(run.shadow_photons == (photons == 118));
+        CHECK(run.skipped_bounces == (photons > 0));
+        const SkipSettings skip = detail::skipping(run, settings);
+        CHECK(skip.rule == (photons == 118 ? SkipRule::enough : SkipRule::none));
+        CHECK(skip.indirect_rays == (photons > 0));
+        settings.indirect = IndirectLight::none;
+        CHECK_FALSE(detail::choose_passes(found, settings).skipped_bounces);
+        settings.skip = {};
+        CHECK_FALSE(detail::choose_passes(found, settings).skipped_rays);
+    }
+    // Without lights, or without a diffuse surface, nothing is done.
+    for (const SceneNeeds& dark :
+         {SceneNeeds{.objects = 3, .diffuse = 2, .specular = 1},
+          SceneNeeds{.objects = 3, .specular = 3, .lights = 1}}) {
+        PhotonMappingSettings settings{.indirect = IndirectLight::cache};
+        settings.skip = {.rule = SkipRule::any, .indirect_rays = true};
+        const auto run = detail::choose_passes(dark, settings);
+        CHECK_FALSE((run.shadow_rays || run.caustics_map || run.general_map ||
+                     run.shadow_photons || run.skipped_rays || run.skipped_bounces ||
+                     run.irradiance || run.cache));
+    }
+    Scene<Shapes<Sphere>, Materials<Lambertian, SoapFilm>> bubble;
+    bubble.add(Sphere{}, bubble.add(Lambertian{}));
+    CHECK_FALSE(needs(bubble).films);
+    bubble.add(SoapFilm{});
+    CHECK(needs(bubble).films);
+}

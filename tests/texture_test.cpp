@@ -15,6 +15,7 @@
 #include "ljus/materials/glossy.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
+#include "ljus/materials/mixture.hpp"
 #include "ljus/materials/textured.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/render.hpp"
@@ -204,6 +205,45 @@ TEST_CASE("texture: a UvMap looks up by the shape's own coordinates, and repeats
     CHECK(uv_of(Lambertian{}) == Vec2{0});
 }
 
+TEST_CASE("texture: what its colour is of each material, and what the base says") {
+    const Rgb half{0.5f, 0.25f, 1};
+    CHECK(detail::colored(Lambertian{.albedo = Rgb{0.5f}}, half).albedo ==
+          Rgb{0.25f, 0.125f, 0.5f});
+    CHECK(detail::colored(Mirror{.reflectance = Rgb{0.5f}}, half).reflectance ==
+          Rgb{0.25f, 0.125f, 0.5f});
+    CHECK(detail::colored(ThinGlass{.tint = Rgb{0.5f}}, half).tint ==
+          Rgb{0.25f, 0.125f, 0.5f});
+    CHECK(detail::colored(Mixture{.color = Rgb{0.5f}}, half).color ==
+          Rgb{0.25f, 0.125f, 0.5f});
+    // In no place in particular it is its base.
+    const Glossy gloss{.reflectance{0.9f, 0.5f, 0.1f}, .roughness = 0.3f};
+    const Textured<Glossy, Checker> board{gloss, {.even = Rgb{0}, .odd = Rgb{0}}};
+    const Vec3 wo = glm::normalize(Vec3{0.3f, 0.1f, 0.8f});
+    const Vec3 wi = glm::normalize(Vec3{-0.1f, 0.3f, 0.5f}), u{0.3f, 0.6f, 0.9f};
+    CHECK(lobes(board) == lobes(gloss));
+    CHECK(evaluate(board, wo, wi) == evaluate(gloss, wo, wi));
+    CHECK(pdf(board, wo, wi) == pdf(gloss, wo, wi));
+    CHECK(pdf(board, wo, wi, Lobes::diffuse) == 0);
+    const auto next = sample(board, wo, u, Transport::radiance);
+    const auto right = sample(gloss, wo, u, Transport::radiance);
+    REQUIRE((next && right));
+    CHECK(next->wi == right->wi);
+    CHECK(next->weight == right->weight);
+    CHECK_FALSE(sample(board, wo, u, Transport::radiance, Lobes::specular));
+    const Textured<Mixture, Checker> mixed{
+        {.color = Rgb{0.5f}, .emissivity = 4, .absorption = Rgb{1, 2, 3}}, {}};
+    CHECK(absorption(mixed) == Rgb{1, 2, 3});
+    CHECK(emission(mixed) == Rgb{2});
+    // A pane lets through its own colour, place by place.
+    const ThinGlass pane{.index = 1.5f};
+    const Textured<ThinGlass, Checker> window{
+        pane, {.map = flat(), .even{1, 0.5f, 0.25f}, .odd = Rgb{0}}};
+    const auto passed = pass_through(window, Vec3{0.25f, 0.25f, 7}, wo);
+    CHECK(passed == pass_through(ThinGlass{1.5f, Rgb{1, 0.5f, 0.25f}}, Vec3{0}, wo));
+    CHECK(pass_through(window, Vec3{0.75f, 0.25f, 7}, wo) ==
+          pass_through(ThinGlass{1.5f, Rgb{0}}, Vec3{0}, wo));
+}
+
 TEST_CASE("texture: each shape has its own coordinates") {
     const auto of = [](const auto& shape, const Ray& ray) {
         const auto hit = as_hit(*intersect(ray, shape));
@@ -333,5 +373,59 @@ TEST_CASE("texture: of pictures only those are read whose reader is trusted, and
         large[29 + i] = static_cast<unsigned char>(new_sum >> (24 - 8 * i) & 255u);
     CHECK(refusal_of(large) ==
           "a has 16386 x 16386 pixels; there can be at most 33554432.");
+}
+
+TEST_CASE("texture: the tables of a JPEG file, segment by segment") {
+    const auto add = [](Bytes& to, std::initializer_list<int> values) {
+        for (const int value : values) to.push_back(static_cast<unsigned char>(value));
+    };
+    // A table of so many entries, all of them codes of 8 bits, or the rest of 9.
+    const auto table = [&](Bytes& to, int entries) {
+        add(to, {0, 0, 0, 0, 0, 0, 0, 0, std::min(entries, 255),
+                 entries - std::min(entries, 255), 0, 0, 0, 0, 0, 0, 0});
+        for (int i = 0; i < entries; ++i) add(to, {i % 200});
+    };
+    const auto tables = [&](std::initializer_list<int> sizes) {
+        Bytes file{0xff, 0xd8, 0xff, 0xc4};
+        int length = 2;
+        for (const int entries : sizes) length += 17 + entries;
+        add(file, {length / 256, length % 256});
+        for (const int entries : sizes) table(file, entries);
+        add(file, {0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff});
+        file.resize(file.size() + 300, 0xff);
+        return file;
+    };
+    const auto trouble = [](const Bytes& file) {
+        return detail::jpeg_trouble(file) != nullptr;
+    };
+    CHECK_FALSE(trouble(tables({0})));
+    CHECK_FALSE(trouble(tables({255})));
+    CHECK(trouble(tables({256})));
+    CHECK_FALSE(trouble(tables({200, 200, 255, 3})));
+    CHECK(trouble(tables({200, 200, 256})));
+    CHECK(trouble(tables({200, 256, 200})));
+    // A long segment before it is jumped over, to the byte: its last two look like the
+    // beginning of a table, of which what follows would be a bad one.
+    for (const int length : {16, 0x110, 0x202, 0x3ff}) {
+        Bytes file{0xff, 0xd8, 0xff, 0xe0};
+        add(file, {length / 256, length % 256});
+        file.resize(4 + std::size_t(length) - 2, 0);
+        add(file, {0xff, 0xc4});
+        Bytes with_table = file;
+        add(file, {0xff, 0xfe, 0, 0x30});
+        file.resize(file.size() + 46, 0x7f);
+        CHECK_FALSE(trouble(file));
+        const Bytes bad = tables({256});
+        with_table.insert(with_table.end(), bad.begin() + 2, bad.end());
+        CHECK(trouble(with_table));
+    }
+    // After the pixels begin it may stand anywhere.
+    Bytes coded{0xff, 0xd8, 0xff, 0xda, 0, 8, 1, 2, 3, 0xff, 0, 7, 0xff, 0xe0, 0xff};
+    CHECK_FALSE(trouble(coded));
+    const Bytes bad = tables({256});
+    coded.insert(coded.end(), bad.begin() + 2, bad.end());
+    CHECK(trouble(coded));
+    CHECK_FALSE(trouble({0xff, 0xd8}));
+    CHECK_FALSE(trouble({0xff, 0xd8, 0xff, 0xe0, 0xff}));
 }
 #endif

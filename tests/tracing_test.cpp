@@ -445,7 +445,18 @@ TEST_CASE("tracing: no photons, no light, no target") {
     CHECK_THROWS_AS((void)trace_photons(room, MapType::general, {.photons = -1}),
                     std::invalid_argument);
     const Room matt = make_room<float>(Ball::lambertian, Lamp::quad, 1);
-    CHECK(trace_photons(matt, MapType::caustics, {.photons = 1000}).photons.empty());
+    const auto none =
+        trace_photons(matt, MapType::caustics, {.photons = 1000000, .give_up = 600});
+    CHECK(none.photons.empty());
+    CHECK(none.emitted == 1000000); // not even tried
+    CHECK(none.remark.empty());
+    // Shares are for the objects that photons are aimed at, and for no general pass.
+    CHECK_THROWS_WITH_AS((void)trace_photons(room, MapType::caustics,
+                                             {.photons = 10, .shares = {0.5, 0.5}}),
+                         doctest::Contains("the number of shares is 2"),
+                         std::invalid_argument);
+    CHECK(trace_photons(room, MapType::general, {.photons = 10, .shares = {0.5, 0.5}})
+              .emitted == 10);
     Room dark;
     add_walls(dark);
     CHECK_THROWS_AS((void)trace_photons(dark, MapType::general, {}),
@@ -969,4 +980,33 @@ TEST_CASE("tracing: one photon's way, step by step") {
         shadows += !direct;
     }
     CHECK(shadows == 2);
+}
+
+TEST_CASE("tracing: lights get photons by their power, or as many each") {
+    // Two points of 1 and 9 W under a dome that all photons meet: 4000 paths, 5
+    // standard errors.
+    RoomT<float> room;
+    const auto black = room.add(Lambertian{.albedo = Rgb{0}});
+    room.add(Sphere{.radius = 9}, black, Rgb{0}, true);
+    const float unit = float(0.25 / std::numbers::pi);
+    room.add(PointLight{.position{1, 0, 0}, .intensity = Rgb{unit}});
+    room.add(PointLight{.position{0, 1, 0}, .intensity = Rgb{9 * unit}});
+    for (const bool equal : {false, true}) {
+        const auto traced = trace_photons(room, MapType::general,
+                                          {.photons = 4000,
+                                           .shadow_photons = false,
+                                           .equal_lights = equal,
+                                           .threads = 1});
+        REQUIRE(traced.photons.size() == 4000);
+        double count[2] = {}, flux[2] = {};
+        for (const Photon& photon : traced.photons) {
+            count[photon.light] += 1;
+            flux[photon.light] += double(photon.flux.x);
+        }
+        const double chance = equal ? 0.5 : 0.1;
+        CHECK(std::abs(count[0] - 4000 * chance) <
+              5 * std::sqrt(4000 * chance * (1 - chance)));
+        CHECK(flux[0] / count[0] == ljus_test::within(1 / chance / 4000, 1e-4));
+        CHECK(flux[1] / count[1] == ljus_test::within(9 / (1 - chance) / 4000, 1e-4));
+    }
 }

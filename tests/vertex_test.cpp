@@ -4,6 +4,8 @@
 #include <numbers>
 
 #include "ljus/geometry/moving.hpp"
+#include "ljus/image/texture.hpp"
+#include "ljus/materials/textured.hpp"
 #include "ljus/path/continue_path.hpp"
 #include "ljus/path/next_vertex.hpp"
 #include "ljus/scene/index.hpp"
@@ -543,4 +545,27 @@ TEST_CASE("vertex: an index knows the frames of flat shapes") {
     CHECK(known->pdf == worked_out->pdf);
     CHECK(known->weight == worked_out->weight);
     CHECK(known->point.normal == worked_out->point.normal);
+}
+
+TEST_CASE("vertex: coordinates of a texture, for those that look up by them") {
+    using Paper = Textured<Lambertian, CheckerT<float, UvMap>>;
+    Scene<Shapes<Quad>, Materials<Lambertian, Paper>> scene;
+    const Quad wall{.corner{0, 0, 0}, .edge_u{4, 0, 0}, .edge_v{0, 2, 0}};
+    const auto plain = scene.add(Lambertian{});
+    const auto paper = scene.add(Paper{{}, {}});
+    scene.add(wall, plain);
+    Quad other = wall;
+    other.corner.x = 10;
+    scene.add(other, paper);
+    const auto uv = [&](float x) {
+        const Ray ray{.origin{x, 0.5f, 1}, .direction{0, 0, -1}};
+        return vertex_at(scene, ray, *closest_hit(scene, ray)).uv;
+    };
+    CHECK(uv(13) == Vec2{0.75f, 0.25f});
+    CHECK(uv(3) == Vec2{0}); // nobody asks
+    CHECK(detail::uses_uv(scene, paper));
+    CHECK_FALSE(detail::uses_uv(scene, plain));
+    Scene<Shapes<Quad>, Materials<Lambertian>> bare;
+    const auto id = bare.add(Lambertian{});
+    CHECK_FALSE(detail::uses_uv(bare, id));
 }

@@ -563,3 +563,14 @@ TEST_CASE("whitted: at the extremes") {
     (void)radiance(make_whitted(hall, {.max_depth = 1000}), across, stream, counts);
     CHECK(counts.bounce_rays == 1000);
 }
+
+TEST_CASE("whitted: what is black sends no ray on") {
+    // Nothing comes through glass as dark as this: one ray mirrored, one that ends.
+    const auto scene = ball_scene<double>(
+        GlassT<double>{.index = glass_index, .absorption = RgbT<double>{1e6}});
+    RandomStream stream;
+    Counts counts;
+    (void)radiance(make_whitted(scene, {.max_depth = 9}), at_the_ball<double>(), stream,
+                   counts);
+    CHECK(counts.bounce_rays == 2);
+}

@@ -75,3 +75,10 @@ ljus_break_it(NAME wide-bvh-any HEADER accel/detail/bvh8_traverse.hpp TEST bvh8
     FROM "waiting += entered != 0 ? 1 : 0;"
     TO   "waiting += 0;"
     CASES "wide bvh: the same answers*")
+
+# The surface of the lower half with the number of the upper: a tree that is right, and
+# slow.
+ljus_break_it(NAME bvh-heuristic HEADER accel/detail/bvh_bins.hpp TEST bvh
+    FROM "lower.bounds.half_area() * tests_of(lower.count, at_a_time) + above[i];"
+    TO   "lower.bounds.half_area() * tests_of(upper.count, at_a_time) + above[i];"
+    CASES "bvh: the split is the cheapest*")

@@ -8,8 +8,8 @@ ljus_break_it(NAME final-gathering-order HEADER photons/irradiance_points.hpp
 # The photons that became points count, too, and the sum is too large by their part.
 ljus_break_it(NAME final-gathering-own-photon HEADER photons/irradiance_points.hpp
     TEST final_gathering
-    FROM "return other.kind == PhotonKind::indirect && !is_point(k);"
-    TO   "return other.kind == PhotonKind::indirect;"
+    FROM "PhotonKind::indirect) && !is_point(k);"
+    TO   "PhotonKind::indirect);"
     CASES "final gathering: what is looked up*")
 
 # Fewer photons than asked for, over a disc of the radius that the settings leave open.
@@ -53,3 +53,17 @@ ljus_break_it(NAME final-gathering-pi HEADER render/final_gathering.hpp
     FROM "return scattered->weight * irradiance * std::numbers::inv_pi_v<T>;"
     TO   "return scattered->weight * irradiance;"
     CASES "final gathering: in a furnace*")
+
+# The harmonic mean of the gather rays' lengths for their mean: points count too far.
+ljus_break_it(NAME final-gathering-distance HEADER render/final_gathering.hpp
+    TEST final_gathering
+    FROM "inverse += T(1) / found.distance;"
+    TO   "inverse += found.distance;"
+    CASES "final gathering: the irradiance of a square*")
+
+# A gather ray through a mirror is as long as its last part.
+ljus_break_it(NAME final-gathering-first HEADER render/final_gathering.hpp
+    TEST final_gathering
+    FROM "if (first) found.distance = vertex->distance;"
+    TO   "found.distance = vertex->distance;"
+    CASES "final gathering: what a gather ray brings*")

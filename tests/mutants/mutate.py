@@ -17,17 +17,20 @@ change nothing that a test could see, with the reason; they are not counted.
   --seed S        ... by this seed (1)
   --all N         at most N mutants in all, chosen at random
   --again         only those that survived the last run here
-  --long          with the tests that say '// long:' as well
+  --long          with the tests that say '// long:' as well; without it these are run for
+                  headers only that have no other test
   --jobs N        so many at a time (the number of processors)
   --build FOLDER  where to work (build/mutants)
   --commands FILE a compile_commands.json that says how tests are compiled
   --report FILE   write the survivors there as well
+  --csv FILE      a table by floors there, of this run and all that ran here before
   --compiled      those that only the compiler runs as well, in a program each
-  --list          only count the mutants
+  --list          only count the mutants; with --csv the table of what is known
 """
 
 import argparse
 import concurrent.futures
+import hashlib
 import json
 import math
 import os
@@ -100,7 +103,8 @@ def tests_of_headers(with_long):
         header = file.relative_to(INCLUDE / "ljus").as_posix()
         names = [file.stem] * (file.stem in head_of) + further[file.stem]
         names += [name for name in table.get(header, []) if name not in names]
-        result[header] = [n for n in names if with_long or n not in long_ones]
+        quick = [n for n in names if n not in long_ones]
+        result[header] = quick if quick and not with_long else names
     return result
 
 
@@ -129,6 +133,63 @@ def equivalent_ones():
         else:
             sys.exit(f"tests/mutants/equivalent:{number}: not a header, -, + or =.")
     return result
+
+
+# --- What became of them, run by run ----------------------------------------------------
+def key_in_file(mutant):
+    return f"{mutant.line} | {mutant.before} | {mutant.after}"
+
+
+def file_of_fates(header, options):
+    return options.build / "fates" / (header.replace("/", "_") + ".json")
+
+
+def known_fates(header, options):
+    """{key: fate} of all runs here since the header was last changed."""
+    file = file_of_fates(header, options)
+    known = json.loads(read(file)) if file.exists() else {}
+    text = hashlib.sha1(read(INCLUDE / "ljus" / header).encode()).hexdigest()
+    return known["fates"] if known.get("header") == text else {}
+
+
+def keep_fates(header, found, fate, options):
+    known = known_fates(header, options)
+    known.update({key_in_file(m): fate[id(m)] for m in found if id(m) in fate})
+    text = hashlib.sha1(read(INCLUDE / "ljus" / header).encode()).hexdigest()
+    write(file_of_fates(header, options), json.dumps({"header": text, "fates": known}))
+
+
+def write_csv(tests_of, equivalent, options):
+    """By floor: how many were tried, of those noticed, and how many are equivalent."""
+    rows = defaultdict(Counter)
+    everything = 0
+    for header in tests_of:
+        known = known_fates(header, options)
+        row = rows[floor(header)]
+        for region in mutants.find(read(INCLUDE / "ljus" / header))[1]:
+            everything += len(region.mutants)
+            for mutant in region.mutants:
+                result = known.get(key_in_file(mutant))
+                if key_of(header, mutant) in equivalent:
+                    row["equivalent"] += result is not None and result != "left out"
+                elif result in NOTICED:
+                    row["killed"] += 1
+                elif result not in (None, "left out"):
+                    row["alive"] += 1
+    compiler = subprocess.run(["g++", "-dumpfullversion"], capture_output=True, text=True)
+    tried = sum(row["killed"] + row["alive"] + row["equivalent"] for row in rows.values())
+    lines = [
+        f"# scripts/test --mutate --sample, {tried} of {everything} mutants, chosen at random",
+        f"# header by header; tests at -O1; g++ {compiler.stdout.strip()}.",
+        "floor,made,killed,equivalent,share",
+    ]
+    for name, row in [*sorted(rows.items()), ("all", sum(rows.values(), Counter()))]:
+        tried = row["killed"] + row["alive"]
+        if tried:
+            share = f"{100 * row['killed'] / tried:.0f} %"
+            made = tried + row["equivalent"]
+            lines.append(f"{name},{made},{row['killed']},{row['equivalent']},{share}")
+    write(options.csv, "\n".join([*lines, ""]))
 
 
 # --- How a test is compiled -------------------------------------------------------------
@@ -163,7 +224,13 @@ def with_headers(command, folder):
 
 
 def libraries():
-    return ["-lmpfr", "-lgmp"] if Path("/usr/include/mpfr.h").exists() else []
+    """What the headers of /usr/include have to be linked with."""
+    needed = {"mpfr.h": ["-lmpfr", "-lgmp"], "tiny_obj_loader.h": ["-ltinyobjloader"]}
+    return [
+        library
+        for header, names in needed.items() for library in names
+        if Path("/usr/include", header).exists()
+    ]  # fmt: skip
 
 
 class Program:
@@ -448,6 +515,7 @@ def main():
     parser.add_argument("--build", type=Path, default=ROOT / "build/mutants")
     parser.add_argument("--commands", type=Path)
     parser.add_argument("--report", type=Path)
+    parser.add_argument("--csv", type=Path)
     options = parser.parse_args()
     options.build = options.build.resolve()
     options.build.mkdir(parents=True, exist_ok=True)
@@ -471,6 +539,8 @@ def main():
         found = [m for region in regions_of[header][1] for m in region.mutants]
         unused -= {key_of(header, m) for m in found}
         found = [m for m in found if key_of(header, m) not in equivalent]
+        known = known_fates(header, options)
+        found = [m for m in found if known.get(key_in_file(m)) != "left out"]
         if options.again:
             file = options.build / "survivors" / header.replace("/", "_")
             last = {tuple(k) for k in json.loads(read(file))} if file.exists() else set()
@@ -486,6 +556,8 @@ def main():
     for key in sorted(unused):
         print(f"tests/mutants/equivalent: {key[0]} has no '{key[1]}' any more.")
     if options.list:
+        if options.csv:
+            write_csv(tests_of, equivalent, options)
         for header, found in chosen_of.items():
             print(f"{len(found):6} {header}: {' '.join(tests_of[header])}")
         print(f"{sum(map(len, chosen_of.values())):6} in all")
@@ -531,8 +603,6 @@ def main():
                 before = fate.get(id(original))
                 if before == "survived" and result in ("not reached", "left out"):
                     continue
-                if before == "not reached" and result == "left out":
-                    continue
                 fate[id(original)] = result
             counts = ", ".join(f"{n} {what}" for what, n in sorted(tally.items()))
             print(
@@ -541,7 +611,11 @@ def main():
                 f"({sum(program.cases.values()):.1f} s a test)", flush=True,
             )  # fmt: skip
 
+    for header, found in chosen_of.items():
+        keep_fates(header, found, fate, options)
     report(chosen_of, tests_of, fate, options)
+    if options.csv:
+        write_csv(tests_of, equivalent, options)
 
 
 def report(chosen_of, tests_of, fate, options):

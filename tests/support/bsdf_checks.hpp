@@ -115,9 +115,10 @@ void check_sampling(const M& m, const ljus::Vec3T<typename M::Scalar>& wo,
         if (!s || s->specular) counts.back() += 1;
         if (!s) continue;
         REQUIRE(std::abs(glm::length(s->wi) - 1) <= 4 * u);
-        REQUIRE(has(which, s->specular ? ljus::Lobes::specular : ljus::Lobes::non_specular));
-        REQUIRE(
-            has(lobes(m), s->specular ? ljus::Lobes::specular : ljus::Lobes::non_specular));
+        REQUIRE(has(which,
+                    s->specular ? ljus::Lobes::specular : ljus::Lobes::non_specular));
+        REQUIRE(has(lobes(m),
+                    s->specular ? ljus::Lobes::specular : ljus::Lobes::non_specular));
         if (s->specular) {
             REQUIRE(s->pdf == 0);
             continue;
@@ -181,6 +182,32 @@ void check_extremes(const M& m, double most_weight) {
     CHECK_FALSE(sample(m, up, u, ljus::Transport::flux, ljus::Lobes::none));
     CHECK(pdf(m, up, up, ljus::Lobes::none) == 0);
     CHECK(pdf(m, up, up, ljus::Lobes::specular) == 0);
+}
+
+/// Around the normal, and on the two sides of a surface that is the same from both, f
+/// and the density are the same; and no facet is brighter than what it is made of.
+template <ljus::Material M>
+void check_symmetry(const M& m) {
+    using T = typename M::Scalar;
+    Draws draws{17};
+    for (int i = 0; i < 500; ++i) {
+        auto wo = draws.direction<T>(), wi = draws.direction<T>();
+        wi.z = std::copysign(wi.z, wo.z);
+        const T turn = draws.between(T(0), T(6)), c = std::cos(turn),
+                s = std::sin(turn);
+        const auto turned = [&](const ljus::Vec3T<T>& w, T side) {
+            return ljus::Vec3T<T>{c * w.x - s * w.y, s * w.x + c * w.y, side * w.z};
+        };
+        for (const T side : {T(1), T(-1)}) {
+            const auto a = evaluate(m, wo, wi);
+            const auto b = evaluate(m, turned(wo, side), turned(wi, side));
+            const double size = std::max(1.0, double(ljus::max_component(a)));
+            REQUIRE(double(glm::distance(a, b)) < 1e-3 * size);
+            const double p = double(pdf(m, wo, wi));
+            const double q = double(pdf(m, turned(wo, side), turned(wi, side)));
+            REQUIRE(std::abs(p - q) < 1e-3 * std::max(1.0, p));
+        }
+    }
 }
 
 /// The sentence with which check() refuses a material; empty if it does not.

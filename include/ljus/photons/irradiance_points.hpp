@@ -53,6 +53,13 @@ using IrradiancePoints = IrradiancePointsT<float>; ///< IrradiancePointsT in flo
 
 namespace detail {
 
+/// Whether a photon of a map is of some kind.
+template <std::floating_point T>
+[[nodiscard]] bool is_of_kind(const PhotonMapT<T>& map, std::uint32_t index,
+                              PhotonKind kind) {
+    return PhotonRecordT<T>(map.records[index]).kind == kind;
+}
+
 /// The irradiance on one side of a surface that the nearest photons make, by
 /// Epanechnikov's kernel.
 /// \param scene     The scene.
@@ -156,16 +163,17 @@ template <SceneLike S, std::floating_point T>
             detail::sample_all_lights(scene, vertex, white, DirectLight::analytic,
                                       settings.shadow_rays, stream, counts);
         const auto indirect = [&](std::uint32_t k) {
-            const detail::PhotonRecordT<T> other = general.records[k];
-            return other.kind == PhotonKind::indirect && !is_point(k);
+            return detail::is_of_kind(general, k, PhotonKind::indirect) && !is_point(k);
+        };
+        const auto caustic = [&](std::uint32_t k) {
+            return detail::is_of_kind(caustics, k, PhotonKind::caustic);
         };
         sum += detail::estimate_irradiance(scene, general, vertex, side, settings,
                                            radius, indirect) *
                (T(every) / T(every - 1));
-        const auto all = [](std::uint32_t) { return true; };
         if (!caustics.empty())
             sum += detail::estimate_irradiance(scene, caustics, vertex, side, settings,
-                                               radius, all);
+                                               radius, caustic);
         records[i].irradiance = sum;
         // [at_point]
     };
