@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "ljus/image/filter.hpp"
 #include "ljus/image/image.hpp"
 #include "ljus/math/sampling_pattern.hpp"
 #include "ljus/parallel.hpp"
@@ -28,6 +29,7 @@ struct RenderSettings {
     int threads = 0;        ///< 0: all that there are.
     Progress progress = {}; ///< Called with (done, total); false stops.
     Sampling sampling = Sampling::multi_jittered; ///< Where in a pixel they go.
+    Filter filter = Filter::box; ///< How much each place counts.
 };
 
 /// What a rendering brings.
@@ -63,7 +65,7 @@ namespace detail {
 /// \param number    Which of the pixel's rays.
 /// \param counts    Counts the rays.
 /// \param log       Told of each vertex and each term.
-/// \return Radiance, W/(m^2 sr).
+/// \return Radiance times the weight of the filter there, W/(m^2 sr).
 template <typename R, template <std::floating_point> typename AnyCamera,
           std::floating_point T, typename Log = NoLog>
 [[nodiscard]] RgbT<T> sample_pixel(const R& renderer, const AnyCamera<T>& camera,
@@ -77,10 +79,13 @@ template <typename R, template <std::floating_point> typename AnyCamera,
     start_ray(stream, picture.seed, pixel, number, pattern);
     const Vec2T<T> place = detail::spread(
         pattern, number, mix_bits(picture.seed) ^ pixel, next_2d<T>(stream));
-    const RayT<T> ray = camera_ray(camera, Vec2T<T>{T(x), T(y)} + place, picture.width,
-                                   picture.height, stream);
+    // [filtered]
+    const FilterSampleT<T> at = sample_filter(picture.filter, place);
+    const RayT<T> ray = camera_ray(camera, Vec2T<T>{T(x), T(y)} + at.place,
+                                   picture.width, picture.height, stream);
     ++counts.camera_rays;
-    return radiance(renderer, ray, stream, counts, log);
+    return at.weight * radiance(renderer, ray, stream, counts, log);
+    // [filtered]
 }
 
 } // namespace detail
