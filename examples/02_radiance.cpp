@@ -224,8 +224,7 @@ void draw_pixel(const std::string& folder) {
     constexpr double pixel_low = -0.32, pixel_high = -0.02;
     const auto at_focus = [&](double y) { return -y * focus / -film; };
     for (const double y : {pixel_low, pixel_high})
-        draw_area(d,
-                  {{film, y}, {0, half_lens}, {focus, at_focus(y)}, {0, -half_lens}},
+        draw_area(d, {{film, y}, {0, half_lens}, {focus, at_focus(y)}, {0, -half_lens}},
                   y == pixel_low ? colors::blue : colors::orange);
     for (const double y : {pixel_low, pixel_high})
         for (const double lens : {-half_lens, 0.0, half_lens})
@@ -239,7 +238,8 @@ void draw_pixel(const std::string& folder) {
               {.color = colors::red, .width = 6});
     std::vector<Point> lens;
     for (int i = 0; i <= 48; ++i)
-        lens.push_back({0.1 * std::cos(i * pi / 24), half_lens * std::sin(i * pi / 24)});
+        lens.push_back(
+            {0.1 * std::cos(i * pi / 24), half_lens * std::sin(i * pi / 24)});
     draw_line(d, lens, {.width = 2});
     draw_line(d, {{0, half_lens}, {0, 1.2}}, {.width = 4});
     draw_line(d, {{0, -half_lens}, {0, -1.2}}, {.width = 4});
@@ -284,10 +284,10 @@ void solid_angles(const std::string& folder, int shots) {
         const Estimate share = count({0, 0, 0}, shots, 3, [&](const Ray& ray) {
             return ljus::intersect(ray, shape).has_value();
         });
-        table.rows.push_back({name,
-                              with_error(4 * pi * share.mean,
-                                         4 * pi * standard_error(share), "%.4f"),
-                              text(right, "%.4f"), text(small, "%.4f")});
+        table.rows.push_back(
+            {name,
+             with_error(4 * pi * share.mean, 4 * pi * standard_error(share), "%.4f"),
+             text(right, "%.4f"), text(small, "%.4f")});
     };
     const auto square = [](double side, double distance) {
         return Quad{.corner{-side / 2, -side / 2, -distance},
@@ -353,9 +353,9 @@ void count_on_patches(const std::string& folder, int shots) {
     save_table(folder, table);
     const auto slope = examples::fit_power(x, y);
     examples::save_table(folder, {.name = "radiance-slope",
-                        .columns = {"law", "slope", "its error"},
-                        .rows = {{"distance", text(slope.slope, "%.3f"),
-                                  text(slope.error, "%.3f")}}});
+                                  .columns = {"law", "slope", "its error"},
+                                  .rows = {{"distance", text(slope.slope, "%.3f"),
+                                            text(slope.error, "%.3f")}}});
 
     examples::Plot tilt{.name = "radiance-tilt",
                         .columns = {"tilt (degrees)", "counted", "cosine"},
@@ -371,11 +371,11 @@ void count_on_patches(const std::string& folder, int shots) {
 
 /// Plot: a square lamp of side 1 is no point. Both laws, and Lambert's closed form.
 void near_the_lamp(const std::string& folder) {
-    examples::Plot plot{.name = "radiance-near",
-                        .columns = {"distance over the lamp's side",
-                                    "inverse square over the truth"},
-                        .y_label = "ratio",
-                        .log_x = true};
+    examples::Plot plot{
+        .name = "radiance-near",
+        .columns = {"distance over the lamp's side", "inverse square over the truth"},
+        .y_label = "ratio",
+        .log_x = true};
     examples::Table table{.name = "radiance-near-table",
                           .columns = {"distance over side", "too bright by"}};
     for (int i = -8; i <= 12; ++i) {
@@ -398,7 +398,7 @@ void near_the_lamp(const std::string& folder) {
 
 // --- Radiance along a ray -------------------------------------------------------------
 
-/// A lamp, a ball of radius 0.4 and radiance 0.9, before a white wall.
+/// A lamp, a ball of radius 0.6 and radiance 0.9, before a white wall.
 auto wall_and_lamp(float distance) {
     using Scene = ljus::Scene<ljus::Shapes<ljus::Sphere, ljus::Quad>,
                               ljus::Materials<ljus::Lambertian>>;
@@ -406,8 +406,7 @@ auto wall_and_lamp(float distance) {
     const auto white = scene.add(ljus::Lambertian{.albedo = Rgb{0.8f}});
     const auto black = scene.add(ljus::Lambertian{.albedo = Rgb{0}});
     scene.add(ljus::Quad{{-40, -40, 0}, {80, 0, 0}, {0, 80, 0}}, white);
-    scene.add(ljus::Sphere{.center{0, 0, distance}, .radius = 0.4f}, black,
-              Rgb{0.9f});
+    scene.add(ljus::Sphere{.center{0, 0, distance}, .radius = 0.6f}, black, Rgb{0.9f});
     return scene;
 }
 
@@ -417,7 +416,7 @@ void leave_the_wall(const examples::Options& options) {
                           .columns = {"lamp to wall (m)", "radiance of the lamp",
                                       "radiance of the wall behind it", "by formula"}};
     const auto camera =
-        ljus::look_at({.position{7, 0.6f, 6}, .target{0, 0, 1.4f}, .vfov_degrees = 36});
+        ljus::look_at({.position{8, 0.6f, 5}, .target{0, 0, 1.4f}, .vfov_degrees = 36});
     int number = 0;
     for (const float r : {0.8f, 1.6f, 3.2f}) {
         const auto scene = wall_and_lamp(r);
@@ -433,12 +432,12 @@ void leave_the_wall(const examples::Options& options) {
         // Two pixels of one ray's width: at the lamp, and at the wall behind it.
         const auto one = [&](const ljus::Vec3& target) {
             const auto eye = ljus::look_at(
-                {.position{7, 0.6f, 6}, .target = target, .vfov_degrees = 0.01f});
+                {.position{8, 0.6f, 5}, .target = target, .vfov_degrees = 0.01f});
             return render(tracer, eye, {.width = 1, .height = 1, .samples = 65536})
                 .image.pixels[0]
                 .x;
         };
-        const double sine = 0.4 / double(r);
+        const double sine = 0.6 / double(r);
         table.rows.push_back({text(double(r)), text(double(one({0, 0, r})), "%.4f"),
                               text(double(one({0, 0, 0})), "%.4f"),
                               text(0.8 * 0.9 * sine * sine, "%.4f")});
@@ -470,13 +469,13 @@ void step_back(const std::string& folder, int shots) {
         auto stream = ljus::random_stream(17, ljus::Pass::user, 0, 0);
         Estimate irradiance;
         for (int i = 0; i < shots; ++i) {
-            const Vec d = ljus::sample_uniform_cone(next_2d<double>(stream),
-                                                    one_minus_cos);
+            const Vec d =
+                ljus::sample_uniform_cone(next_2d<double>(stream), one_minus_cos);
             add(irradiance, 10 * d.z * omega);
         }
-        table.rows.push_back(
-            {text(r), text(seen_radiance, "%.4f"), text(omega, "%.3g"),
-             text(irradiance.mean, "%.3g"), text(irradiance.mean / omega, "%.3f")});
+        table.rows.push_back({text(r), text(seen_radiance, "%.4f"), text(omega, "%.3g"),
+                              text(irradiance.mean, "%.3g"),
+                              text(irradiance.mean / omega, "%.3f")});
     }
     save_table(folder, table);
 }
@@ -508,8 +507,8 @@ double sample_irradiance(Way way, const Lamp& lamp, ljus::RandomStream& stream) 
         constexpr double side = 0.25;
         const auto start = ljus::sample_area(lamp.ball, u);
         const auto frame = ljus::frame_around(start.normal);
-        const Vec d = to_world(
-            frame, ljus::sample_cosine_hemisphere(next_2d<double>(stream)));
+        const Vec d =
+            to_world(frame, ljus::sample_cosine_hemisphere(next_2d<double>(stream)));
         if (d.y >= 0) return 0;
         const Vec p = start.position - d * (start.position.y / d.y);
         const bool hit = std::abs(p.x) < side / 2 && std::abs(p.z) < side / 2;
@@ -574,8 +573,7 @@ void trade(const std::string& folder, int most, int seeds) {
             plot.rows.push_back(row);
         }
         const double deviation = std::sqrt(variance(one)) / truth;
-        table.rows.push_back({way_names[way], text(deviation, "%.3g"),
-                              text(ns, "%.0f"),
+        table.rows.push_back({way_names[way], text(deviation, "%.3g"), text(ns, "%.0f"),
                               text(deviation * deviation * 1e4 * ns / 1000, "%.3g")});
         std::printf("%-28s %s of the truth, %.3g a sample, %.0f ns\n", way_names[way],
                     text(one.mean / truth, "%.4f").c_str(), deviation, ns);
@@ -610,8 +608,8 @@ struct Card {
     bool rings = false;     ///< Or waves along x.
 };
 template <typename Log = ljus::NoLog>
-Rgb radiance(const Card& card, const ljus::Ray& ray, ljus::RandomStream&,
-             ljus::Counts&, Log&& = {}) {
+Rgb radiance(const Card& card, const ljus::Ray& ray, ljus::RandomStream&, ljus::Counts&,
+             Log&& = {}) {
     const double x = double(ray.direction.x / -ray.direction.z) * card.half;
     const double y = double(ray.direction.y / -ray.direction.z) * card.half;
     const double value =
@@ -653,8 +651,9 @@ void compare_filters(const examples::Options& options, int pixels, int samples) 
     examples::Plot response{.name = "radiance-response",
                             .columns = {"cycles per pixel"},
                             .y_label = "amplitude that passes",
-                            .more = "set arrow from 0.5, graph 0 to 0.5, graph 1 nohead "
-                                    "dt 2 lc rgb '#808080'\n"};
+                            .more =
+                                "set arrow from 0.5, graph 0 to 0.5, graph 1 nohead "
+                                "dt 2 lc rgb '#808080'\n"};
     for (const char* name : filter_names) {
         weights.columns.emplace_back(name);
         response.columns.emplace_back(name);
@@ -674,15 +673,14 @@ void compare_filters(const examples::Options& options, int pixels, int samples) 
     save_plot(folder, weights);
     save_plot(folder, response);
 
-    examples::Table table{
-        .name = "radiance-filter-table",
-        .columns = {"", "passes at 0.25", "passes at 1.5", "measured", "noise",
-                    "ns a ray"}};
+    examples::Table table{.name = "radiance-filter-table",
+                          .columns = {"", "passes at 0.25", "passes at 1.5", "measured",
+                                      "noise", "ns a ray"}};
     // Waves of 1.5 whose crests stand at the middles of every other pixel: +, -, +, ...
     const int side = 32;
     for (std::size_t i = 0; i < std::size(filters); ++i) {
-        const auto waves = picture_of({.frequency = 1.5, .half = side / 2.0}, filters[i],
-                                      16 * samples, side, options);
+        const auto waves = picture_of({.frequency = 1.5, .half = side / 2.0},
+                                      filters[i], 16 * samples, side, options);
         // Noise: the deviation of pixels of white noise, which has no value twice.
         Estimate white;
         auto stream = ljus::random_stream(5, ljus::Pass::user, 0, i);
@@ -715,8 +713,8 @@ void compare_filters(const examples::Options& options, int pixels, int samples) 
         for (int x = 0; x < pixels; ++x) {
             ljus::RandomStream none;
             ljus::Counts counts;
-            const auto ray = primary_ray(camera, {float(x) + 0.5f, float(y) + 0.5f},
-                                         pixels, pixels);
+            const auto ray =
+                primary_ray(camera, {float(x) + 0.5f, float(y) + 0.5f}, pixels, pixels);
             pixel(middles, x, y) = radiance(rings, ray, none, counts);
         }
     save_png(middles, options.path("radiance-rings-none.png"));
@@ -736,7 +734,7 @@ int main(int argc, char** argv) {
         line.add("--pixels", sizes.pixels, "Side of the pictures of rings", 8, 4000);
         const examples::Options options =
             line.parse({.draft{.width = 240, .height = 160, .samples = 16},
-                        .report{.width = 480, .height = 320, .samples = 256},
+                        .report{.width = 480, .height = 320, .samples = 64},
                         .reference{.width = 480, .height = 320, .samples = 1024}});
         if (!line.given("--shots"))
             sizes.shots = options.pick(400000, 10000000, 100000000);

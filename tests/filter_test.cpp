@@ -52,8 +52,8 @@ Rgb radiance(const Waves& waves, const ljus::Ray& ray, ljus::RandomStream&,
 }
 
 ljus::Image seen(const Waves& waves, Filter filter, int samples) {
-    const auto camera = ljus::look_at({.vfov_degrees = 2 * 180 / float(pi) *
-                                                       std::atan(float(5 * 0.1))});
+    const auto camera = ljus::look_at(
+        {.vfov_degrees = 2 * 180 / float(pi) * std::atan(float(5 * 0.1))});
     return render(waves, camera,
                   {.width = 10, .height = 10, .samples = samples, .filter = filter})
         .image;
@@ -179,8 +179,8 @@ TEST_CASE("filter: a picture of a wave keeps what the filter passes") {
             for (int x = 3; x < 7; ++x) {
                 const double middle = x + 0.5 - 5; // in pixels from the axis
                 CHECK(double(pixel(image, x, 5).x) ==
-                      doctest::Approx(1 + passed(filter, f) *
-                                              std::cos(2 * pi * f * middle))
+                      doctest::Approx(1 +
+                                      passed(filter, f) * std::cos(2 * pi * f * middle))
                           .epsilon(0.003));
             }
         }

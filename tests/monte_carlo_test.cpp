@@ -40,10 +40,18 @@ constexpr double truth = r0 + b / 21;
 constexpr double by_uniform = 4 * (r0 * r0 / 3 + 2 * r0 * b / 168 + b * b / 858);
 constexpr double by_cosine = r0 * r0 + 2 * r0 * b / 21 + b * b / 66;
 
-double pdf_cosine(double c) { return 2 * c; }
-double pdf_grazing(double c) { return 6 * std::pow(1 - c, 5); }
-double to_cosine(double u) { return std::sqrt(u); }
-double to_grazing(double u) { return 1 - std::pow(1 - u, 1.0 / 6); }
+double pdf_cosine(double c) {
+    return 2 * c;
+}
+double pdf_grazing(double c) {
+    return 6 * std::pow(1 - c, 5);
+}
+double to_cosine(double u) {
+    return std::sqrt(u);
+}
+double to_grazing(double u) {
+    return 1 - std::pow(1 - u, 1.0 / 6);
+}
 
 ljus::RandomStream stream_of(std::uint64_t seed) {
     return ljus::random_stream(ljus_test::test_seed(seed), ljus::Pass::user, 0, 0);
@@ -79,7 +87,8 @@ TEST_CASE("monte carlo: the integral itself, by the midpoint rule") {
 
 // False alarms: 4.5 standard errors, 7 in a million each. The variance of 200 000 samples
 // is known to 0.5 % or so; 4 % is eight times that.
-TEST_CASE("monte carlo: the mean of f/p is the integral, and its variance is as foretold") {
+TEST_CASE(
+    "monte carlo: the mean of f/p is the integral, and its variance is as foretold") {
     const Estimate uniform =
         mean_of(200000, 1, [](auto& s) { return f(ljus::next_1d<double>(s)); });
     CHECK(apart(uniform, truth) < 4.5);
@@ -91,8 +100,8 @@ TEST_CASE("monte carlo: the mean of f/p is the integral, and its variance is as 
     CHECK(apart(cosine, truth) < 4.5);
     CHECK(variance(cosine) == within(by_cosine - truth * truth, 0.04));
     // In proportion to f itself every sample is the integral.
-    const Estimate perfect =
-        mean_of(1000, 3, [](auto& s) { return f(ljus::next_1d<double>(s)) * 0 + truth; });
+    const Estimate perfect = mean_of(
+        1000, 3, [](auto& s) { return f(ljus::next_1d<double>(s)) * 0 + truth; });
     CHECK(standard_error(perfect) == 0);
 }
 
@@ -156,8 +165,8 @@ TEST_CASE("monte carlo: weights of several ways add up to 1, the mean stays") {
     const auto both = [](bool power) {
         return mean_of(200000, power ? 21 : 22, [power](auto& s) {
             const auto term = [power](double c, double p, double q) {
-                return (power ? power_heuristic(p, q) : balance_heuristic(p, q)) * f(c) /
-                       p;
+                return (power ? power_heuristic(p, q) : balance_heuristic(p, q)) *
+                       f(c) / p;
             };
             const double x = to_cosine(1 - ljus::next_1d<double>(s));
             const double y = to_grazing(ljus::next_1d<double>(s));
@@ -190,7 +199,8 @@ TEST_CASE("monte carlo: roulette keeps the mean for any chance to survive") {
     }
 }
 
-TEST_CASE("monte carlo: the cosine of the hemisphere is pi, and a cosine density exact") {
+TEST_CASE(
+    "monte carlo: the cosine of the hemisphere is pi, and a cosine density exact") {
     const Estimate uniform = mean_of(200000, 41, [](auto& s) {
         const auto d = ljus::sample_uniform_hemisphere(ljus::next_2d<double>(s));
         return d.z / ljus::pdf_uniform_hemisphere(d);

@@ -55,8 +55,8 @@ double solid_angle_by_pieces(const Quad& quad) {
     double sum = 0;
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j) {
-            const Vec p = quad.corner + (i + 0.5) / n * quad.edge_u +
-                          (j + 0.5) / n * quad.edge_v;
+            const Vec p =
+                quad.corner + (i + 0.5) / n * quad.edge_u + (j + 0.5) / n * quad.edge_v;
             const double r = glm::length(p);
             sum += std::abs(glm::dot(normal(quad), p)) / (r * r * r);
         }
@@ -85,7 +85,8 @@ TEST_CASE("radiance: counted rays find the solid angle of a ball and of a square
           within(4 * pi / 6, 1e-5));
 }
 
-TEST_CASE("radiance: counted rays fall on a patch by the inverse square and the cosine") {
+TEST_CASE(
+    "radiance: counted rays fall on a patch by the inverse square and the cosine") {
     for (const double r : {1.0, 2.0, 4.0}) {
         const Quad patch = patch_at(r, 0);
         const Mean share = share_of(patch, 11);
@@ -135,8 +136,8 @@ TEST_CASE("radiance: what A sends to B, B sends to A") {
                             ljus::point_at(shifted, (k + 0.5) / m, (l + 0.5) / m);
                         // Solid angle seen from p, by the library's density.
                         const double pdf = ljus::pdf_towards(shifted, Vec{0, 0, 0}, q);
-                        const double cosine = std::abs(
-                            glm::dot(p.normal, glm::normalize(q.position)));
+                        const double cosine =
+                            std::abs(glm::dot(p.normal, glm::normalize(q.position)));
                         sum += cosine / pdf / (n * n * m * m);
                     }
             }
@@ -147,10 +148,9 @@ TEST_CASE("radiance: what A sends to B, B sends to A") {
 }
 
 TEST_CASE("radiance: it stays the same along a ray, and irradiance does not") {
-    const auto scene =
-        ljus::make_scene(placed(ljus::Sphere{.center{0, 0, 0}, .radius = 0.5f},
-                                ljus::Lambertian{.albedo = ljus::Rgb{0}},
-                                ljus::Rgb{10}));
+    const auto scene = ljus::make_scene(
+        placed(ljus::Sphere{.center{0, 0, 0}, .radius = 0.5f},
+               ljus::Lambertian{.albedo = ljus::Rgb{0}}, ljus::Rgb{10}));
     const auto tracer = make_path_tracer(scene);
     for (const float r : {0.75f, 2.0f, 50.0f}) {
         const auto eye = ljus::look_at(

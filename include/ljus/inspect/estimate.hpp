@@ -17,8 +17,8 @@ namespace ljus {
 
 /// What is known after some samples, in one pass and three numbers.
 ///
-/// The sum of x^2 and that of x would do on paper: (sum x^2 - (sum x)^2 / n) / (n - 1).
-/// In the machine the two cancel where the mean is large beside the deviation. Welford's
+/// The sums of x^2 and of x would do on paper: (sum x^2 - (sum x)^2 / n) / (n - 1). In
+/// the machine the two cancel where the mean is large beside the deviation. Welford's
 /// sums \cite welford1962 hold the distances from the mean, and nothing cancels.
 struct Estimate {
     double count = 0;   ///< n, how many samples.
