@@ -105,8 +105,8 @@ void draw_inverse_square(const std::string& folder) {
     Drawing d{.name = "radiance-inverse-square",
               .description = "The rays through one cell at distance 1 fill four cells "
                              "at distance 2 and nine at distance 3",
-              .low{-0.35, -1.45},
-              .high{3.2, 0.75},
+              .low{-0.35, -1.35},
+              .high{3.2, 1.05},
               .scale = 180};
     constexpr double half = 0.26;
     for (const double y : {-half, half})
@@ -126,14 +126,14 @@ void draw_inverse_square(const std::string& folder) {
             draw_line(d, {at(j, 0), at(j, r)}, pen);
             draw_line(d, {at(0, j), at(r, j)}, pen);
         }
-        const Point below = at(0, r);
-        draw_label(d, {below.x + 0.1, below.y - 0.15},
+        const Point above = at(r, r);
+        draw_label(d, {above.x - 0.1, above.y + 0.16},
                    "r = " + std::to_string(r) +
                        (r == 1 ? ": E" : ": E/" + std::to_string(r * r)),
                    pen.color);
     }
     draw_dot(d, {0, 0}, 7, colors::orange);
-    draw_label(d, {-0.05, 0.22}, "lamp");
+    draw_label(d, {-0.1, -0.22}, "lamp");
     save_drawing(folder, d);
 }
 
@@ -343,7 +343,7 @@ void count_on_patches(const std::string& folder, int shots) {
         const Estimate e = irradiance_counted(patch_at(r, 0), shots, 11);
         const double right = 100 / (4 * pi * r * r);
         far.rows.push_back({r, e.mean, right});
-        x.push_back(r), y.push_back(e.mean);
+        if (r >= 1) x.push_back(r), y.push_back(e.mean);
         table.rows.push_back(
             {text(r), text(e.mean * area(patch_at(r, 0)) / 100 * shots, "%.0f"),
              with_error(e.mean, standard_error(e), "%.3f"), text(right, "%.3f"),
@@ -375,7 +375,8 @@ void near_the_lamp(const std::string& folder) {
         .name = "radiance-near",
         .columns = {"distance over the lamp's side", "inverse square over the truth"},
         .y_label = "ratio",
-        .log_x = true};
+        .log_x = true,
+        .log_y = true};
     examples::Table table{.name = "radiance-near-table",
                           .columns = {"distance over side", "too bright by"}};
     for (int i = -8; i <= 12; ++i) {
@@ -390,7 +391,7 @@ void near_the_lamp(const std::string& folder) {
         const double truth =
             pi * *form_factor_from(Vec{0, 0, 0}, Vec{0, 1, 0}, lamp, false);
         table.rows.push_back(
-            {text(r), text(100 * (1 / (r * r) / truth - 1), "%.2g %%")});
+            {text(r), text(100 * (1 / (r * r) / truth - 1), "%.3g %%")});
     }
     save_plot(folder, plot);
     save_table(folder, table);

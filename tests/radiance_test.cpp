@@ -12,6 +12,8 @@
 #include "ljus/geometry/quad.hpp"
 #include "ljus/geometry/solid_angle.hpp"
 #include "ljus/geometry/sphere.hpp"
+#include "ljus/inspect/class_means.hpp"
+#include "ljus/inspect/explain.hpp"
 #include "ljus/ljus.hpp"
 #include "ljus/math/sampling.hpp"
 #include "support/draws.hpp"
@@ -207,4 +209,33 @@ TEST_CASE("radiance: far from a lamp of any shape the inverse square holds") {
         if (r >= 5) CHECK(ratio > 0.98); // five times the side: within 2 %
     }
     CHECK(before == within(1, 1e-5));
+}
+
+TEST_CASE("radiance: a pixel that is taken apart adds up, whatever its filter") {
+    const auto scene = ljus::make_scene(
+        placed(ljus::Quad{{-1, 0, 1}, {2, 0, 0}, {0, 0, -2}}, ljus::Lambertian{}),
+        placed(ljus::Sphere{.center{0, 1, 0}, .radius = 0.3f}, ljus::Lambertian{},
+               ljus::Rgb{5}));
+    const auto tracer = make_path_tracer(scene);
+    const auto camera = ljus::look_at({.position{0, 1, 4}, .target{0, 0.5f, 0}});
+    for (const ljus::Filter filter :
+         {ljus::Filter::box, ljus::Filter::gaussian, ljus::Filter::mitchell}) {
+        const ljus::RenderSettings picture{
+            .width = 8, .height = 8, .samples = 32, .filter = filter};
+        const auto whole = render(tracer, camera, picture).image;
+        double all = 0;
+        for (int y = 0; y < 8; ++y)
+            for (int x = 0; x < 8; ++x) {
+                const auto parts =
+                    ljus::detail::take_apart(tracer, camera, picture, x, y);
+                double sum = 0;
+                for (const auto& part : parts.sums) sum += part.value.x;
+                CHECK(sum == doctest::Approx(double(parts.radiance.x)).epsilon(1e-5));
+                CHECK(parts.radiance == pixel(whole, x, y));
+                all += sum / 64;
+            }
+        const ljus::LightPathExpression any[] = {ljus::light_path_expression("E.*L")};
+        const auto means = class_means(tracer, camera, picture, any);
+        CHECK(means[0].x == doctest::Approx(all).epsilon(1e-5));
+    }
 }
