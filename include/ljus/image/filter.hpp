@@ -93,6 +93,8 @@ using FilterTable = std::array<double, 65>;
 }
 
 /// The tables of the filters whose integral has no inverse in closed form.
+/// \param filter  Gaussian or Mitchell's.
+/// \return make_filter_table() of it, made once.
 [[nodiscard]] inline const FilterTable& filter_table(Filter filter) noexcept {
     static const FilterTable gaussian = make_filter_table(Filter::gaussian);
     static const FilterTable mitchell = make_filter_table(Filter::mitchell);
