@@ -115,7 +115,7 @@ ljus::RandomStream stream_of(int seed, int iteration = 0) {
 enum class Points { random, strata, owen };
 
 /// One number of n.
-// [points]
+// [where numbers come from]
 double number(Points points, int i, int n, std::uint64_t seed,
               ljus::RandomStream& stream) {
     if (points == Points::strata) return (i + next_1d<double>(stream)) / n;
@@ -125,7 +125,7 @@ double number(Points points, int i, int n, std::uint64_t seed,
     }
     return next_1d<double>(stream);
 }
-// [points]
+// [where numbers come from]
 
 /// The rms error of the mean of `value(u)` over n numbers, from many runs.
 template <typename Value>
