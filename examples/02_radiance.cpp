@@ -544,7 +544,7 @@ void trade(const std::string& folder, int most, int seeds) {
                         .log_y = true};
     examples::Table table{.name = "radiance-trade-table",
                           .columns = {"", "deviation of one sample, over the mean",
-                                      "ns a sample", "time for 1 %, µs"}};
+                                      "ns per sample", "time for 1 %, µs"}};
     for (const char* name : way_names) plot.columns.emplace_back(name);
     for (std::size_t way = 0; way < ways; ++way) {
         const auto w = static_cast<Way>(way);
@@ -676,7 +676,7 @@ void compare_filters(const examples::Options& options, int pixels, int samples) 
 
     examples::Table table{.name = "radiance-filter-table",
                           .columns = {"", "passes at 0.25", "passes at 1.5", "measured",
-                                      "noise", "ns a ray"}};
+                                      "noise", "ns per ray"}};
     // Waves of 1.5 whose crests stand at the middles of every other pixel: +, -, +, ...
     const int side = 32;
     for (std::size_t i = 0; i < std::size(filters); ++i) {

@@ -353,7 +353,7 @@ void importance(const std::string& folder, int samples) {
 
     examples::Table table{.name = "monte_carlo-ways",
                           .columns = {"", "mean", "sigma / I", "n for 1 %",
-                                      "largest sample / I", "ns a sample"}};
+                                      "largest sample / I", "ns per sample"}};
     const auto add_row = [&](const std::string& name, const auto& way) {
         auto stream = stream_of(31);
         Estimate all;
@@ -565,9 +565,9 @@ void trade(const std::string& folder, const Sizes& sizes) {
                         .y_label = "relative rms error",
                         .log_x = true,
                         .log_y = true};
-    examples::Table table{
-        .name = "monte_carlo-trade-table",
-        .columns = {"", "ns a sample", "relative error of 1024", "time for 0.1 %, µs"}};
+    examples::Table table{.name = "monte_carlo-trade-table",
+                          .columns = {"", "ns per sample", "relative error of 1024",
+                                      "time for 0.1 %, µs"}};
     std::size_t column = 0;
     const auto add_curve = [&](const std::string& name, auto estimate) {
         ++column;
