@@ -57,6 +57,7 @@ namespace detail {
 /// \return distance^2 / (|cos| area); infinity if the surface is seen edge-on, and 0 at
 ///         the point itself, whose light comes from nowhere.
 /// \cite veach1997
+// [pdf from area]
 template <std::floating_point T>
 [[nodiscard]] T pdf_from_area(const Vec3T<T>& from, const SurfacePointT<T>& point,
                               T area) noexcept {
@@ -66,6 +67,7 @@ template <std::floating_point T>
     const T cosine = std::abs(glm::dot(way, point.normal)) / std::sqrt(distance2);
     return distance2 / (cosine * area);
 }
+// [pdf from area]
 
 /// Whether an observer is surely outside a sphere, and samples the cone in which it is
 /// seen. From inside, and from a point on the sphere, which may be rounded to either

@@ -80,8 +80,12 @@ class_means(const R& renderer, const AnyCamera<T>& camera,
                     log.logs.push_back({wanted});
                 (void)detail::sample_pixel(renderer, camera, picture, pattern, x,
                                            int(y), i, counts, log);
+                typename R::Stream stream; // the log knows nothing of the filter
+                const double weight(
+                    detail::place_of_ray<T>(picture, pattern, x, int(y), i, stream)
+                        .weight);
                 for (std::size_t k = 0; k < classes.size(); ++k)
-                    sums[k] += RgbT<double>(log.logs[k].sum);
+                    sums[k] += weight * RgbT<double>(log.logs[k].sum);
             }
     };
     parallel_blocks(picture.height, row, {.threads = picture.threads});

@@ -84,10 +84,12 @@ requires Renderer<R, T>
             continue;
         }
         radiance += RgbT<double>(sample);
+        typename R::Stream stream; // the log knows nothing of the pixel's filter
+        const double weight(place_of_ray<T>(picture, pattern, x, y, i, stream).weight);
         for (const PathLogLine& line : log.lines) {
             if (line.what == "vertex") continue;
             PathSum& sum = sums[{line.path, line.what}];
-            sum.value += line.value / double(picture.samples);
+            sum.value += weight * line.value / double(picture.samples);
             ++sum.terms;
         }
     }

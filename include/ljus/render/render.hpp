@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "ljus/image/filter.hpp"
 #include "ljus/image/image.hpp"
 #include "ljus/math/sampling_pattern.hpp"
 #include "ljus/parallel.hpp"
@@ -28,6 +29,7 @@ struct RenderSettings {
     int threads = 0;        ///< 0: all that there are.
     Progress progress = {}; ///< Called with (done, total); false stops.
     Sampling sampling = Sampling::multi_jittered; ///< Where in a pixel they go.
+    Filter filter = Filter::box;                  ///< How much each place counts.
 };
 
 /// What a rendering brings.
@@ -53,35 +55,55 @@ constexpr void start_ray(RandomStream& stream, std::uint64_t seed, std::uint64_t
 
 namespace detail {
 
+/// Where one ray of a pixel goes through the picture, and what it counts there.
+/// \param picture  Size, rays, seed, filter.
+/// \param pattern  make_pattern() for the rays of a pixel.
+/// \param x        Column of the pixel.
+/// \param y        Row of the pixel.
+/// \param number   Which of the pixel's rays.
+/// \param stream   Set to the numbers of that ray, past those of its place.
+/// \return The place, from the upper left corner of the picture, and its weight.
+template <std::floating_point T, typename Stream>
+[[nodiscard]] FilterSampleT<T> place_of_ray(const RenderSettings& picture,
+                                            const Pattern& pattern, int x, int y,
+                                            int number, Stream& stream) {
+    const auto pixel =
+        static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(picture.width) +
+        static_cast<std::uint64_t>(x);
+    start_ray(stream, picture.seed, pixel, number, pattern);
+    const Vec2T<T> u = detail::spread(pattern, number, mix_bits(picture.seed) ^ pixel,
+                                      next_2d<T>(stream));
+    FilterSampleT<T> at = sample_filter(picture.filter, u);
+    at.place += Vec2T<T>{T(x), T(y)};
+    return at;
+}
+
 /// The radiance of one primary ray, as the pixel loop asks for it.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    A CameraT, or anything with a camera_ray().
-/// \param picture   Size and rays.
+/// \param picture   Size, rays, seed, filter.
 /// \param pattern   make_pattern() for the rays of a pixel.
 /// \param x         Column of the pixel.
 /// \param y         Row of the pixel.
 /// \param number    Which of the pixel's rays.
 /// \param counts    Counts the rays.
-/// \param log       Told of each vertex and each term.
-/// \return Radiance, W/(m^2 sr).
+/// \param log       Told of each vertex and each term, without the weight.
+/// \return Radiance times the weight of the filter, W/(m^2 sr).
+// [sample_pixel]
 template <typename R, template <std::floating_point> typename AnyCamera,
           std::floating_point T, typename Log = NoLog>
 [[nodiscard]] RgbT<T> sample_pixel(const R& renderer, const AnyCamera<T>& camera,
                                    const RenderSettings& picture,
                                    const Pattern& pattern, int x, int y, int number,
                                    Counts& counts, Log&& log = {}) {
-    const auto pixel =
-        static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(picture.width) +
-        static_cast<std::uint64_t>(x);
     typename R::Stream stream;
-    start_ray(stream, picture.seed, pixel, number, pattern);
-    const Vec2T<T> place = detail::spread(
-        pattern, number, mix_bits(picture.seed) ^ pixel, next_2d<T>(stream));
-    const RayT<T> ray = camera_ray(camera, Vec2T<T>{T(x), T(y)} + place, picture.width,
-                                   picture.height, stream);
+    const auto at = place_of_ray<T>(picture, pattern, x, y, number, stream);
+    const RayT<T> ray =
+        camera_ray(camera, at.place, picture.width, picture.height, stream);
     ++counts.camera_rays;
-    return radiance(renderer, ray, stream, counts, log);
+    return at.weight * radiance(renderer, ray, stream, counts, log);
 }
+// [sample_pixel]
 
 } // namespace detail
 

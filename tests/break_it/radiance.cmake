@@ -1,0 +1,51 @@
+# A filter whose integral is not 1 makes every picture darker or brighter.
+ljus_break_it(NAME radiance-filter-integral HEADER image/filter.hpp TEST filter
+    FROM "return scale * (std::exp(T(-2) * a * a) - at_radius);"
+    TO   "return std::exp(T(-2) * a * a) - at_radius;"
+    CASES "filter: weights are even*")
+
+# Mitchell's filter without the part below 0.
+ljus_break_it(NAME radiance-filter-lobe HEADER image/filter.hpp TEST filter
+    FROM "(T(8) / T(7) - a) * (T(2) - a)"
+    TO   "std::abs(T(8) / T(7) - a) * (T(2) - a)"
+    CASES "filter: Mitchell's*")
+
+# Places that are drawn by sizes and counted without a sign.
+ljus_break_it(NAME radiance-filter-weight HEADER image/filter.hpp TEST filter
+    FROM "T(filter_weight(filter, x) / density)"
+    TO   "T(1)"
+    CASES "filter: places drawn*")
+
+# The tent drawn evenly over its width.
+ljus_break_it(NAME radiance-filter-inversion HEADER image/filter.hpp TEST filter
+    FROM "side * v / (T(1) + std::sqrt(T(1) - v))"
+    TO   "side * v"
+    CASES "filter: places drawn*")
+
+# The whole picture moved by half a pixel.
+ljus_break_it(NAME radiance-filter-middle HEADER image/filter.hpp TEST filter
+    FROM ".place = T(0.5) + Vec2T<T>{x.x, y.x}"
+    TO   ".place = Vec2T<T>{x.x, y.x}"
+    CASES "filter: no filter moves*")
+
+# The pixel loop forgets what a ray counts.
+ljus_break_it(NAME radiance-filter-render HEADER render/render.hpp TEST filter
+    FROM "return at.weight * radiance(renderer, ray, stream, counts, log);"
+    TO   "return radiance(renderer, ray, stream, counts, log);"
+    CASES "filter: a picture of a wave*")
+
+# The cosine law and the inverse square law, where a lamp's point is drawn.
+ljus_break_it(NAME radiance-cosine HEADER geometry/solid_angle.hpp TEST radiance
+    FROM "distance2 / (cosine * area)"
+    TO   "distance2 / area"
+    CASES "radiance: the density*,radiance: what A sends*")
+ljus_break_it(NAME radiance-inverse-square HEADER geometry/solid_angle.hpp TEST radiance
+    FROM "distance2 / (cosine * area)"
+    TO   "std::sqrt(distance2) / (cosine * area)"
+    CASES "radiance: the density*")
+
+# 2 pi, the solid angle, in place of pi, which has the cosine in it.
+ljus_break_it(NAME radiance-exitance HEADER scene/light.hpp TEST radiance
+    FROM "return std::numbers::pi_v<T> * area * radiance;"
+    TO   "return T(2) * std::numbers::pi_v<T> * area * radiance;"
+    CASES "radiance: a Lambertian lamp*")
