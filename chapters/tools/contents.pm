@@ -2,6 +2,7 @@
 package contents;
 use strict;
 use warnings;
+use Digest::SHA;
 
 sub slurp {
     my ($path) = @_;
@@ -24,6 +25,28 @@ sub parts {
         }
     }
     return @parts;
+}
+
+# What a chapter's pictures depend on: the sources of its programs, examples/NN_*.cpp.
+sub key {
+    my ($folder, $number) = @_;
+    my $sum = Digest::SHA->new(256);
+    $sum->add(slurp($_)) for sort glob sprintf "%s/../examples/%02d_*.cpp", $folder, $number;
+    return substr $sum->hexdigest, 0, 16;
+}
+
+# The pictures in report quality that belong to the repository: by the name of the PNG that
+# a program writes { file, chapter, key }.
+sub kept {
+    my ($folder) = @_;
+    my %kept;
+    return \%kept if !-f "$folder/pictures/kept.txt";
+    for my $line (split /\n/, slurp("$folder/pictures/kept.txt")) {
+        next if $line =~ /^#/;
+        my ($picture, $file, $number, $key) = split ' ', $line;
+        $kept{$picture} = {file => $file, number => $number, key => $key};
+    }
+    return \%kept;
 }
 
 sub chapters { return map { @{$_->{chapters}} } parts(@_) }
