@@ -42,6 +42,7 @@
                 if (inTitle + inText === 0) return;
                 score += 20 * inTitle + Math.min(inText, 10);
             }
+            if (!/^(ch_|index)/.test(section[0])) score /= 10; // lists come last
             found.push({ section, score, order });
         });
         found.sort((a, b) => b.score - a.score || a.order - b.order);
@@ -101,11 +102,15 @@
                 `<b>${escaped(title)}</b>${below}</a>`;
             const sections = findText(words);
             const names = words.length === 1 ? findNames(text) : [];
-            let html = sections.map(section =>
+            const textRows = sections.map(section =>
                 row(section[0], section[1], `<span>${excerpt(section[2], words)}</span>`)).join("");
-            if (names.length) html += '<div class="ljus-search-kind">The library</div>' + names.map(name =>
-                row(name[1], name[0], ` <i>${escaped(name[2])}</i>`)).join("");
-            results.innerHTML = html || `<p>Nothing is found for “${escaped(text)}”.</p>`;
+            const nameRows = !names.length ? "" :
+                '<div class="ljus-search-kind">The library</div>' + names.map(name =>
+                    row(name[1], name[0], ` <i>${escaped(name[2])}</i>`)).join("");
+            // Who types a whole name of the library looks for it there.
+            const exact = names.length && names[0][0].toLowerCase() === text.toLowerCase();
+            results.innerHTML = (exact ? nameRows + '<div class="ljus-search-kind">The book</div>' + textRows
+                : textRows + nameRows) || `<p>Nothing is found for “${escaped(text)}”.</p>`;
             results.querySelectorAll("a").forEach((link, i) => { link.id = "ljus-found-" + i; });
             results.hidden = false;
             field.setAttribute("aria-expanded", "true");
