@@ -12,6 +12,12 @@ execute_process(COMMAND "${DOXYGEN}" Doxyfile WORKING_DIRECTORY "${FOLDER}"
 if(NOT result EQUAL 0)
     message(FATAL_ERROR "Doxygen failed (${result}).\n${output}")
 endif()
+execute_process(COMMAND "${PERL}" "${CMAKE_CURRENT_LIST_DIR}/finish" "${HTML}" "${FOLDER}/ljus.tag"
+        "${QUALITY}"
+    RESULT_VARIABLE result)
+if(NOT result EQUAL 0)
+    message(FATAL_ERROR "The pages could not be finished; see above.")
+endif()
 set(warnings)
 if(EXISTS "${FOLDER}/warnings.txt")
     file(READ "${FOLDER}/warnings.txt" warnings)

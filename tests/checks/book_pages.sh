@@ -1,0 +1,92 @@
+#!/usr/bin/env bash
+# What makes and checks the book's pages: numbers of chapters in titles and references, the
+# index of the report, and a page with every flaw, each of which is found.
+. "$(dirname "$0")/common.sh"
+command -v perl >/dev/null 2>&1 || skip "perl is not installed"
+command -v python3 >/dev/null 2>&1 || skip "python3 is not installed"
+tools=$LJUS_ROOT/chapters/tools
+folder=$scratch/book_pages
+rm -rf "$folder"
+mkdir -p "$folder/html"
+cd "$folder"
+wrong=0
+wrong() { echo "WRONG: $*"; wrong=1; }
+
+# A page, as Doxygen's filter hands it on.
+cat >page.md <<'END'
+# Sphere {#ch_sphere}
+See \ref ch_bvh, chapter \ref ch_bvh "99" and \ref ch_sphere_trade "the trade".
+<p class="ljus-caption">A caption.</p>
+END
+cat >right.md <<'END'
+# 6 · Sphere {#ch_sphere}
+See \ref ch_bvh "Bounding volumes", chapter \ref ch_bvh "8" and \ref ch_sphere_trade "the trade".
+<div class="ljus-caption">A caption.</div>
+END
+perl "$tools/page" page.md | diff - right.md || wrong "a page is read otherwise"
+perl "$tools/page" "$LJUS_ROOT/chapters/contents.md" >contents.md || wrong "no contents"
+[ "$(grep -c '^\\page part_' contents.md)" -eq 6 ] || wrong "the book has not six parts"
+grep -q '^| Figure 11 .*ch_caustics.*fig-11' contents.md || wrong "figure 11 is in no index"
+
+# What Doxygen leaves to be done.
+cat >html/ch_sphere.html <<'END'
+<html><head><title>Sphere</title><script src="https://polyfill.io/x.js"></script></head><body>
+<div><div class="header"><div class="headertitle"><div class="title">6 · Sphere</div></div></div>
+<div class="contents"><div class="textblock"><h1><a class="anchor" id="here"></a>The trade</h1>
+<div class="image"><img src="a.png" alt=""/>
+<div class="caption">Two balls.</div></div>
+<div class="fragment"><div class="line">std::<span class="keywordtype">float</span>ing_po<span class="keywordtype">int</span> <a class="code hl_function" href="q.html#x">normal</a>;</div></div><!-- fragment -->
+<dl class="exercise"><dt><b><a class="el" href="exercise.html#_exercise000009">Exercise:</a></b></dt><dd>One by importance.</dd></dl>
+</div></div><!-- contents -->
+</body></html>
+END
+sed 's/Sphere/Ray/; s/_exercise000009/_exercise000001/' html/ch_sphere.html >html/ch_ray.html
+echo '<tagfile></tagfile>' >tags
+perl "$tools/finish" "$folder/html" tags >/dev/null || wrong "the pages are not finished"
+page=html/ch_sphere.html
+grep -q 'polyfill' $page && wrong "a script comes from the network"
+grep -q 'alt="Two balls."' $page || wrong "a picture has no alt text"
+grep -q 'std::floating_point normal;' $page || wrong "a listing has wrong links or colours"
+grep -q 'id="_exercise000009".*Exercise 6.1' $page || wrong "an exercise has no number"
+[ "$(grep -c 'rel="prev" href="ch_ray.html"' $page)" -eq 2 ] || wrong "no chapter before"
+grep -q 'One by importance' html/search-text.js || wrong "the search does not know a word"
+
+# A page with each flaw that needs no browser.
+flaw() {
+    rm -f html/*.html html/*.js
+    echo "<html><body><div class=\"contents\"><p id=\"here\">$2</p></div></body></html>" >html/index.html
+    local code=0
+    python3 "$tools/check_pages" html --static >out.txt 2>err.txt || code=$?
+    if [ -z "$1" ]; then
+        [ $code -eq 0 ] || wrong "$2: $(cat err.txt)"
+    elif [ $code -ne 1 ] || ! grep -qF -- "$1" err.txt; then
+        wrong "$2: $code, $(cat err.txt)"
+    fi
+}
+flaw '' '<a href="#here">here</a>'
+flaw 'dead link to none.html' '<a href="none.html">there</a>'
+flaw 'has no place there' '<a href="#there">there</a>'
+flaw 'no alt text' '<img src="index.html" alt=""/>'
+flaw 'comes from the network' '<script src="https://example.org/x.js"></script>'
+
+# Wordings.
+mkdir -p chapters
+cp "$LJUS_ROOT/chapters/words.txt" chapters
+echo 'It casts 16 rays a pixel.' >chapters/01-page.md
+rm -f html/*.html
+python3 "$tools/check_words" chapters html >out.txt 2>err.txt && wrong "a wording is let through"
+grep -q "01-page.md:1: 'rays a pixel': write \"per pixel\"" err.txt || wrong "$(cat err.txt)"
+
+# The table of the README is that of the book.
+cell() { awk -F, -v r="$1" -v m="$2" -v c="$3" '$1 == r && $2 == m { print $c }' \
+    "$LJUS_ROOT/chapters/measured/two_pass-trade-table.csv"; }
+for rays in 4 16 64 256; do
+    row="| $rays"
+    for method in 'photon mapping' 'path tracing'; do
+        row="$row | $(cell $rays "$method" 3) s | $(cell $rays "$method" 4)"
+    done
+    grep -qF -- "$row |" "$LJUS_ROOT/README.md" || wrong "README.md should have the row $row |"
+done
+
+[ $wrong -eq 0 ] && echo "the book's pages are made and checked as they should be"
+exit $wrong
