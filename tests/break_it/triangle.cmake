@@ -62,6 +62,12 @@ ljus_break_it(NAME triangle-default HEADER geometry/triangle.hpp TEST tree_leaks
     TO   "using C = ComputeT<Compute, T>;"
     CASES "tree leaks: half a million*")
 
+# In the plane of a sliver rounding moves u and v by any amount: the border must end.
+ljus_break_it(NAME triangle-sliver HEADER geometry/triangle.hpp TEST triangle
+    FROM "!within(detail::border_of_rounding(d, to, e1, e2, inverse, near))"
+    TO   "!within(near)"
+    CASES "triangle: a hit does not lie beside a sliver*")
+
 # Doubles in a line span what rounding leaves of 0.
 ljus_break_it(NAME triangle-no-area-rounded HEADER geometry/surface_point.hpp
     TEST triangle
