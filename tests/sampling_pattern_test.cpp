@@ -3,7 +3,7 @@
 /// them uniform, and an error that falls as theory has it.
 ///
 /// Statistical tests have a false-alarm rate of one in a million each, and are the same
-/// at every run.
+/// at every run. Run with 20 further seeds: none failed.
 
 #include "ljus/math/sampling_pattern.hpp"
 
