@@ -541,6 +541,11 @@ TEST_CASE("progressive: a checkpoint comes back, and nothing else does") {
     CHECK(forged(40, 0, 8).find("out of range") != std::string::npos); // alpha
     CHECK(forged(56, 0, 8).find("out of range") != std::string::npos); // passes
     CHECK(forged(40, std::bit_cast<std::uint64_t>(0.5), 8) == "it was read");
+    // Light, the first pixel's, is finite in double only.
+    CHECK(forged(72, std::bit_cast<std::uint64_t>(1e300), 8).find("can hold") !=
+          std::string::npos);
+    CHECK(forged(72, std::bit_cast<std::uint64_t>(-1e300), 8).find("can hold") !=
+          std::string::npos);
 }
 
 TEST_CASE("progressive: interrupted after any pass, the end is the same") {

@@ -93,6 +93,11 @@ inline void save_checkpoint(const std::string& path, const ProgressiveState& sta
     if (state.passes < 1 || !(state.alpha > 0 && state.alpha <= 1) ||
         !(state.shrink > 0 && state.shrink <= 1))
         file.refuse("its number of passes, alpha or radius is out of range");
+    // Beyond the range of a picture's numbers its mean would be infinite.
+    const double largest = double(state.passes) * std::numeric_limits<float>::max();
+    for (const auto& color : state.sum.pixels)
+        if (max_component(glm::abs(color)) > largest)
+            file.refuse("it has light that no picture can hold");
     return state;
 }
 
