@@ -124,8 +124,9 @@ int main(int argc, char** argv) {
         std::printf("%s: %d kills, the new file was there after %d, %zu files beside "
                     "it\n",
                     kind.name, kills, replaced, beside);
-        // A save that was killed between its two names leaves one; no save needs more.
-        if (beside > static_cast<std::size_t>(kills) / 10 + 1)
+        // A save that was killed between its two names leaves one: 24 of 7000 did. If
+        // one in ten did, there would be more than this once in a million runs.
+        if (beside > static_cast<std::size_t>(kills) / 3 + 5)
             fail(kind.name, kills, "kills leave too many files");
     }
     return 0;
