@@ -335,3 +335,17 @@ TEST_CASE("texture: of pictures only those are read whose reader is trusted, and
           "a has 16386 x 16386 pixels; there can be at most 33554432.");
 }
 #endif
+
+TEST_CASE("texture: a BMP file of many pixels and few bytes is refused") {
+    // 10 289 152 x 3 pixels of 16 bits in 63 bytes, as a fuzzer found it.
+    Bytes file(63, 0);
+    file[0] = 'B', file[1] = 'M', file[10] = 54, file[14] = 40;
+    file[20] = 0x9d, file[22] = 3, file[26] = 1, file[28] = 16;
+    try {
+        (void)detail::decode_image(file, "a.bmp");
+        CHECK(false);
+    } catch (const std::runtime_error& error) {
+        CHECK(std::string(error.what()) ==
+              "a.bmp is damaged: it ends in the middle of its pixels.");
+    }
+}
