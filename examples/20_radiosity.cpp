@@ -442,9 +442,9 @@ void views(const examples::Options& options, const Sizes& sizes) {
         start = now;
         return spent;
     };
-    const auto all =
-        make_radiosity(room.scene, {.patches = {.size = sizes.patch},
-                                    .factors = {.analytic = false, .rays = 1024}});
+    const RadiositySettings settings{.patches = {.size = sizes.patch},
+                                     .factors = {.analytic = false, .rays = 1024}};
+    const auto all = make_radiosity(room.scene, settings);
     const auto view = make_light_map_view(room.scene, all->map);
     const double solved = next();
     constexpr int count = 5;
@@ -461,9 +461,9 @@ void views(const examples::Options& options, const Sizes& sizes) {
         save_png(image, options.path("radiosity-view-" + std::to_string(i) + ".png"));
     }
     const std::string file = options.path("radiosity.light");
-    save_light_map(file, all->map);
+    save_light_map(file, all->map, light_map_key(room.scene, settings));
     (void)next();
-    const LightMap map = load_light_map(file);
+    const LightMap map = load_light_map(file, light_map_key(room.scene, settings));
     const double loaded = next();
     const auto again = make_light_map_view(room.scene, map);
     const bool same = rendered("again", again, room.camera, options).pixels ==

@@ -156,6 +156,26 @@ TEST_CASE("command_line: a folder that cannot be used is found before any work")
     CHECK(folder.count() == 1);
 }
 
+TEST_CASE("command_line: any word is answered in one line that is not too long") {
+    const std::string long_word(5000, 'x');
+    for (const std::string& word : {std::string("\x01\x1b[2J\x7f"), std::string("\xff"),
+                                    long_word, std::string("1\n2")})
+        for (const char* const option :
+             {"--width", "--quality", "--out", "--nothing"}) {
+            if (option == std::string("--out") && word != long_word) continue;
+            const std::string said = answer({option, word});
+            CAPTURE(option);
+            CHECK(said != "accepted");
+            CHECK(said.size() < 1200);
+            for (const char c : said) {
+                CHECK(static_cast<unsigned char>(c) >= 0x20);
+                CHECK(c != '\x7f');
+            }
+            CHECK(said.find('\xff') == std::string::npos);
+            CHECK(said.find("filesystem error") == std::string::npos);
+        }
+}
+
 TEST_CASE("command_line: run_main turns what is thrown into an exit code") {
     CHECK(run([](CommandLine&) {}) == 0);
     CHECK(run([](CommandLine& line) { (void)line.parse(); }, {"program", "--help"}) ==

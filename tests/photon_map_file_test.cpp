@@ -54,9 +54,12 @@ bool same(const PhotonMapT<T>& a, const PhotonMapT<T>& b) {
     return true;
 }
 
+/// What the maps of these tests were made from.
+constexpr ljus::MapKey key{.scene = 0x0123456789abcdefu, .settings = 42};
+
 std::string why_not(const std::string& path) {
     try {
-        (void)ljus::load_photon_map(path);
+        (void)ljus::load_photon_map(path, key);
     } catch (const std::runtime_error& error) {
         return error.what();
     }
@@ -70,14 +73,14 @@ TEST_CASE("photon_map_file: a map comes back, byte by byte") {
     const std::string path = folder.file("a.map");
     for (const int count : {0, 1, 7, 8, 9, 1000, 40000}) {
         const auto map = some_map<float>(count);
-        ljus::save_photon_map(path, map);
-        CHECK(same(map, ljus::load_photon_map(path)));
-        CHECK(same(map, ljus::load_photon_map(path, 40000, 2)));
-        CHECK(ljus::load_file(path, 10'000'000).size() == 40 + 42 * std::size_t(count));
+        ljus::save_photon_map(path, map, key);
+        CHECK(same(map, ljus::load_photon_map(path, key)));
+        CHECK(same(map, ljus::load_photon_map(path, key, 40000, 2)));
+        CHECK(ljus::load_file(path, 10'000'000).size() == 56 + 42 * std::size_t(count));
     }
     const auto precise = some_map<double>(100);
-    ljus::save_photon_map(path, precise);
-    CHECK(same(precise, ljus::load_photon_map<double>(path)));
+    ljus::save_photon_map(path, precise, key);
+    CHECK(same(precise, ljus::load_photon_map<double>(path, key)));
     CHECK(why_not(path) == "cannot read '" + path +
                                "': its numbers have 8 bytes; those asked for have 4.");
 }
@@ -85,18 +88,17 @@ TEST_CASE("photon_map_file: a map comes back, byte by byte") {
 TEST_CASE("photon_map_file: a file cut short at any byte is refused") {
     const ScratchFolder folder;
     const std::string path = folder.file("a.map");
-    ljus::save_photon_map(path, some_map<float>(5));
+    ljus::save_photon_map(path, some_map<float>(5), key);
     const Bytes whole = ljus::load_file(path, 10000);
     for (std::size_t size = 0; size < whole.size(); ++size) {
         ljus::save_file(path,
                         Bytes(whole.begin(), whole.begin() + std::ptrdiff_t(size)));
         const std::string why = why_not(path);
-        CHECK(why.starts_with("cannot read '" + path + "': it "));
+        CHECK(why.starts_with("cannot read '" + path + "': it"));
         if (size >= 40)
             CHECK(why == "cannot read '" + path +
-                             "': it says that it holds 5 photons, which does not go "
-                             "with its " +
-                             std::to_string(size) + " bytes.");
+                             "': its checksum is wrong, so that it is damaged or cut "
+                             "short.");
     }
     Bytes longer = whole;
     longer.push_back(0);
@@ -107,7 +109,7 @@ TEST_CASE("photon_map_file: a file cut short at any byte is refused") {
 TEST_CASE("photon_map_file: a file with any bit turned over is refused") {
     const ScratchFolder folder;
     const std::string path = folder.file("a.map");
-    ljus::save_photon_map(path, some_map<float>(3));
+    ljus::save_photon_map(path, some_map<float>(3), key);
     const Bytes whole = ljus::load_file(path, 10000);
     for (std::size_t i = 0; i < whole.size(); ++i)
         for (int bit = 0; bit < 8; ++bit) {
@@ -127,24 +129,25 @@ TEST_CASE("photon_map_file: what is wrong is said in a sentence") {
     ljus::save_file(path, Bytes(text.begin(), text.end()));
     CHECK(why_not(path) == cannot + "it does not begin with 'ljus photon map?', so "
                                     "that it is another kind of file.");
-    ljus::save_photon_map(path, some_map<float>(3));
+    ljus::save_photon_map(path, some_map<float>(3), key);
     const Bytes whole = ljus::load_file(path, 10000);
     Bytes later = whole;
-    later[16] = 2;
+    later[16] = 1;
     ljus::save_file(path, later);
     CHECK(why_not(path) ==
-          cannot + "it is of version 2, and this library reads version 1.");
+          cannot + "it is of version 1, and this library reads version 2.");
     Bytes damaged = whole;
-    damaged[60] = static_cast<unsigned char>(damaged[60] + 1);
+    damaged[70] = static_cast<unsigned char>(damaged[70] + 1);
     ljus::save_file(path, damaged);
     CHECK(why_not(path) ==
-          cannot + "its checksum is wrong, so that it has been damaged.");
+          cannot + "its checksum is wrong, so that it is damaged or cut short.");
     // More photons than one wants to have.
     ljus::save_file(path, whole);
-    CHECK_THROWS_AS((void)ljus::load_photon_map(path, 2), std::runtime_error);
+    CHECK_THROWS_AS((void)ljus::load_photon_map(path, key, 2), std::runtime_error);
     // A huge number of photons takes no memory before it is found to be wrong.
     Bytes huge = whole;
     for (std::size_t i = 24; i < 32; ++i) huge[i] = 255;
+    ljus::detail::put_checksum(huge);
     ljus::save_file(path, huge);
     CHECK(why_not(path).starts_with(cannot + "it says that it holds"));
 }
@@ -153,38 +156,49 @@ TEST_CASE(
     "photon_map_file: photons that no map would take are refused, checksum or not") {
     const ScratchFolder folder;
     const std::string path = folder.file("a.map");
-    ljus::save_photon_map(path, some_map<float>(3));
+    ljus::save_photon_map(path, some_map<float>(3), key);
     const Bytes whole = ljus::load_file(path, 10000);
     const auto with = [&](std::size_t at, std::initializer_list<int> values) {
         Bytes bytes = whole;
         for (const int value : values) bytes[at++] = static_cast<unsigned char>(value);
-        Bytes sum;
-        ljus::detail::put_number(sum, ljus::detail::map_checksum(bytes));
-        std::copy(sum.begin(), sum.end(), bytes.begin() + 32);
+        ljus::detail::put_checksum(bytes);
         ljus::save_file(path, bytes);
         return why_not(path);
     };
     const std::string cannot = "cannot read '" + path + "': ";
-    CHECK(with(40, {0, 0, 128, 127}) == cannot + "it has a photon that is not finite.");
+    CHECK(with(56, {0, 0, 128, 127}) == cannot + "it has a photon that is not finite.");
     for (int number = 0; number < 9; ++number) // of position, direction and flux
         for (const int sign : {0, 128})
-            CHECK(with(40 + 4 * std::size_t(number), {0, 0, 128, sign + 127}) ==
+            CHECK(with(56 + 4 * std::size_t(number), {0, 0, 128, sign + 127}) ==
                   cannot + "it has a photon that is not finite.");
-    CHECK(with(40 + 38, {4}) == cannot + "it has a photon of kind 4.");
-    CHECK(with(40 + 38, {3}) == "it was read");
+    CHECK(with(56 + 38, {4}) == cannot + "it has a photon of kind 4.");
+    CHECK(with(56 + 38, {3}) == "it was read");
+    CHECK(with(24, {4}) == cannot +
+                               "it says that it holds 4 photons, which does not go "
+                               "with its 182 bytes.");
+    CHECK(with(24, {2}).starts_with(cannot + "it says that it holds 2 photons"));
+    Bytes longer = whole;
+    longer.push_back(0);
+    ljus::detail::put_checksum(longer);
+    ljus::save_file(path, longer);
+    CHECK(why_not(path).starts_with(cannot + "it says that it holds 3 photons"));
+    Bytes no_key(whole.begin(), whole.begin() + 50);
+    ljus::detail::put_checksum(no_key);
+    ljus::save_file(path, no_key);
+    CHECK(why_not(path) == cannot + "it ends in the middle of its key.");
 }
 
 TEST_CASE("photon_map_file: a save that fails leaves the older file as it was") {
     const ScratchFolder folder;
     CHECK_THROWS_AS(
-        ljus::save_photon_map(folder.file("nowhere/a.map"), some_map<float>(3)),
+        ljus::save_photon_map(folder.file("nowhere/a.map"), some_map<float>(3), key),
         std::runtime_error);
 }
 
 TEST_CASE("photon_map_file: the limit of a file's bytes, and none without one") {
     constexpr std::size_t all = static_cast<std::size_t>(-1);
-    CHECK(ljus::detail::map_limit(3, 42) == 40 + 3 * 42);
-    CHECK(ljus::detail::map_limit(0, 42) == 40);
+    CHECK(ljus::detail::map_limit(3, 42) == 56 + 3 * 42);
+    CHECK(ljus::detail::map_limit(0, 42) == 56);
     CHECK(ljus::detail::map_limit(all, 42) == all);
     CHECK(ljus::detail::map_limit(all / 42, 42) == all);
 }

@@ -1,5 +1,8 @@
 /// \file photon_test.cpp
 /// \brief What a photon takes in memory, and that no flux is lost on its way.
+///
+/// Its statistical cases were run with 20 further seeds (`./scripts/test --seeds 20`):
+/// none failed.
 
 #include "ljus/photons/photon.hpp"
 

@@ -1,5 +1,8 @@
 /// \file sampling_test.cpp
 /// \brief Every sampler against its own density, its moments, and the corners of [0,1)^2.
+///
+/// Its statistical cases were run with 20 further seeds (`./scripts/test --seeds 20`):
+/// none failed.
 
 #include "ljus/math/sampling.hpp"
 

@@ -1,5 +1,8 @@
 /// \file stratified_test.cpp
 /// \brief Primary rays: as many as asked for, spread evenly, whatever the number.
+///
+/// Its statistical cases were run with 20 further seeds (`./scripts/test --seeds 20`):
+/// none failed.
 
 #include "ljus/math/sampling_pattern.hpp"
 

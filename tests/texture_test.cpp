@@ -429,3 +429,17 @@ TEST_CASE("texture: the tables of a JPEG file, segment by segment") {
     CHECK_FALSE(trouble({0xff, 0xd8, 0xff, 0xe0, 0xff}));
 }
 #endif
+
+TEST_CASE("texture: a BMP file of many pixels and few bytes is refused") {
+    // 10 289 152 x 3 pixels of 16 bits in 63 bytes, as a fuzzer found it.
+    Bytes file(63, 0);
+    file[0] = 'B', file[1] = 'M', file[10] = 54, file[14] = 40;
+    file[20] = 0x9d, file[22] = 3, file[26] = 1, file[28] = 16;
+    try {
+        (void)detail::decode_image(file, "a.bmp");
+        CHECK(false);
+    } catch (const std::runtime_error& error) {
+        CHECK(std::string(error.what()) ==
+              "a.bmp is damaged: it ends in the middle of its pixels.");
+    }
+}

@@ -419,3 +419,42 @@ TEST_CASE("triangle: a hit does not lie beside a sliver in whose plane the ray i
     CHECK(hits > 1000);
     CHECK(beside < 1e-6);
 }
+
+TEST_CASE("triangle: the border is as wide as the rounding, and open on slivers") {
+    // u by the same formula, in the 64 bits of long double's mantissa.
+    using D = Vec3T<double>;
+    using Wide = glm::vec<3, long double>;
+    Numbers n{17};
+    const double near = std::numeric_limits<float>::epsilon();
+    int closed = 0, open = 0;
+    double farthest = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const D d = n.direction(), e1 = n.direction();
+        const D e2 = e1 * n.between(-1, 2) + n.power(-9, 0) * n.direction();
+        // The origin of a ray that meets the edge E2, where u is 0.
+        const D to = n.between(0, 1) * e2 - n.power(-3, 3) * d;
+        const auto u_of = [&]<typename V>(V) {
+            const V p = glm::cross(V(d), V(e2));
+            return glm::dot(p, V(to)) * (1 / glm::dot(p, V(e1)));
+        };
+        const double inverse = 1 / glm::dot(glm::cross(d, e2), e1);
+        const double border = detail::border_of_rounding(d, to, e1, e2, inverse, near);
+        const double unbound =
+            detail::border_of_rounding(d, to, e1, e2, inverse, 1e300);
+        const auto off = double(std::abs((long double)(u_of(D{})) - u_of(Wide{})));
+        // No more than what the doc says it is, and no less than what happens.
+        REQUIRE(unbound < 64 * 16 * 1.2e-16 * glm::length(to) * std::abs(inverse) *
+                              (1 + glm::length(e2)));
+        farthest = std::max(farthest, off / unbound);
+        if (unbound <= near) {
+            ++closed;
+            REQUIRE(border == unbound);
+        } else {
+            ++open;
+            REQUIRE(border == 0);
+        }
+    }
+    CHECK(farthest <= 1);
+    CHECK(closed > 1000);
+    CHECK(open > 1000);
+}

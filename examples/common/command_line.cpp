@@ -36,7 +36,8 @@ std::string version_text() {
 // Makes the folder if it is missing, and writes and removes a file in it.
 void require_folder(const std::string& folder) {
     const auto fail = [&](const std::string& why) {
-        throw std::runtime_error("cannot write into the folder '" + folder +
+        throw std::runtime_error("cannot write into the folder '" +
+                                 ljus::detail::shown_path(folder) +
                                  "' of --out: " + why);
     };
     if (folder.empty()) fail("its name is empty");
@@ -58,13 +59,14 @@ std::string list_of(const std::vector<std::string>& words) {
     return text;
 }
 
-// One line without its full stop.
-std::string without_end(std::string text) {
+// One line without its full stop. It may repeat a word that a user typed, which is as
+// long as it likes and of any bytes.
+std::string without_end(std::string text, std::size_t limit) {
     const std::size_t end = text.find_last_not_of(" \n.");
     text.erase(end == std::string::npos ? 0 : end + 1);
     for (char& c : text)
         if (c == '\n') c = ' ';
-    return text;
+    return ljus::detail::shown(std::move(text), limit);
 }
 
 // A name that only a picture has, and no folder.
@@ -284,7 +286,7 @@ Options CommandLine::parse(const Presets& presets) {
     } catch (const CLI::ParseError& error) {
         // --help and --version arrive here as well: those are no errors.
         if (error.get_exit_code() == 0) throw Exit{app.exit(error)};
-        throw std::invalid_argument(without_end(error.what()) + " (see --help)");
+        throw std::invalid_argument(without_end(error.what(), 800) + " (see --help)");
     }
     options.quality = parser_->quality == "draft"    ? Quality::draft
                       : parser_->quality == "report" ? Quality::report
@@ -296,13 +298,14 @@ Options CommandLine::parse(const Presets& presets) {
     if (!given("--rays")) options.samples = frame.samples;
     const std::vector<std::string>& types = parser_->file_types;
     const std::filesystem::path out = options.out;
+    std::error_code error; // such a name may be no name at all, and then no folder
+    const bool folder = std::filesystem::is_directory(out, error);
     if (std::find(types.begin(), types.end(), out.extension()) != types.end() &&
-        !std::filesystem::is_directory(out)) {
+        !folder) {
         options.file = out.filename().string();
         options.out = out.has_parent_path() ? out.parent_path().string() : ".";
     }
-    if (options.file.empty() && names_a_file(options.out) &&
-        !std::filesystem::is_directory(out))
+    if (options.file.empty() && names_a_file(options.out) && !folder)
         throw std::invalid_argument(
             types.empty()
                 ? "--out is " + options.out + "; it must be a folder, for all files"
@@ -320,7 +323,8 @@ int run_main(int argc, const char* const* argv,
     } at_the_end;
     std::string name = argc > 0 ? argv[0] : "example";
     const auto complain = [&name](const std::string& what) {
-        std::fprintf(stderr, "%s: %s.\n", name.c_str(), without_end(what).c_str());
+        std::fprintf(stderr, "%s: %s.\n", name.c_str(),
+                     without_end(what, 1500).c_str());
         return 2;
     };
     try {

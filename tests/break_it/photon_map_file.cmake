@@ -1,18 +1,18 @@
 # A file that was cut short or damaged is taken for a map.
-ljus_break_it(NAME map-file-checksum HEADER io/photon_map_file.hpp TEST photon_map_file
-    FROM "checksum != detail::map_checksum(bytes)"
+ljus_break_it(NAME map-file-checksum HEADER io/detail/map_bytes.hpp TEST photon_map_file
+    FROM "checksum != map_checksum(file.bytes)"
     TO   "false"
     CASES "photon_map_file: a file with any bit*")
 
 # The number of photons is believed.
 ljus_break_it(NAME map-file-count HEADER io/photon_map_file.hpp TEST photon_map_file
-    FROM "(bytes.size() - detail::map_header) / photon_bytes != count"
+    FROM "file.left() / photon_bytes != count"
     TO   "false"
-    CASES "photon_map_file: a file cut short*")
+    CASES "photon_map_file: photons that no map*")
 
 # A map of another version is read as if it were this one's.
-ljus_break_it(NAME map-file-version HEADER io/photon_map_file.hpp TEST photon_map_file
-    FROM "version != detail::map_version"
+ljus_break_it(NAME map-file-version HEADER io/detail/map_bytes.hpp TEST photon_map_file
+    FROM "found != version"
     TO   "false"
     CASES "photon_map_file: what is wrong*")
 

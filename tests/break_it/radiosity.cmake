@@ -107,7 +107,7 @@ ljus_break_it(NAME light-map-side HEADER radiosity/light_map.hpp TEST light_map
     CASES "light_map: what a ray finds")
 
 # A file that was cut short or damaged is taken for a light map.
-ljus_break_it(NAME light-map-checksum HEADER io/light_map_file.hpp TEST light_map
-    FROM "checksum != detail::map_checksum(bytes)"
+ljus_break_it(NAME light-map-checksum HEADER io/detail/map_bytes.hpp TEST light_map
+    FROM "checksum != map_checksum(file.bytes)"
     TO   "false"
     CASES "light_map: a file cut short*")

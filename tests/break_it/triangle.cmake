@@ -62,6 +62,18 @@ ljus_break_it(NAME triangle-default HEADER geometry/triangle.hpp TEST tree_leaks
     TO   "using C = ComputeT<Compute, T>;"
     CASES "tree leaks: half a million*")
 
+# In the plane of a sliver rounding moves u and v by any amount: the border must end.
+ljus_break_it(NAME triangle-sliver HEADER geometry/triangle.hpp TEST triangle
+    FROM "return border <= most ? border : C(0);"
+    TO   "return border <= most ? border : most;"
+    CASES "triangle: the border*")
+
+# A border that is narrower than the rounding: the two triangles at an edge miss.
+ljus_break_it(NAME triangle-narrow-border HEADER geometry/triangle.hpp TEST triangle
+    FROM "rounding_bound<C>(16)"
+    TO   "C(0)"
+    CASES "triangle: the border*")
+
 # Doubles in a line span what rounding leaves of 0.
 ljus_break_it(NAME triangle-no-area-rounded HEADER geometry/surface_point.hpp
     TEST triangle

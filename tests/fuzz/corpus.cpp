@@ -57,10 +57,10 @@ int main(int argc, char** argv) {
     PhotonMappingSettings settings{.indirect = IndirectLight::map};
     settings.caustics.photons = settings.general.photons = 12;
     save_photon_map(file("photon_map", "room.map"),
-                    make_photon_maps(room.scene, settings).general);
-    save_photon_map(file("photon_map", "none.map"), PhotonMap{});
+                    make_photon_maps(room.scene, settings).general, {});
+    save_photon_map(file("photon_map", "none.map"), PhotonMap{}, {});
     LightMap light = make_radiosity(room.scene, {.patches = {.size = 2}})->map;
-    save_light_map(file("light_map", "room.light"), light);
-    save_light_map(file("light_map", "none.light"), {});
+    save_light_map(file("light_map", "room.light"), light, {});
+    save_light_map(file("light_map", "none.light"), {}, {});
     return 0;
 }

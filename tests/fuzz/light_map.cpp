@@ -1,5 +1,7 @@
 /// \file tests/fuzz/light_map.cpp
-/// \brief Light maps in files, drawn if a room takes them; the checksum put right.
+/// \brief Light maps in files, drawn if a room takes them; with key and checksum put right.
+
+#include <algorithm>
 
 #include "fuzz.hpp"
 #include "ljus/io/light_map_file.hpp"
@@ -12,7 +14,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const auto load = [](const ljus::Bytes& file) {
         const fuzz::MemoryFile in_memory(file);
         fuzz::refused_or_done([&] {
-            const auto map = ljus::load_light_map(in_memory.path(), 10'000);
+            const auto map = ljus::load_light_map(in_memory.path(), {}, 10'000);
             const auto view = ljus::make_light_map_view(room.scene, map);
             const auto picture =
                 ljus::render(view, room.camera,
@@ -22,7 +24,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         });
     };
     load(bytes);
-    if (size < ljus::detail::map_header) return 0;
+    if (size < ljus::detail::map_header + ljus::detail::map_key_bytes) return 0;
+    std::fill_n(bytes.begin() + 40, ljus::detail::map_key_bytes, std::uint8_t(0));
     ljus::detail::put_checksum(bytes);
     load(bytes);
     return 0;

@@ -195,6 +195,9 @@ template <std::floating_point T = float>
     if (width > max_image_pixels / height)
         refuse(join({"has ", to_text(width), " x ", to_text(height),
                      " pixels; there can be at most ", to_text(max_image_pixels)}));
+    // A BMP file is not packed; what it lacks stb_image would take for zeros.
+    if (!png && !jpeg && std::size_t(width) * std::size_t(height) / 8 > bytes.size())
+        refuse("is damaged: it ends in the middle of its pixels");
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
         stbi_load_from_memory(data, size, &width, &height, &channels, 3),
         stbi_image_free);

@@ -5,8 +5,9 @@
 
 #include <string>
 
-#include "ljus/io/detail/map_bytes.hpp"
+#include "ljus/io/detail/map_key.hpp"
 #include "ljus/photons/photon_map.hpp"
+#include "ljus/render/photon_mapping_settings.hpp"
 
 namespace ljus {
 
@@ -14,9 +15,9 @@ namespace ljus {
 /// \brief Section 3.2.2: the first pass, kept for another day.
 ///
 /// One flat file, the same on every machine: 16 letters that say what it is; version,
-/// bytes of a number, photons and checksum; then the photons, in the order in which
-/// they were emitted. The tree is not in it: it is built anew in less time than a disk
-/// takes to read it, and comes out the same.
+/// bytes of a number, photons and checksum; the key of what it was made from; then the
+/// photons, in the order in which they were emitted. The tree is not in it: it is built
+/// anew in less time than a disk takes to read it, and comes out the same.
 /// \{
 
 namespace detail {
@@ -39,22 +40,61 @@ template <std::floating_point T>
 }
 
 inline constexpr std::string_view map_magic = "ljus photon map\n";
-inline constexpr std::uint32_t map_version = 1;
+inline constexpr std::uint32_t map_version = 2;
 
 } // namespace detail
+
+/// What photons were traced from, for save_photon_map() and load_photon_map(). What
+/// changes no photon does not count: progress, threads, the limit of memory.
+/// \param scene  The scene: its shapes, what they are made of, its lights.
+/// \param type   Which map.
+/// \param pass   As trace_photons() was given it.
+/// \return The key.
+template <SceneLike S>
+[[nodiscard]] MapKey photon_map_key(const S& scene, MapType type,
+                                    const PhotonPassSettings& pass) {
+    detail::FieldHash how;
+    how.add(type, pass.photons, pass.seed, pass.iteration, pass.max_bounces,
+            pass.shadow_photons, pass.keep, pass.equal_lights, pass.numbers,
+            pass.shares, pass.give_up);
+    return {detail::scene_hash(scene), how.value};
+}
+
+/// The same for a map of make_photon_maps(): with what its plan depends on.
+/// \param scene     The scene.
+/// \param type      Which of the maps.
+/// \param settings  As make_photon_maps() was given them.
+/// \return The key.
+template <SceneLike S>
+[[nodiscard]] MapKey photon_map_key(const S& scene, MapType type,
+                                    const PhotonMappingSettings& settings) {
+    const bool caustics = type == MapType::caustics;
+    MapKey key =
+        photon_map_key(scene, type, caustics ? settings.caustics : settings.general);
+    detail::FieldHash how{key.settings};
+    if (!caustics)
+        how.add(settings.direct, settings.indirect, settings.keep_general_map,
+                settings.skip);
+    else if (settings.caustic_budget != CausticBudget::as_seen) // a pilot's
+        how.add(settings.caustic_budget, settings.caustics_estimate.radius,
+                settings.general_estimate.radius,
+                photon_map_key(scene, MapType::general, settings.general).settings);
+    return {key.scene, how.value};
+}
 
 /// Saves a map.
 /// \param path  The file; an older one is replaced at the very end (save_file()).
 /// \param map   The map.
+/// \param key   What it was made from: photon_map_key().
 /// \throws std::runtime_error  as save_file().
 /// \cost 42 bytes a photon in float.
 template <std::floating_point T>
-void save_photon_map(const std::string& path, const PhotonMapT<T>& map) {
-    Bytes bytes(detail::map_magic.begin(), detail::map_magic.end());
-    detail::put_number(bytes, detail::map_version);
-    detail::put_number(bytes, static_cast<std::uint32_t>(sizeof(T)));
-    detail::put_number(bytes, static_cast<std::uint64_t>(map.records.size()));
-    detail::put_number(bytes, std::uint64_t(0)); // the checksum's place
+void save_photon_map(const std::string& path, const PhotonMapT<T>& map,
+                     const MapKey& key) {
+    Bytes bytes = detail::map_front(detail::map_magic, detail::map_version,
+                                    static_cast<std::uint32_t>(sizeof(T)),
+                                    static_cast<std::uint64_t>(map.records.size()));
+    detail::put_key(bytes, key);
     for (const PhotonT<T>& photon : detail::photons_of(map)) {
         for (const Vec3T<T>& v : {photon.position, photon.direction, photon.flux})
             for (int axis = 0; axis < 3; ++axis) detail::put_number(bytes, v[axis]);
@@ -70,57 +110,45 @@ void save_photon_map(const std::string& path, const PhotonMapT<T>& map) {
 /// Loads a map.
 /// \tparam T     The precision that it was saved with.
 /// \param path   The file.
+/// \param key    What it must have been made from: photon_map_key().
 /// \param most   The most photons it may hold.
 /// \param threads  That build the tree, as in ParallelSettings.
 /// \return The map, the same byte by byte as the one that was saved.
-/// \throws std::runtime_error  "cannot read 'a.map': it ends too early: ...": what is
-///         cut short, damaged, of another version or no photon map at all is refused.
+/// \throws std::runtime_error  "cannot read 'a.map': it was made for another scene,
+///         ...": what is of another scene or of other settings, cut short, damaged, of
+///         another version or no photon map at all is refused.
 template <std::floating_point T = float>
-[[nodiscard]] PhotonMapT<T> load_photon_map(const std::string& path,
+[[nodiscard]] PhotonMapT<T> load_photon_map(const std::string& path, const MapKey& key,
                                             std::size_t most = 100'000'000,
                                             int threads = 0) {
     constexpr std::size_t photon_bytes = 9 * sizeof(T) + 6;
-    const Bytes bytes =
-        load_file(path, detail::map_limit(most, photon_bytes), detail::map_magic);
-    const auto refuse = [&](const std::string& why) {
-        detail::fail_to_read(path, why);
-    };
-    if (bytes.size() < detail::map_header)
-        refuse("it ends in the middle of its header");
-    const unsigned char* at = bytes.data() + detail::map_magic.size();
-    const auto version = detail::take_number<std::uint32_t>(at);
-    const auto number_bytes = detail::take_number<std::uint32_t>(at);
-    const auto count = detail::take_number<std::uint64_t>(at);
-    const auto checksum = detail::take_number<std::uint64_t>(at);
-    if (version != detail::map_version)
-        refuse("it is of version " + std::to_string(version) +
-               ", and this library reads version " +
-               std::to_string(detail::map_version));
+    detail::MapReader file =
+        detail::open_map(path, detail::map_limit(most, photon_bytes), detail::map_magic,
+                         detail::map_version);
+    const auto number_bytes = file.take<std::uint32_t>();
+    const auto count = file.take<std::uint64_t>();
     if (number_bytes != sizeof(T))
-        refuse("its numbers have " + std::to_string(number_bytes) +
-               " bytes; those asked for have " + std::to_string(sizeof(T)));
-    if ((bytes.size() - detail::map_header) / photon_bytes != count ||
-        (bytes.size() - detail::map_header) % photon_bytes != 0)
-        refuse("it says that it holds " + std::to_string(count) +
-               " photons, which does not go with its " + std::to_string(bytes.size()) +
-               " bytes");
-    if (checksum != detail::map_checksum(bytes))
-        refuse("its checksum is wrong, so that it has been damaged");
+        file.refuse("its numbers have " + std::to_string(number_bytes) +
+                    " bytes; those asked for have " + std::to_string(sizeof(T)));
+    detail::require_key(file, key);
+    if (file.left() / photon_bytes != count || file.left() % photon_bytes != 0)
+        file.refuse("it says that it holds " + std::to_string(count) +
+                    " photons, which does not go with its " +
+                    std::to_string(file.bytes.size()) + " bytes");
 
     std::vector<PhotonT<T>> photons(count);
     for (PhotonT<T>& photon : photons) {
         for (Vec3T<T>* v : {&photon.position, &photon.direction, &photon.flux})
-            for (int axis = 0; axis < 3; ++axis)
-                (*v)[axis] = detail::take_number<T>(at);
-        photon.light = detail::take_number<std::uint16_t>(at);
-        const auto kind = detail::take_number<std::uint8_t>(at);
-        if (kind > 3) refuse("it has a photon of kind " + std::to_string(kind));
+            for (int axis = 0; axis < 3; ++axis) (*v)[axis] = file.take<T>();
+        photon.light = file.take<std::uint16_t>();
+        const auto kind = file.take<std::uint8_t>();
+        if (kind > 3) file.refuse("it has a photon of kind " + std::to_string(kind));
         photon.kind = static_cast<PhotonKind>(kind);
         for (int axis = 0; axis < 3; ++axis)
-            photon.normal[axis] = detail::take_number<std::int8_t>(at);
+            photon.normal[axis] = file.take<std::int8_t>();
         if (!is_finite(photon.position) || !is_finite(photon.direction) ||
             !is_finite(photon.flux))
-            refuse("it has a photon that is not finite");
+            file.refuse("it has a photon that is not finite");
     }
     return make_photon_map(photons, threads);
 }

@@ -44,12 +44,10 @@ void each_checkpoint_number(State& state, Each each) {
 /// \cost 48 bytes a pixel.
 inline void save_checkpoint(const std::string& path, const ProgressiveState& state) {
     require(state.passes >= 1, "the number of passes", state.passes, "at least 1");
-    Bytes bytes(detail::checkpoint_magic.begin(), detail::checkpoint_magic.end());
-    for (const std::uint32_t number :
-         {detail::checkpoint_version, std::uint32_t(state.block_side),
-          std::uint32_t(state.sum.width), std::uint32_t(state.sum.height)})
-        detail::put_number(bytes, number);
-    detail::put_number(bytes, std::uint64_t(0)); // the checksum's place
+    Bytes bytes = detail::map_front(
+        detail::checkpoint_magic, detail::checkpoint_version,
+        std::uint32_t(state.block_side), std::uint32_t(state.sum.width),
+        std::uint32_t(state.sum.height));
     detail::each_checkpoint_number(
         state, [&](const auto& number) { detail::put_number(bytes, number); });
     detail::put_checksum(bytes);
@@ -62,32 +60,18 @@ inline void save_checkpoint(const std::string& path, const ProgressiveState& sta
 /// \throws std::runtime_error  "cannot read 'a.check': its checksum is wrong, ...":
 ///         what is cut short, damaged, of another version or no checkpoint is refused.
 [[nodiscard]] inline ProgressiveState load_checkpoint(const std::string& path) {
-    const Bytes bytes =
-        load_file(path, detail::map_limit(std::size_t(detail::max_pixels), 96),
-                  detail::checkpoint_magic);
-    const auto refuse = [&](const std::string& why) {
-        detail::fail_to_read(path, why);
-    };
-    if (bytes.size() < detail::map_header)
-        refuse("it ends in the middle of its header");
-    const unsigned char* at = bytes.data() + detail::map_magic_size;
-    const auto version = detail::take_number<std::uint32_t>(at);
-    const auto side = detail::take_number<std::uint32_t>(at);
-    const auto width = detail::take_number<std::uint32_t>(at);
-    const auto height = detail::take_number<std::uint32_t>(at);
-    const auto checksum = detail::take_number<std::uint64_t>(at);
-    if (version != detail::checkpoint_version)
-        refuse("it is of version " + std::to_string(version) +
-               ", and this library reads version " +
-               std::to_string(detail::checkpoint_version));
-    if (checksum != detail::map_checksum(bytes))
-        refuse("its checksum is wrong, so that it has been damaged or cut short");
+    detail::MapReader file =
+        detail::open_map(path, detail::map_limit(std::size_t(detail::max_pixels), 96),
+                         detail::checkpoint_magic, detail::checkpoint_version);
+    const auto side = file.take<std::uint32_t>();
+    const auto width = file.take<std::uint32_t>();
+    const auto height = file.take<std::uint32_t>();
 
     // What has the right checksum and yet no sense was made to mislead.
     constexpr auto most = static_cast<std::uint32_t>(detail::max_pixels);
     const bool sized = side >= 1 && side <= most && width >= 1 && height >= 1 &&
                        width <= most / height;
-    if (!sized) refuse("its picture has no size that a picture can have");
+    if (!sized) file.refuse("its picture has no size that a picture can have");
     ProgressiveState state{.block_side = int(side)};
     const auto blocks = [&](std::uint32_t pixels) {
         return int((pixels - 1) / side + 1);
@@ -95,19 +79,25 @@ inline void save_checkpoint(const std::string& path, const ProgressiveState& sta
     const int columns = blocks(width), rows = blocks(height);
     const std::size_t numbers = 4 + 6 * std::size_t(width) * height +
                                 3 * std::size_t(columns) * std::size_t(rows);
-    if (bytes.size() != detail::map_header + 8 * numbers)
-        refuse("its " + std::to_string(bytes.size()) +
-               " bytes do not go with its picture's size");
+    if (file.bytes.size() != detail::map_header + 8 * numbers)
+        file.refuse("its " + std::to_string(file.bytes.size()) +
+                    " bytes do not go with its picture's size");
     state.sum = state.squares = make_image<double>(int(width), int(height));
     state.block_squares = make_image<double>(columns, rows);
     detail::each_checkpoint_number(state, [&]<typename Number>(Number& number) {
-        number = detail::take_number<Number>(at);
+        number = file.take<Number>();
         if constexpr (std::is_floating_point_v<Number>)
-            if (!std::isfinite(number)) refuse("it has a number that is not finite");
+            if (!std::isfinite(number))
+                file.refuse("it has a number that is not finite");
     });
     if (state.passes < 1 || !(state.alpha > 0 && state.alpha <= 1) ||
         !(state.shrink > 0 && state.shrink <= 1))
-        refuse("its number of passes, alpha or radius is out of range");
+        file.refuse("its number of passes, alpha or radius is out of range");
+    // Beyond the range of a picture's numbers its mean would be infinite.
+    const double largest = double(state.passes) * std::numeric_limits<float>::max();
+    for (const auto& color : state.sum.pixels)
+        if (max_component(glm::abs(color)) > largest)
+            file.refuse("it has light that no picture can hold");
     return state;
 }
 

@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# scripts/install-packages on a bare machine, for one who is not root: a line to type, one
+# sentence where it cannot go on, and no error where CMake will fetch what is missing.
+. "$(dirname "$0")/common.sh"
+bin=$scratch/bin
+mkdir "$bin"
+for tool in bash cat dirname basename sed tr getconf grep; do
+    ln -s "$(command -v $tool)" "$bin/$tool"
+done
+printf '#!%s\necho 1000\n' "$(command -v bash)" >"$bin/id"
+chmod +x "$bin/id"
+wrong=0
+
+# looks CODE LINES-OF-STDERR ARGUMENTS...
+looks() {
+    local code=$1 lines=$2 status=0
+    shift 2
+    env -i PATH="$bin" bash "$LJUS_ROOT/scripts/install-packages" "$@" \
+        >"$scratch/out" 2>"$scratch/err" || status=$?
+    if [ $status -ne "$code" ] || [ "$(wc -l <"$scratch/err")" -ne "$lines" ]; then
+        echo "WRONG: install-packages $*: exit code $status for $code, and said:"
+        cat "$scratch/out" "$scratch/err"
+        wrong=1
+    fi
+}
+looks 1 1 test
+grep -q 'sudo apt-get install g++ cmake ' "$scratch/out" || { echo "WRONG: no line to type"; wrong=1; }
+looks 1 1 --no-install test
+grep -q 'there is no C++ compiler; install g++, or set CXX\.$' "$scratch/err" || { echo "WRONG: no sentence"; wrong=1; }
+looks 2 1 nonsense
+for tool in c++ cmake make; do printf '#!%s\nexit 1\n' "$(command -v bash)" >"$bin/$tool"; done
+chmod +x "$bin"/*
+looks 0 0 test
+looks 0 0 book ci
+looks 0 0 --no-install test
+[ ! -s "$scratch/out" ] || { echo "WRONG: it speaks though it only looks"; wrong=1; }
+# Who is root but has no network is told so, and goes on with what is there.
+printf '#!%s\necho 0\n' "$(command -v bash)" >"$bin/id"
+printf '#!%s\nexit 100\n' "$(command -v bash)" >"$bin/apt-get"
+chmod +x "$bin/apt-get"
+looks 0 1 test
+grep -q 'apt-get could not install' "$scratch/err" || { echo "WRONG: apt-get failed in silence"; wrong=1; }
+[ $wrong -eq 0 ] && echo "install-packages says what is missing"
+exit $wrong

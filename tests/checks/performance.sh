@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# The instructions of benchmarks/guard.cpp, counted by callgrind, beside those of
+# benchmarks/guard.csv: what needs more than 5 % more fails, and so does a fast twin whose
+# ratio to its plain one is more than 5 % less. Counts do not depend on what else runs on
+# the machine, but on the compiler: with another one than the file names it is skipped.
+#
+#     ctest --test-dir build/dev -C performance -R performance
+#     LJUS_GUARD_WRITE=1 ctest ...      writes the file anew
+. "$(dirname "$0")/common.sh"
+table=$LJUS_ROOT/benchmarks/guard.csv
+flags="-O2"
+
+command -v valgrind >/dev/null || skip "valgrind is not installed."
+# Without its first word, the name by which the compiler was called.
+conditions="# $("$LJUS_CXX" --version | sed -n '1s/^[^ ]* //p'), $flags, $(valgrind --version), $(uname -m)"
+if [ -z "${LJUS_GUARD_WRITE:-}" ] && [ "$(head -n 1 "$table")" != "$conditions" ]; then
+    echo "the table: $(head -n 1 "$table")"
+    echo "here:      $conditions"
+    skip "$table was counted under other conditions."
+fi
+
+# shellcheck disable=SC2086
+"$LJUS_CXX" -std=c++20 $flags ${LJUS_PACKAGE_FLAGS//;/ } -I"$include" \
+    "$LJUS_ROOT/benchmarks/guard.cpp" -o "$scratch/guard"
+LC_ALL=C valgrind --quiet --tool=callgrind --callgrind-out-file="$scratch/counted" \
+    --toggle-collect='guard_*' "$scratch/guard" >"$scratch/printed"
+# "2,813,004 (1.61%)  file:function": of each case with all that it calls, and of each
+# function by itself.
+count() { callgrind_annotate --threshold=100 "$@" "$scratch/counted" | tr -d ','; }
+count --inclusive=yes | awk '$1 ~ /^[0-9]+$/ && match($0, /:guard_[a-z0-9_]+/) {
+    name = substr($0, RSTART + 7, RLENGTH - 7)
+    if ($1 > most[name]) most[name] = $1 }
+    END { for (name in most) print name "," most[name] }' | sort >"$scratch/cases"
+# A fast twin by its ratio, plain over fast.
+awk -F, '{ count[$1] = $2 }
+    END { for (name in count) if (name "_plain" in count)
+              printf "%s plain/fast,%.4f\n", name, count[name "_plain"] / count[name] }' \
+    "$scratch/cases" | sort >"$scratch/ratios"
+{ echo "$conditions"; cat "$scratch/cases" "$scratch/ratios"; } >"$scratch/now"
+[ "$(wc -l <"$scratch/now")" -gt 20 ] || { cat "$scratch/now"; echo "too few cases"; exit 1; }
+
+if [ -n "${LJUS_GUARD_WRITE:-}" ]; then
+    cp "$scratch/now" "$table"
+    echo "$table is written"
+    exit 0
+fi
+awk -F, 'FNR == 1 { next }
+    NR == FNR { before[$1] = $2; next }
+    !($1 in before) { print "WRONG: " $1 " is not in the table"; wrong = 1; next }
+    { seen[$1] = 1
+      ratio = $1 ~ / / ? before[$1] / $2 : $2 / before[$1]
+      note = ratio > 1.05 ? "WRONG" : ratio < 0.95 ? "better: write the table anew" : ""
+      if (ratio > 1.05) wrong = 1
+      printf "%-28s %14s %14s  %+6.1f %%  %s\n", $1, before[$1], $2, 100 * (ratio - 1), note }
+    END { for (name in before) if (!(name in seen)) {
+              print "WRONG: " name " was not counted"; wrong = 1 }
+          exit wrong }' "$table" "$scratch/now" || {
+    echo "The functions of these cases that take most by themselves:"
+    count | awk '$1 ~ /^[0-9]+$/ && ++n <= 12 { print substr($0, 1, 160) }'
+    exit 1
+}
