@@ -31,6 +31,7 @@ struct Plot {
     bool log_x = false;               ///< Logarithmic x axis.
     bool log_y = false;               ///< Logarithmic y axis.
     std::string more = {}; ///< Further lines for gnuplot, e.g. "set key left".
+    std::vector<std::string> notes{}; ///< Lines at the top of the data: how measured.
 };
 
 /// A table: text or numbers, shown as they are given.
@@ -38,6 +39,7 @@ struct Table {
     std::string name;                             ///< Of the files.
     std::vector<std::string> columns;             ///< Headings.
     std::vector<std::vector<std::string>> rows{}; ///< Cells.
+    std::vector<std::string> notes{};             ///< As those of a plot.
 };
 
 /// A number as short as it may be: "%.4g", or nothing for NaN.
@@ -77,11 +79,22 @@ inline void save_text(const std::string& path, const std::string& contents) {
     return line + '\n';
 }
 
+/// The first lines of a CSV file: notes, each after a #, and the headings.
+/// \param notes     How the numbers were measured.
+/// \param headings  Of the columns.
+/// \return The lines.
+[[nodiscard]] inline std::string csv_head(const std::vector<std::string>& notes,
+                                          const std::vector<std::string>& headings) {
+    std::string head;
+    for (const std::string& note : notes) head += "# " + note + "\n";
+    return head + csv_line(headings);
+}
+
 /// Saves the data of a plot as NAME.csv and its instructions as NAME.gp.
 /// \param folder  Where to; it exists.
 /// \param plot    The plot.
 inline void save_plot(const std::string& folder, const Plot& plot) {
-    std::string csv = csv_line(plot.columns);
+    std::string csv = csv_head(plot.notes, plot.columns);
     for (const Row& row : plot.rows) {
         std::vector<std::string> cells;
         for (const double value : row) cells.push_back(text(value, "%.9g"));
@@ -131,7 +144,7 @@ inline void save_plot(const std::string& folder, const Plot& plot) {
 /// \param folder  Where to; it exists.
 /// \param table   The table.
 inline void save_table(const std::string& folder, const Table& table) {
-    std::string csv = csv_line(table.columns);
+    std::string csv = csv_head(table.notes, table.columns);
     std::string html =
         "<table class=\"markdownTable ljus-table\">\n<tr class=\"markdownTableHead\">";
     const auto escaped = [](const std::string& cell) {
