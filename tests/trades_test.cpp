@@ -177,7 +177,7 @@ TEST_CASE("trades: a picture for an error stops when it is there") {
         (void)keep(room.scene, room.camera, {.width = 4, .height = 4, .threads = 1},
                    Promise{.error = 1e-9}, Clock{&time}, true, nobody),
         doctest::Contains(
-            "--error is 1e-09; the least bias of all settings is 0.0022 here"),
+            "--error is 1e-09; the least bias of all settings is 0.00067 here"),
         std::invalid_argument);
 }
 

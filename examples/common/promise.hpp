@@ -35,13 +35,13 @@ struct Recipe {
 [[nodiscard]] inline std::vector<Recipe> recipes(int width, int height) {
     using enum ljus::Preset;
     std::vector<Recipe> all{
-        {"draft", preset_settings(draft, width, height), 1, 0, 0.02},
-        {"fast", preset_settings(fast, width, height), 2, 8, 0.005},
+        {"draft", preset_settings(draft, width, height), 1, 0, 0.005},
+        {"fast", preset_settings(fast, width, height), 2, 8, 0.003},
         {"exact", preset_settings(exact, width, height), 4, 0}};
     const long long pixels = static_cast<long long>(width) * height;
     const long long photons = std::clamp(2 * pixels, 20'000LL, 2'000'000LL);
     all[2].settings.caustics.photons = photons;
-    all[2].bias = 1e-3 * std::sqrt(1e5 / double(photons));
+    all[2].bias = 3e-4 * std::sqrt(1e5 / double(photons));
     return all;
 }
 
