@@ -225,35 +225,43 @@ struct Request {
 
 // --- Promises, and equal time --------------------------------------------------------
 
-/// Promises some seconds, and two errors: were they kept?
+/// Promises some seconds, and two errors, three times each: were they kept?
 template <typename Room>
 void promises(const std::string& name, const Room& room, const examples::Oracle& oracle,
               const examples::Options& options, examples::Table& table,
               std::vector<examples::Claim>& claims) {
+    constexpr int runs = 3;
     const double seconds = options.pick(0.6, 3.0, 10.0);
     for (const examples::Promise& promise :
          {examples::Promise{.seconds = seconds}, {.error = 0.03}, {.error = 0.01}}) {
-        const double begin = examples::processor_seconds();
-        const auto kept = keep(
-            room.scene, room.camera,
-            {.width = oracle.truth.width,
-             .height = oracle.truth.height,
-             .seed = options.seed,
-             .threads = options.threads},
-            promise, [begin] { return examples::processor_seconds() - begin; },
-            options.quiet, [](const auto&) {});
-        const double error = rel_mse(kept.rendered.image, oracle.truth) - oracle.noise;
         const bool timed = promise.seconds > 0;
+        double took = 0, noise = 0, estimate = 0, error = 0;
+        std::string chosen, pictures;
+        for (int run = 0; run < runs; ++run) {
+            const double begin = examples::processor_seconds();
+            const auto kept = keep(
+                room.scene, room.camera,
+                {.width = oracle.truth.width,
+                 .height = oracle.truth.height,
+                 .seed = options.seed + std::uint64_t(run),
+                 .threads = options.threads},
+                promise, [begin] { return examples::processor_seconds() - begin; },
+                options.quiet, [](const auto&) {});
+            chosen += (run > 0 ? " / " : "") + kept.recipe.name;
+            pictures += (run > 0 ? " / " : "") + std::to_string(kept.pictures);
+            took += kept.seconds / runs;
+            noise += kept.noise / runs;
+            estimate += kept.error() / runs;
+            error += (rel_mse(kept.rendered.image, oracle.truth) - oracle.noise) / runs;
+        }
         table.rows.push_back({name, timed ? text(seconds) + " s" : text(promise.error),
-                              kept.recipe.name, std::to_string(kept.pictures),
-                              text(kept.seconds, "%.2f"), text(kept.noise, "%.2g"),
-                              text(kept.error() - kept.noise, "%.2g"),
-                              text(kept.error(), "%.2g"), text(error, "%.2g")});
+                              chosen, pictures, text(took, "%.2f"), text(noise, "%.2g"),
+                              text(estimate, "%.2g"), text(error, "%.2g")});
         claims.push_back(
-            {timed ? "the seconds are kept, as a share of those promised"
-                   : "the error " + text(promise.error) + " is kept, as a share of it",
-             name, timed ? kept.seconds / seconds : error / promise.error,
-             timed ? 0.8 : 0, 1.2});
+            {timed ? "the seconds are kept: their part of those promised"
+                   : "the error " + text(promise.error) + " is kept: its part of it",
+             name, timed ? took / seconds : error / promise.error, timed ? 0.8 : 0,
+             1.2});
     }
 }
 
@@ -291,7 +299,7 @@ struct Findings {
         .columns = {"room", "rays a pixel", "its own relMSE", "of blocks"}};
     examples::Table promises{.name = "trades-promises",
                              .columns = {"room", "promised", "chosen", "pictures",
-                                         "took, s", "noise", "bias", "its estimate",
+                                         "took, s", "noise", "its estimate",
                                          "measured relMSE"}};
     std::vector<examples::Claim> claims{}; ///< Of promises.
 };

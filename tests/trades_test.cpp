@@ -61,21 +61,21 @@ TEST_CASE("trades: seconds that nothing fits get the quickest way") {
 }
 
 TEST_CASE("trades: an error is reached by the quickest way whose bias allows it") {
-    // 0.03: one picture of the first has 0.03, but two are needed to know: 0.2 s.
-    const Choice rough = choose(ways, Promise{.error = 0.03});
+    // 0.031: one picture of the first has 0.03, but two are needed to know: 0.2 s.
+    const Choice rough = choose(ways, Promise{.error = 0.031});
     CHECK(rough.recipe == 0);
     CHECK(rough.pictures == 2);
-    // 0.012: the first could, by 10 pictures, but its bias is more than half of that.
-    const Choice fine = choose(ways, Promise{.error = 0.012});
+    // 0.0125: the first could, by 10 pictures, but its bias is more than half of that.
+    const Choice fine = choose(ways, Promise{.error = 0.0125});
     CHECK(fine.recipe == 1);
     CHECK(fine.pictures == 2);
     CHECK(fine.possible);
-    // 0.001: only the one without bias, by 40 pictures.
+    // 0.001: only the one without bias, by 42 pictures: 0.04 (1 + 2/42) / 42.
     const Choice finest = choose(ways, Promise{.error = 0.001});
     CHECK(finest.recipe == 2);
-    CHECK(finest.pictures == 40);
-    CHECK(finest.seconds == doctest::Approx(80));
-    CHECK(finest.error == doctest::Approx(0.001));
+    CHECK(finest.pictures == 42);
+    CHECK(finest.seconds == doctest::Approx(84));
+    CHECK(finest.error == doctest::Approx(0.04 / 42));
 }
 
 TEST_CASE("trades: an error below every bias cannot be reached") {
@@ -87,7 +87,7 @@ TEST_CASE("trades: an error below every bias cannot be reached") {
     const Choice close = choose(biased, Promise{.error = 0.003});
     CHECK_FALSE(close.possible);
     CHECK(close.recipe == 1);
-    CHECK(close.pictures == 10);
+    CHECK(close.pictures == 12);
     const Choice for_ever = choose({{1, 1e30, 0}}, Promise{.error = 1e-9});
     CHECK(for_ever.pictures == 1'000'000'000'000);
 }

@@ -18,7 +18,8 @@
 
 namespace examples {
 
-/// One line of a plot or table: a number a column; NaN leaves the cell empty.
+/// One line of a plot or table: a number a column; NaN leaves the cell empty, and a row
+/// without numbers interrupts the curves of a plot.
 using Row = std::vector<double>;
 
 /// A plot: the first column is x, each further one a curve named by its heading (without
@@ -98,7 +99,10 @@ inline void save_plot(const std::string& folder, const Plot& plot) {
     for (const Row& row : plot.rows) {
         std::vector<std::string> cells;
         for (const double value : row) cells.push_back(text(value, "%.9g"));
-        csv += csv_line(cells);
+        if (!row.empty())
+            csv += csv_line(cells);
+        else if (!csv.ends_with("\n\n")) // two would begin another set of data
+            csv += "\n";
     }
     save_text(folder + "/" + plot.name + ".csv", csv);
 
@@ -127,8 +131,9 @@ inline void save_plot(const std::string& folder, const Plot& plot) {
     std::string curves;
     for (std::size_t column = 1; column < plot.columns.size(); ++column) {
         const bool empty =
-            std::all_of(plot.rows.begin(), plot.rows.end(),
-                        [column](const Row& row) { return std::isnan(row[column]); });
+            std::all_of(plot.rows.begin(), plot.rows.end(), [column](const Row& row) {
+                return row.empty() || std::isnan(row[column]);
+            });
         if (empty) continue; // e.g. an error of 0 everywhere, on a logarithmic axis
         const std::string number = std::to_string(column + 1);
         curves += (curves.empty() ? "\nplot '" : ", '") + plot.name +

@@ -58,6 +58,18 @@ struct Promise {
     double error = 0;   ///< relMSE; 0: as small as the seconds allow.
 };
 
+/// By how many pictures an error is reached.
+///
+/// n pictures have the noise v / n, and know it badly if they are few: 2/n of it is
+/// added, so that v (1 + 2/n) / n must fall to what the bias leaves.
+/// \param noise  v, of one picture.
+/// \param spare  The error less the bias, above 0.
+/// \return A whole number, at least 2.
+[[nodiscard]] inline double pictures_for(double noise, double spare) {
+    const double a = noise / spare;
+    return std::max(2.0, std::ceil((a + std::sqrt(a * a + 8 * a)) / 2));
+}
+
 /// What is to be done for a promise.
 struct Choice {
     std::size_t recipe = 0; ///< Its number.
@@ -87,8 +99,7 @@ struct Choice {
         bool possible = true;
         if (promise.error > 0) {
             possible = bias <= promise.error / 2;
-            if (bias < promise.error)
-                n = std::max(2.0, std::ceil(noise / (promise.error - bias)));
+            if (bias < promise.error) n = pictures_for(noise, promise.error - bias);
             worth = possible ? n * seconds : bias;
             of_best = best.possible ? best.seconds : found[best.recipe].bias;
         } else {
@@ -147,8 +158,7 @@ struct Choice {
             others += " never gets there";
         else
             others += " " +
-                      two_digits(std::max(2.0, std::ceil(other.noise / spare)) *
-                                 other.seconds) +
+                      two_digits(pictures_for(other.noise, spare) * other.seconds) +
                       " s, with a bias of " + two_digits(other.bias);
     }
     if (others.empty()) return text + "There was no time to try another.";

@@ -211,8 +211,9 @@ template <ljus::SceneLike S, template <std::floating_point> typename AnyCamera,
         kept.noise = relative_noise(state);
         kept.seconds = now();
         const double one = (kept.seconds - pilot_seconds) / double(kept.pictures);
+        const double unsure = 2 * kept.noise / double(kept.pictures);
         done = promise.seconds > 0 ? kept.seconds + one / 2 > promise.seconds
-                                   : kept.error() <= promise.error;
+                                   : kept.error() + unsure <= promise.error;
     }
     // [keep]
     kept.rendered.image = ljus::mean_image<T>(state);

@@ -41,13 +41,17 @@ inline void save_knob(const std::string& folder, const Notebook& notebook,
                  text(m.error(), "%.2g"), text(m.bias, "%.2g"), text(m.noise, "%.2g"),
                  m.maps > 0 ? text(m.maps, "%.2g") : "", text(m.block, "%.2g"),
                  text(m.trimmed, "%.2g"), text(m.flip, "%.3f")});
-        for (const Measured& m : lines) {
-            Row row(scenes.size() + 1, nothing);
-            row[0] = m.seconds;
-            row[s + 1] = m.error();
-            plot.rows.push_back(row);
+        for (const bool paths : {false, true}) {
+            for (const Measured& m : lines) {
+                if ((m.value.rfind("paths", 0) == 0) != paths) continue;
+                Row row(scenes.size() + 1, nothing);
+                row[0] = m.seconds;
+                row[s + 1] = m.error();
+                plot.rows.push_back(row);
+                if (m.x == 0) plot.rows.push_back({});
+            }
+            plot.rows.push_back({}); // no line between words, rooms, algorithms
         }
-        plot.rows.push_back(Row(scenes.size() + 1, nothing)); // no line between rooms
     }
     if (table.rows.empty()) return;
     save_plot(folder, plot);
@@ -69,7 +73,8 @@ inline std::string half_text(const std::vector<Measured>& lines) {
         if (half == nullptr || less(m, *half)) half = &m;
     }
     const auto words = [&](const Measured& m) {
-        return "× " + text(m.error() / best->error(), "%.2g") + " (" + best->value +
+        const double factor = m.error() / best->error();
+        return "× " + text(factor, factor < 10 ? "%.2g" : "%.0f") + " (" + best->value +
                " → " + m.value + ")";
     };
     if (half != nullptr) return words(*half);
@@ -99,22 +104,24 @@ inline void save_front(const std::string& folder, const Notebook& notebook,
               .y_label = "relMSE",
               .log_x = true,
               .log_y = true,
-              .more = "set style data points\n",
               .notes = table.notes};
+    std::vector<Row> front;
     double best = std::numeric_limits<double>::infinity();
     for (const Measured& m : all) {
         const bool paths = m.value.rfind("paths", 0) == 0;
         const bool better = m.error() < best;
         plot.rows.push_back({m.seconds, paths ? nothing : m.error(),
-                             paths ? m.error() : nothing,
-                             better ? m.error() : nothing});
+                             paths ? m.error() : nothing, nothing});
+        plot.rows.push_back({}); // dots
         if (!better) continue;
+        front.push_back({m.seconds, nothing, nothing, m.error()});
         best = m.error();
         table.rows.push_back({text(m.seconds, "%.3g"), text(m.error(), "%.2g"),
                               text(m.bias, "%.2g"), text(m.block, "%.2g"),
                               text(m.trimmed, "%.2g"), text(m.flip, "%.3f"),
                               text(m.megabytes, "%.3g"), m.knob, m.value});
     }
+    plot.rows.insert(plot.rows.end(), front.begin(), front.end());
     plot.name += "-plot"; // its data are not those of the table
     save_table(folder, table);
     save_plot(folder, plot);
