@@ -3,7 +3,9 @@
 /// \file examples/common/claims.hpp
 /// \brief What chapter 35 says of the trades, as numbers that a sweep is judged by.
 
+#include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -46,7 +48,6 @@ struct Claim {
 /// ratios are those of two settings.
 /// \param notebook  The sweep.
 /// \return Each claim in each room.
-// [claims]
 [[nodiscard]] inline std::vector<Claim> judge(const Notebook& notebook) {
     constexpr double far = std::numeric_limits<double>::infinity();
     std::vector<Claim> claims;
@@ -114,7 +115,6 @@ struct Claim {
     }
     return claims;
 }
-// [claims]
 
 /// Saves the claims as trades-claims.csv and .html.
 /// \param folder      Where to.

@@ -193,12 +193,10 @@ struct Choice {
 /// The noise of the mean of some pictures, by their scatter, as part of relMSE.
 /// \param state  The pictures, of different seeds, by ljus::add_pass() with alpha 1.
 /// \return Infinity for less than two.
-// [noise]
 [[nodiscard]] inline double relative_noise(const ljus::ProgressiveState& state) {
     if (state.passes < 2) return std::numeric_limits<double>::infinity();
     const double n = double(state.passes);
     return relative(state.squares, ljus::mean_image<double>(state)) / (n * (n - 1));
 }
-// [noise]
 
 } // namespace examples

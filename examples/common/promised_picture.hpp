@@ -3,8 +3,11 @@
 /// \file examples/common/promised_picture.hpp
 /// \brief The picture that a promise of seconds or of error is kept by.
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
+#include <stdexcept>
 
 #include "clock.hpp"
 #include "ljus/inspect/survey.hpp"

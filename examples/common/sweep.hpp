@@ -224,7 +224,6 @@ struct Measuring {
 /// \param oracle    The reference.
 /// \param how       Size, seeds, threads.
 /// \param notebook  Gets the line.
-// [measure]
 template <typename Room>
 void measure(const std::string& name, const Room& room, const Setting& setting,
              const Oracle& oracle, const Measuring& how, Notebook& notebook) {
@@ -251,6 +250,7 @@ void measure(const std::string& name, const Room& room, const Setting& setting,
     if (notebook.find(line)) return;
     std::vector<ljus::Image> runs, of_maps;
     std::vector<double> seconds, photons;
+    // [measure]
     for (int seed = 1; seed <= how.seeds; ++seed) {
         const auto seen = shot(how.size, seed, seed);
         seconds.push_back(seen.photons + seen.rest);
@@ -272,9 +272,9 @@ void measure(const std::string& name, const Room& room, const Setting& setting,
     line.noise = parts.variance;
     line.block = blocks.bias_squared + blocks.variance;
     if (setting.of_maps) line.maps = relative_split(of_maps, oracle.truth).variance;
+    // [measure]
     line.flip = flip(runs[0], oracle.truth);
     notebook.add(line);
 }
-// [measure]
 
 } // namespace examples

@@ -5,6 +5,7 @@
 /// error, and the settings that no other beats.
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
