@@ -75,8 +75,8 @@ inline std::string half_text(const std::vector<Measured>& lines) {
     }
     const auto words = [&](const Measured& m) {
         const double factor = m.error() / best->error();
-        return "× " + text(factor, factor < 10 ? "%.2g" : "%.0f") + " (" + best->value +
-               " → " + m.value + ")";
+        const std::string times = text(factor, factor < 10 ? "%.2g" : "%.0f");
+        return "× " + times + " (" + best->value + " → " + m.value + ")";
     };
     if (half != nullptr) return words(*half);
     const double saved = 1 - fastest->seconds / best->seconds;
