@@ -1,351 +1,347 @@
-// smoke: --quality draft --truth 32 --size 12 --seeds 2 --only radius
+// smoke: --quality draft --seeds 2 --only radius
 /// \file 35_trades.cpp
-/// \brief Every knob of the photon mapper, turned: error against time and memory, and
-/// the Pareto front of all settings.
+/// \brief Chapter 35: every knob of the photon mapper, turned. Error against time and
+/// memory, what half of the time costs, and the settings that no other beats.
 ///
-/// Each setting that is done is a line of trades.csv; what is there is not done again,
+/// Each setting that is done is a line of trades.json; what is there is not done again,
 /// so that a run can be stopped and gone on with. ./scripts/trades builds and runs it.
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <limits>
-#include <map>
-#include <string>
-#include <vector>
+#include <set>
 
-#include <ljus/image/flip.hpp>
 #include <ljus/ljus.hpp>
+#include <ljus/scenes/cornell_box.hpp>
 #include <ljus/scenes/report_rooms.hpp>
 
-#include "common/clock.hpp"
+#include "common/claims.hpp"
 #include "common/command_line.hpp"
-#include "common/oracle.hpp"
-#include "common/plot.hpp"
+#include "common/sweep.hpp"
+#include "common/trade_tables.hpp"
 
 using namespace ljus;
 
 namespace {
 
+using examples::Setting;
 using examples::text;
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+// --- The rooms -----------------------------------------------------------------------
+
+/// The Cornell box with a mirror ball and a glass ball.
+template <std::floating_point T>
+auto make_cornell() {
+    return cornell_box<T>();
+}
+
+/// A ball of glass in a closed grey room, below a small lamp: most of what is bright is
+/// one caustic.
+template <std::floating_point T>
+auto make_caustic() {
+    Room<CornellSceneT<T>> room;
+    auto& scene = room.scene;
+    const auto white = scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0.5)}});
+    const Vec3T<T> corner{T(-1), T(0), T(-1)}, x{T(2), T(0), T(0)}, y{T(0), T(2), T(0)},
+        z{T(0), T(0), T(4)};
+    scene.add(QuadT<T>{corner, z, x}, white);     // floor
+    scene.add(QuadT<T>{corner + y, x, z}, white); // ceiling
+    scene.add(QuadT<T>{corner, x, y}, white);     // back
+    scene.add(QuadT<T>{corner + z, y, x}, white); // front
+    scene.add(QuadT<T>{corner, y, z}, white);     // left
+    scene.add(QuadT<T>{corner + x, z, y}, white); // right
+    scene.add(QuadT<T>{.corner{T(-0.7), T(1.98), T(-0.6)},
+                       .edge_u{T(0.3), T(0), T(0)},
+                       .edge_v{T(0), T(0), T(0.3)}},
+              scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0)}}), RgbT<T>{T(50)});
+    scene.add(SphereT<T>{.center{T(0), T(0.5), T(0)}, .radius = T(0.35)},
+              scene.add(GlassT<T>{.index = T(1.5)}));
+    room.camera = look_at(ViewT<T>{.position{T(0), T(1.3), T(2.8)},
+                                   .target{T(0.1), T(0.25), T(0)},
+                                   .up{T(0), T(1), T(0)},
+                                   .vfov_degrees = T(36)});
+    return room;
+}
+
+/// The report's room of figures 11 and 13.
+template <std::floating_point T>
+auto make_report() {
+    return four_glass_room<T>();
+}
+
+// --- The knobs -----------------------------------------------------------------------
+
+/// In the order of the chapter.
+const std::vector<std::string> knobs{
+    "preset",   "rays",        "sampling",    "shadow-rays",  "direct",
+    "glass",    "depth",       "roulette",    "photons",      "radius",
+    "nearest",  "kernel",      "numbers",     "budget",       "skip",
+    "indirect", "gather-rays", "gather-tile", "gather-reach", "irradiance-every",
+    "precision"};
+
+/// The settings of one knob, around a middle.
+/// \param knob  Which.
+/// \param unit  Half of the room's width, which radii are told in.
+/// \param size  Of the pictures.
+/// \param full  Farther than in a draft.
+std::vector<Setting> settings_of(const std::string& knob, float unit, int size,
+                                 bool full) {
+    Setting middle{.knob = knob};
+    middle.recipe.rays = full ? 16 : 4;
+    auto& s = middle.recipe.settings;
+    s = preset_settings(Preset::exact, size, size);
+    s.caustics.photons = s.general.photons = full ? 30000 : 10000;
+    s.caustics_estimate.radius = 0.05f * unit;
+    s.general_estimate.radius = 0.15f * unit;
+    std::vector<Setting> all;
+    const auto add = [&](const std::string& value, double x, auto change) {
+        all.push_back(middle);
+        all.back().value = value;
+        all.back().x = x;
+        change(all.back(), all.back().recipe.settings);
+    };
+    const auto counts = [&](std::initializer_list<int> values, auto change) {
+        for (const int n : values)
+            add(std::to_string(n), n,
+                [&](Setting& one, PhotonMappingSettings& how) { change(one, how, n); });
+    };
+    const auto words = [&](const std::vector<std::string>& values, auto change) {
+        for (std::size_t i = 0; i < values.size(); ++i)
+            add(values[i], 0, [&](Setting& one, PhotonMappingSettings& how) {
+                change(one, how, static_cast<int>(i));
+            });
+    };
+    const auto cached = [&] { // what gathers needs precomputed irradiance
+        middle.recipe = examples::recipes(size, size)[1];
+        middle.recipe.more = 0;
+        s.general.photons = full ? 60000 : 20000;
+    };
+    if (knob == "preset") {
+        for (const auto& recipe : examples::recipes(size, size))
+            add(recipe.name, 0, [&](Setting& one, auto&) { one.recipe = recipe; });
+        words({"paths", "report"}, [&](Setting& one, auto& how, int report) {
+            one.paths = report == 0;
+            if (one.paths) return;
+            how = {.max_depth = 4, .roulette_depth = 5};
+            how.caustics.photons = full ? 100000 : 10000;
+            how.caustics_estimate.radius = 0.01f * unit;
+        });
+    }
+    if (knob == "rays")
+        for (const int n : full ? std::vector{1, 4, 16, 64} : std::vector{1, 4, 16}) {
+            counts({n}, [](Setting& one, auto&, int rays) { one.recipe.rays = rays; });
+            add("paths " + std::to_string(n), n, [n](Setting& one, auto&) {
+                one.recipe.rays = n;
+                one.paths = true;
+            });
+        }
+    if (knob == "sampling")
+        words({"random", "jittered", "multi-jittered", "sobol"},
+              [](Setting& one, auto&, int i) { one.sampling = Sampling(i); });
+    if (knob == "shadow-rays")
+        counts({1, 2, 4, 9}, [](Setting&, auto& how, int n) { how.shadow_rays = n; });
+    if (knob == "direct")
+        words({"sampled", "analytic", "mis"},
+              [](Setting&, auto& how, int i) { how.direct = DirectLight(i); });
+    if (knob == "glass")
+        words({"one way", "both ways"},
+              [](Setting&, auto& how, int i) { how.split_glass = i == 1; });
+    if (knob == "depth")
+        counts({1, 2, 3, 4, 6, 8}, [](Setting&, auto& how, int depth) {
+            how.max_depth = depth;
+            how.roulette_depth = depth + 1;
+        });
+    if (knob == "roulette")
+        counts({1, 2, 4, 8, 16},
+               [](Setting&, auto& how, int from) { how.roulette_depth = from; });
+    middle.of_maps = true; // from here on the knobs turn photons
+    if (knob == "photons")
+        for (const int n : {1000, 10000, 100000, 300000})
+            if (full || n <= 100000)
+                counts({n},
+                       [](Setting&, auto& how, int i) { how.caustics.photons = i; });
+    if (knob == "radius")
+        for (const float r : {0.0125f, 0.025f, 0.05f, 0.1f, 0.2f, 0.4f})
+            add(text(double(r)), double(r),
+                [&](Setting&, auto& how) { how.caustics_estimate.radius = r * unit; });
+    if (knob == "nearest") {
+        s.caustics_estimate.radius = unit;
+        counts({4, 16, 64, 256}, [](Setting&, auto& how, int k) {
+            how.caustics_estimate.nearest = std::size_t(k);
+        });
+    }
+    if (knob == "kernel")
+        words({"box", "cone", "gaussian", "epanechnikov", "biweight"},
+              [](Setting&, auto& how, int i) {
+                  how.caustics_estimate.kernel = Kernel(i);
+              });
+    if (knob == "numbers")
+        words({"random", "sobol"}, [](Setting&, auto& how, int i) {
+            how.caustics.numbers = PhotonSampling(i);
+        });
+    if (knob == "budget")
+        words(
+            {"as seen", "equal", "flux", "area", "brightness"},
+            [](Setting&, auto& how, int i) { how.caustic_budget = CausticBudget(i); });
+    middle.of_maps = false;
+    if (knob == "skip") {
+        s.direct = DirectLight::sampled;
+        s.general.photons = full ? 300000 : 30000;
+        words({"none", "report", "any", "enough"},
+              [](Setting&, auto& how, int i) { how.skip.rule = SkipRule(i); });
+    }
+    if (knob == "indirect") {
+        s.general.photons = full ? 60000 : 20000;
+        words({"rays", "map", "photons", "gather", "cache", "none"},
+              [](Setting&, auto& how, int i) { how.indirect = IndirectLight(i); });
+    }
+    if (knob.rfind("gather", 0) == 0 || knob == "irradiance-every") cached();
+    if (knob == "gather-rays")
+        counts({4, 9, 25, 64}, [](Setting&, auto& how, int n) { how.gather.rays = n; });
+    if (knob == "gather-tile")
+        counts({1, 2, 3, 5, 8},
+               [](Setting&, auto& how, int n) { how.gather.tile = n; });
+    if (knob == "gather-reach")
+        for (const float a : {0.125f, 0.25f, 0.5f, 1.0f, 2.0f})
+            add(text(double(a)), double(a),
+                [&](Setting&, auto& how) { how.gather.reach = a; });
+    if (knob == "irradiance-every")
+        counts({1, 4, 16, 64},
+               [](Setting&, auto& how, int n) { how.irradiance.every = n; });
+    if (knob == "precision")
+        words({"float", "double"},
+              [](Setting& one, auto&, int i) { one.in_double = i == 1; });
+    return all;
+}
 
 /// What the user may set besides the common options.
 struct Request {
     std::string only = "all"; ///< A knob.
-    int size = 0;             ///< Side of the pictures.
-    int seeds = 0;            ///< Runs of each setting.
-    int truth = 0;            ///< Rays a pixel of the reference.
+    int size = 40;            ///< Side of the pictures.
+    int seeds = 0;            ///< Pictures by each setting.
+    int truth = 0;            ///< Rays a pixel of the references.
     bool references = false;  ///< Only those.
+    bool check = false;       ///< Fail if a claim of the book does not hold.
 };
 
-/// One setting of everything.
-struct Setting {
-    std::string knob{};              ///< What is turned.
-    std::string value{};             ///< How far; "paths" is the path tracer.
-    int rays = 16;                   ///< A pixel.
-    PhotonMappingSettings photons{}; ///< All else.
-};
+// --- Promises, and equal time --------------------------------------------------------
 
-const std::vector<std::string> knobs{"rays",     "depth",  "photons",     "radius",
-                                     "nearest",  "kernel", "shadow rays", "indirect",
-                                     "roulette", "glass"};
-
-/// The settings of one knob, around a middle.
-std::vector<Setting> settings_of(const std::string& knob, bool quick) {
-    Setting middle{.knob = knob, .value = {}, .rays = 16, .photons = {}};
-    middle.photons.caustics.photons = 30000;
-    middle.photons.general.photons = 30000;
-    middle.photons.caustics_estimate.radius = 0.1f;
-    std::vector<Setting> all;
-    const auto add = [&](const std::string& value, auto change) {
-        all.push_back(middle);
-        all.back().value = value;
-        change(all.back());
-    };
-    if (knob == "rays")
-        for (int n = 1; n <= (quick ? 64 : 1024); n *= 4) {
-            add(std::to_string(n), [n](Setting& s) { s.rays = n; });
-            add("paths " + std::to_string(n), [n](Setting& s) { s.rays = n; });
+/// Promises some seconds, and two errors, three times each: were they kept?
+template <typename Room>
+void promises(const std::string& name, const Room& room, const examples::Oracle& oracle,
+              const examples::Options& options, examples::Table& table,
+              std::vector<examples::Claim>& claims) {
+    constexpr int runs = 3;
+    const double seconds = options.pick(0.6, 3.0, 10.0);
+    for (const examples::Promise& promise :
+         {examples::Promise{.seconds = seconds}, {.error = 0.03}, {.error = 0.01}}) {
+        const bool timed = promise.seconds > 0;
+        double took = 0, noise = 0, estimate = 0, error = 0;
+        std::string chosen, pictures;
+        for (int run = 0; run < runs; ++run) {
+            const double begin = examples::processor_seconds();
+            const auto kept = keep(
+                room.scene, room.camera,
+                {.width = oracle.truth.width,
+                 .height = oracle.truth.height,
+                 .seed = options.seed + std::uint64_t(run),
+                 .threads = options.threads},
+                promise, [begin] { return examples::processor_seconds() - begin; },
+                options.quiet, [](const auto&) {});
+            chosen += (run > 0 ? " / " : "") + kept.recipe.name;
+            pictures += (run > 0 ? " / " : "") + std::to_string(kept.pictures);
+            took += kept.seconds / runs;
+            noise += kept.noise / runs;
+            estimate += kept.error() / runs;
+            error += (rel_mse(kept.rendered.image, oracle.truth) - oracle.noise) / runs;
         }
-    if (knob == "depth")
-        for (const int depth : {1, 2, 3, 4, 6, 8, 16})
-            add(std::to_string(depth), [depth](Setting& s) {
-                s.photons.max_depth = depth;
-                s.photons.roulette_depth = depth + 1;
-            });
-    if (knob == "photons")
-        for (long long n = 100; n <= (quick ? 100000 : 1000000); n *= 10)
-            add(std::to_string(n), [n](Setting& s) { s.photons.caustics.photons = n; });
-    if (knob == "radius")
-        for (const double r : {0.0125, 0.025, 0.05, 0.1, 0.2, 0.4})
-            add(text(r),
-                [r](Setting& s) { s.photons.caustics_estimate.radius = float(r); });
-    if (knob == "nearest")
-        for (const std::size_t k : {4u, 16u, 64u, 256u})
-            add(std::to_string(k),
-                [k](Setting& s) { s.photons.caustics_estimate.nearest = k; });
-    if (knob == "kernel") {
-        constexpr std::array names{"box", "cone", "gaussian", "epanechnikov",
-                                   "biweight"};
-        for (std::size_t k = 0; k < names.size(); ++k)
-            add(names[k], [k](Setting& s) {
-                s.photons.caustics_estimate.kernel = static_cast<Kernel>(k);
-            });
+        table.rows.push_back({name, timed ? text(seconds) + " s" : text(promise.error),
+                              chosen, pictures, text(took, "%.2f"), text(noise, "%.2g"),
+                              text(estimate, "%.2g"), text(error, "%.2g")});
+        claims.push_back(
+            {timed ? "the seconds are kept: their part of those promised"
+                   : "the error " + text(promise.error) + " is kept: its part of it",
+             name, timed ? took / seconds : error / promise.error, timed ? 0.8 : 0,
+             1.2});
     }
-    if (knob == "shadow rays")
-        for (const int n : {1, 2, 4, 8})
-            add(std::to_string(n), [n](Setting& s) { s.photons.shadow_rays = n; });
-    if (knob == "indirect")
-        for (const auto& [name, way] : {std::pair{"rays", IndirectLight::rays},
-                                        {"map", IndirectLight::map},
-                                        {"photons", IndirectLight::photons},
-                                        {"none", IndirectLight::none}}) {
-            const IndirectLight chosen = way;
-            add(name, [chosen](Setting& s) { s.photons.indirect = chosen; });
-        }
-    if (knob == "roulette")
-        for (const int from : {1, 2, 4, 8, 16})
-            add(std::to_string(from),
-                [from](Setting& s) { s.photons.roulette_depth = from; });
-    if (knob == "glass")
-        for (const bool split : {false, true})
-            add(split ? "both ways" : "one way",
-                [split](Setting& s) { s.photons.split_glass = split; });
-    return all;
 }
 
-/// What a setting brought: a line of the table.
-struct Result {
-    std::string scene{}; ///< Which room.
-    std::string knob{};  ///< What was turned.
-    std::string value{}; ///< How far.
-    double seconds = 0;  ///< Processor time of both passes, the median.
-    double bytes = 0;    ///< Of the maps.
-    double rays = 0;     ///< Traced for a pixel.
-    double rmse = 0;     ///< Mean over the seeds.
-    double bias = 0;     ///< bias² of relMSE.
-    double variance = 0; ///< Noise of relMSE.
-    double block = 0;    ///< Of the means of 10 x 10 pixels.
-    double trimmed = 0;  ///< Without the worst hundredth.
-    double flip = 0;     ///< Of the first seed.
-    std::string stamp{}; ///< Of all that decides it; see key().
-
-    [[nodiscard]] double error() const { return std::max(bias + variance, 1e-9); }
-};
-
-const std::vector<std::string> columns{"scene",   "knob", "value", "seconds", "bytes",
-                                       "rays",    "rmse", "bias2", "noise",   "blocks2",
-                                       "trimmed", "flip", "stamp"};
-
-std::vector<std::string> cells_of(const Result& r) {
-    std::vector<std::string> cells{r.scene, r.knob, r.value};
-    for (const double number : {r.seconds, r.bytes, r.rays, r.rmse, r.bias, r.variance,
-                                r.block, r.trimmed, r.flip})
-        cells.push_back(text(number, "%.6g"));
-    cells.push_back(r.stamp);
-    return cells;
+/// The same room after the same seconds, by whole ways to make a picture.
+template <typename Room>
+void panels(const Room& room, float unit, const examples::Options& options) {
+    const int size = options.pick(60, 200, 300);
+    const double seconds = options.pick(0.5, 5.0, 20.0);
+    for (const Setting& way : settings_of("preset", unit, size, true)) {
+        ProgressiveState state{.alpha = 1};
+        const double begin = examples::processor_seconds();
+        double took = 0;
+        do { // whole pictures, the last one by half
+            const auto seed = static_cast<std::uint64_t>(state.passes) + 1;
+            Setting one = way;
+            if (one.paths) one.recipe.rays = 1;
+            add_pass(state, shoot_setting(room, one,
+                                          {.width = size,
+                                           .height = size,
+                                           .seed = seed,
+                                           .threads = options.threads},
+                                          seed)
+                                .rendered.image);
+            examples::stop_if_asked();
+            took = examples::processor_seconds() - begin;
+        } while (took + took / double(state.passes) / 2 < seconds);
+        save_png(mean_image(state), options.path("trades-equal-" + way.value + ".png"));
+    }
 }
 
-/// The lines of a table that is there.
-std::vector<Result> read_results(const std::string& path) {
-    std::vector<Result> results;
-    if (!std::filesystem::exists(path)) return results;
-    const Bytes bytes = load_file(path, std::size_t(1) << 26);
-    std::string line;
-    std::vector<std::string> cells(1);
-    for (const unsigned char c : bytes) {
-        if (c != '\n') {
-            if (c == ',')
-                cells.emplace_back();
-            else
-                cells.back() += static_cast<char>(c);
-            continue;
-        }
-        if (cells.size() == columns.size() && cells[0] != "scene") {
-            const auto number = [&](std::size_t i) {
-                return std::strtod(cells[i].c_str(), nullptr);
-            };
-            results.push_back({cells[0], cells[1], cells[2], number(3), number(4),
-                               number(5), number(6), number(7), number(8), number(9),
-                               number(10), number(11), cells[12]});
-        }
-        cells.assign(1, {});
-    }
-    return results;
-}
-
-/// The program's notebook: what has been measured, on which machine.
-struct Notebook {
-    std::string path;            ///< trades.csv.
-    std::vector<Result> results; ///< In the order of measuring.
-
-    [[nodiscard]] const Result* find(const Result& wanted) const {
-        for (const Result& r : results)
-            if (r.scene == wanted.scene && r.knob == wanted.knob &&
-                r.value == wanted.value && r.stamp == wanted.stamp)
-                return &r;
-        return nullptr;
-    }
-    void add(const Result& result) {
-        results.push_back(result);
-        std::string csv = examples::csv_line(columns);
-        for (const Result& r : results) csv += examples::csv_line(cells_of(r));
-        examples::save_text(path, csv);
-    }
+/// What comes out besides the notebook.
+struct Findings {
+    examples::Table references{
+        .name = "trades-references",
+        .columns = {"room", "rays a pixel", "its own relMSE", "of blocks"}};
+    examples::Table promises{.name = "trades-promises",
+                             .columns = {"room", "promised", "chosen", "pictures",
+                                         "took, s", "noise", "its estimate",
+                                         "measured relMSE"}};
+    std::vector<examples::Claim> claims{}; ///< Of promises.
 };
 
 /// Measures all settings of one room.
-template <typename R>
-void measure(const std::string& name, const R& room, const examples::Options& options,
-             const Request& request, Notebook& notebook) {
-    const auto oracle =
-        examples::find_oracle(name, room, request.size, request.truth, options);
-    if (request.references) return;
-    const auto tracer = make_path_tracer(room.scene);
-    const bool quick = options.quality == examples::Quality::draft;
-    for (const std::string& knob : knobs) {
-        if (request.only != "all" && request.only != knob) continue;
-        for (const Setting& setting : settings_of(knob, quick)) {
-            const bool paths = setting.value.rfind("paths", 0) == 0;
-            Result result{.scene = name, .knob = knob, .value = setting.value};
-            std::vector<Image> runs;
-            std::vector<double> seconds;
-            const auto shoot = [&](std::uint64_t seed, int size) {
-                PhotonMappingSettings photons = setting.photons;
-                photons.caustics.seed = photons.general.seed = seed;
-                photons.caustics.threads = photons.general.threads = options.threads;
-                const RenderSettings picture{size, size, setting.rays, seed,
-                                             options.threads};
-                const double start = examples::processor_seconds();
-                PhotonMapsT<float> maps;
-                if (!paths) maps = make_photon_maps(room.scene, photons);
-                const auto seen =
-                    paths ? render(tracer, room.camera, picture)
-                          : render(make_photon_mapper(room.scene, maps, photons),
-                                   room.camera, picture);
-                seconds.push_back(examples::processor_seconds() - start);
-                result.bytes =
-                    double(maps.caustics.tree.bytes() + maps.caustics.records.bytes() +
-                           maps.general.tree.bytes() + maps.general.records.bytes());
-                result.rays = double(seen.counts.rays()) / size / size;
-                return seen.image;
-            };
-            // A small picture is the fingerprint: other code, other numbers, measured
-            // anew.
-            result.stamp =
-                examples::hex_text(examples::hash_of(shoot(1, 6).pixels)).substr(0, 8) +
-                "-" + std::to_string(request.size) + "-" +
-                std::to_string(request.seeds) + "-" + std::to_string(oracle.rays);
-            if (notebook.find(result)) continue;
-            seconds.clear();
-            for (int seed = 1; seed <= request.seeds; ++seed) {
-                runs.push_back(shoot(std::uint64_t(seed), request.size));
-                result.rmse += rmse(runs.back(), oracle.truth) / request.seeds;
-                result.trimmed +=
-                    trimmed_rel_mse(runs.back(), oracle.truth) / request.seeds;
-                examples::stop_if_asked();
-            }
-            std::sort(seconds.begin(), seconds.end());
-            result.seconds = std::max(seconds[seconds.size() / 2], 1e-6);
-            const auto parts =
-                examples::relative_split(runs, oracle.truth, oracle.noise);
-            result.bias = parts.bias_squared;
-            result.variance = parts.variance;
-            const auto blocks =
-                examples::relative_split(runs, oracle.truth, oracle.block_noise, 10);
-            result.block = blocks.bias_squared + blocks.variance;
-            result.flip = flip(runs[0], oracle.truth);
-            notebook.add(result);
-            if (!options.quiet) {
-                std::printf("%-14s %-12s %-14s %8.3f s  relMSE %.3g\n", name.c_str(),
-                            knob.c_str(), setting.value.c_str(), result.seconds,
-                            result.error());
-                std::fflush(stdout);
-            }
-        }
+/// \param make  Makes the room, in float and in double.
+template <typename Make>
+void sweep(const std::string& name, const Make& make, float unit,
+           const examples::Options& options, const Request& request,
+           examples::Notebook& notebook, Findings& findings) {
+    const auto room = make(float{});
+    if (request.references) {
+        const auto oracle =
+            examples::find_oracle(name, room, request.size, request.truth, options);
+        save_reference(options.path(""), name, oracle, notebook.conditions);
+        return;
     }
-}
-
-/// The plots of one room, and the settings that no other beats in time *and* error.
-void show(const std::string& name, const Notebook& notebook,
-          const examples::Options& options) {
-    std::vector<Result> of_room;
-    std::map<std::string, std::size_t> last; // of each setting, the newest line
-    for (const Result& r : notebook.results)
-        if (r.scene == name) {
-            const auto [place, fresh] =
-                last.try_emplace(r.knob + "/" + r.value, of_room.size());
-            if (fresh)
-                of_room.push_back(r);
-            else
-                of_room[place->second] = r;
-        }
-    if (of_room.empty()) return;
-    std::vector<examples::Row> best_rows; // seconds and error of the front
-    std::sort(of_room.begin(), of_room.end(),
-              [](const Result& a, const Result& b) { return a.seconds < b.seconds; });
-    examples::Table front{.name = "trades-" + name + "-front",
-                          .columns = {"s", "relMSE", "bias²", "blocks", "trimmed",
-                                      "FLIP", "MB", "knob", "at"}};
-    double best = std::numeric_limits<double>::infinity();
-    for (const Result& r : of_room) {
-        if (!(r.error() < best)) continue;
-        best = r.error();
-        best_rows.push_back({r.seconds, r.error()});
-        front.rows.push_back({text(r.seconds, "%.3g"), text(r.error(), "%.2g"),
-                              text(r.bias, "%.2g"), text(r.block, "%.2g"),
-                              text(r.trimmed, "%.2g"), text(r.flip, "%.3f"),
-                              text(r.bytes * 1e-6, "%.3g"), r.knob, r.value});
+    const auto room_in_double = make(double{});
+    const auto oracle = examples::find_reference(
+        name, request.size, {options.out, LJUS_SOURCE_FOLDER "/examples/data"});
+    const examples::Measuring how{request.size, request.seeds, options.threads};
+    std::vector<Setting> all;
+    for (const std::string& knob : knobs)
+        if (request.only == "all" || request.only == knob)
+            for (auto& setting :
+                 settings_of(knob, unit, request.size,
+                             options.quality != examples::Quality::draft))
+                all.push_back(setting);
+    examples::ProgressBar bar(name, options.quiet);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        (void)bar(static_cast<long long>(i), static_cast<long long>(all.size()));
+        if (all[i].in_double)
+            measure(name, room_in_double, all[i], oracle, how, notebook);
+        else
+            measure(name, room, all[i], oracle, how, notebook);
     }
-    save_table(options.path(""), front);
-    for (const std::string& knob : knobs) {
-        std::string file = "trades-" + name + "-" + knob;
-        std::replace(file.begin(), file.end(), ' ', '-');
-        examples::Plot plot{.name = file,
-                            .columns = {"processor seconds", knob, "path tracing",
-                                        "no setting is better"},
-                            .y_label = "relMSE",
-                            .log_x = true,
-                            .log_y = true};
-        for (const bool paths : {false, true})
-            for (const Result& r : of_room)
-                if (r.knob == knob && (r.value.rfind("paths", 0) == 0) == paths)
-                    plot.rows.push_back({r.seconds, paths ? nothing : r.error(),
-                                         paths ? r.error() : nothing, nothing});
-        if (plot.rows.empty()) continue;
-        for (const auto& row : best_rows)
-            plot.rows.push_back({row[0], nothing, nothing, row[1]});
-        save_plot(options.path(""), plot);
-    }
-}
-
-/// The same as JSON, with what a number depends on.
-void save_json(const Notebook& notebook, const examples::Options& options,
-               const Request& request) {
-    std::string json = "{\n  \"version\": \"" + std::to_string(LJUS_VERSION_MAJOR) +
-                       "." + std::to_string(LJUS_VERSION_MINOR) + "." +
-                       std::to_string(LJUS_VERSION_PATCH) + "\",\n  \"compiler\": \"";
-#ifdef __VERSION__
-    json += __VERSION__;
-#endif
-    json += "\",\n  \"threads\": " + std::to_string(options.threads) +
-            ",\n  \"size\": " + std::to_string(request.size) +
-            ",\n  \"seeds\": " + std::to_string(request.seeds) + ",\n  \"results\": [";
-    for (std::size_t i = 0; i < notebook.results.size(); ++i) {
-        const auto cells = cells_of(notebook.results[i]);
-        json += i == 0 ? "\n    {" : ",\n    {";
-        for (std::size_t c = 0; c < cells.size(); ++c) {
-            const bool word = c < 3 || c + 1 == cells.size();
-            json +=
-                (c == 0 ? "\"" : ", \"") + columns[c] + "\": " + (word ? "\"" : "") +
-                (cells[c].empty() && !word ? "null" : cells[c]) + (word ? "\"" : "");
-        }
-        json += "}";
-    }
-    examples::save_text(options.path("trades.json"), json + "\n  ]\n}\n");
+    if (request.only != "all") return;
+    findings.references.rows.push_back({name, std::to_string(oracle.rays),
+                                        text(oracle.noise, "%.2g"),
+                                        text(oracle.block_noise, "%.2g")});
+    promises(name, room, oracle, options, findings.promises, findings.claims);
+    if (name == "cornell") panels(room, unit, options);
 }
 
 } // namespace
@@ -359,21 +355,46 @@ int main(int argc, char** argv) {
         words.insert(words.end(), knobs.begin(), knobs.end());
         line.add("--only", request.only, "Nothing but this knob", words);
         line.add("--size", request.size, "Side of the pictures in pixels", 4, 1000);
-        line.add("--seeds", request.seeds, "Runs of each setting", 2, 1000);
+        line.add("--seeds", request.seeds, "Pictures by each setting", 2, 1000);
         line.add("--truth", request.truth, "Rays a pixel of the references", 8,
                  100000000);
         line.add("--references", request.references, "Make the references only");
+        line.add("--check", request.check, "Fail where a claim of the book does");
         const examples::Options options = line.parse();
-        if (!line.given("--size")) request.size = options.pick(24, 64, 100);
-        if (!line.given("--seeds")) request.seeds = options.pick(3, 6, 16);
-        if (!line.given("--truth")) request.truth = options.pick(512, 32768, 262144);
-        Notebook notebook{.path = options.path("trades.csv"),
-                          .results = read_results(options.path("trades.csv"))};
-        measure("four-glass", four_glass_room(), options, request, notebook);
-        measure("all-materials", all_materials_room(), options, request, notebook);
+        if (!line.given("--seeds")) request.seeds = options.pick(3, 5, 16);
+        if (!line.given("--truth")) request.truth = options.pick(4096, 65536, 262144);
+        auto notebook = examples::open_notebook(
+            options.path("trades.json"),
+            examples::conditions(options, std::to_string(request.seeds) +
+                                              " seeds from 1 on, pictures of " +
+                                              std::to_string(request.size) + " x " +
+                                              std::to_string(request.size)));
+        Findings findings;
+        const auto room = [&](const char* name, const auto& make, float unit) {
+            sweep(name, make, unit, options, request, notebook, findings);
+        };
+        findings.promises.notes = {notebook.conditions};
+        room(
+            "cornell", [](auto t) { return make_cornell<decltype(t)>(); }, 1);
+        room(
+            "caustic", [](auto t) { return make_caustic<decltype(t)>(); }, 1);
+        room(
+            "report", [](auto t) { return make_report<decltype(t)>(); }, 5);
         if (request.references) return;
-        for (const char* name : {"four-glass", "all-materials"})
-            show(name, notebook, options);
-        save_json(notebook, options, request);
+        save_trades(options.path(""), notebook, {"cornell", "caustic", "report"},
+                    knobs);
+        if (request.only != "all") return;
+        save_table(options.path(""), findings.promises);
+        save_table(options.path(""), findings.references);
+        auto claims = examples::judge(notebook);
+        claims.insert(claims.end(), findings.claims.begin(), findings.claims.end());
+        save_claims(options.path(""), claims, notebook.conditions);
+        for (const auto& claim : claims) {
+            if (claim.holds()) continue;
+            std::fprintf(stderr, "%s\n", claim.sentence().c_str());
+            if (request.check)
+                throw std::runtime_error(
+                    "the sweep does not show what the book says: " + claim.sentence());
+        }
     });
 }

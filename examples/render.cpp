@@ -4,6 +4,8 @@
 ///     render scene.json --out picture.png
 ///     render scene.json --out picture.pfm --renderer path --rays 1000
 ///     render scene.json --preset fast          settings that go together
+///     render scene.json --seconds 5            the best picture for that time
+///     render scene.json --error 0.01           the first picture with that relMSE
 ///     render scene.json --plan                 what would run, and why
 ///     render scene.json --explain 120,80       why a pixel has its colour
 ///     render scene.json --photons shadow       the photons of a kind, as dots
@@ -12,6 +14,7 @@
 ///     render scene.json --passes 100 --checkpoint a.check --preview a.png
 ///                                              maps that converge; --resume goes on
 
+#include <array>
 #include <charconv>
 #include <cinttypes>
 #include <cstdio>
@@ -21,6 +24,7 @@
 #include "common/command_line.hpp"
 #include "common/photon_options.hpp"
 #include "common/progressive_picture.hpp"
+#include "common/promised_picture.hpp"
 #include "common/terminal.hpp"
 #include "ljus/inspect/census.hpp"
 #include "ljus/inspect/explain.hpp"
@@ -91,6 +95,8 @@ struct Request {
     bool plan = false;
     examples::PhotonOptions photon_options;
     examples::PassOptions passes;
+    examples::Promise promise;
+    nlohmann::ordered_json kept; ///< How the promise was kept.
     std::string path_lights = "balance";
     double roulette_threshold = 1;
     double roulette_max = 1;
@@ -189,6 +195,24 @@ void set_passes(Request& request, const examples::CommandLine& line,
     if (!line.given("--rays")) picture.samples = 1;
     request.more_rays = 0;
     request.passes.exposure = request.exposure;
+}
+
+/// Whether settings are to be chosen; refuses those that are given as well.
+bool promises(const Request& request, const examples::CommandLine& line) {
+    if (request.promise.seconds == 0 && request.promise.error == 0) return false;
+    const std::string promise = request.promise.seconds > 0 ? "--seconds" : "--error";
+    for (const std::string& option : line.all_given()) {
+        constexpr std::array allowed{"--seconds", "--width",   "--height",    "--seed",
+                                     "--threads", "--out",     "--precision", "--quiet",
+                                     "--error",   "--exposure"};
+        if (std::find(allowed.begin(), allowed.end(), option) == allowed.end())
+            throw std::invalid_argument(
+                std::string(option).append(" does not go with ") + promise +
+                ", which chooses the settings.");
+    }
+    if (request.promise.seconds > 0 && request.promise.error > 0)
+        throw std::invalid_argument("--seconds and --error: only one can be promised.");
+    return true;
 }
 
 /// What the passes will be, as a line of the plan.
@@ -386,6 +410,42 @@ RenderedT<T> render_passes(const LoadedSceneT<T>& loaded, RenderSettings picture
     return rendered;
 }
 
+/// A picture for some seconds, or with some error: settings and samples are chosen.
+template <std::floating_point T>
+RenderedT<T> render_promised(const LoadedSceneT<T>& loaded, RenderSettings& picture,
+                             Request& request, PhotonMappingSettings& settings,
+                             const examples::StopWatch& watch, bool quiet) {
+    const auto scene = index_scene(loaded.scene);
+    const auto& promise = request.promise;
+    const auto tell = [&](const examples::Kept<T>& kept) {
+        const auto all = examples::recipes(picture.width, picture.height);
+        const std::string why = reason(kept.found, all, promise, kept.choice);
+        if (!quiet) std::printf("  %s\n", why.c_str());
+        std::fflush(stdout);
+        request.kept["why"] = why;
+    };
+    auto kept = keep(
+        scene, loaded.camera, picture, promise, [&] { return watch.seconds(); }, quiet,
+        tell);
+    settings = kept.recipe.settings;
+    picture.samples = kept.recipe.rays;
+    request.more_rays = kept.recipe.more;
+    request.preset = kept.recipe.name;
+    const double bias = kept.found[kept.choice.recipe].bias;
+    if (promise.seconds > 0) request.kept["seconds"] = promise.seconds;
+    if (promise.error > 0) request.kept["error"] = promise.error;
+    request.kept["pictures"] = kept.pictures;
+    request.kept["took"] = kept.seconds;
+    request.kept["estimate"] = {
+        {"relMSE", kept.error()}, {"noise", kept.noise}, {"bias", bias}};
+    if (quiet) return kept.rendered;
+    print(kept.rendered.counts, kept.seconds);
+    std::printf("  %-16s %10s  relMSE %.3g, by estimate: noise %.3g, bias about %.1g; "
+                "mean of %lld pictures\n",
+                "error", "", kept.error(), kept.noise, bias, kept.pictures);
+    return kept.rendered;
+}
+
 template <std::floating_point T>
 RenderedT<T> render_scene(const LoadedSceneT<T>& loaded, const RenderSettings& picture,
                           const Request& request, PhotonMappingSettings& settings,
@@ -432,6 +492,7 @@ std::string to_json(const Request& request, const RenderSettings& picture,
         {"depth", settings.max_depth},
         {"roulette", settings.roulette_depth}};
     if (!request.preset.empty()) json["preset"] = request.preset;
+    if (!request.kept.empty()) json["promise"] = request.kept;
     if (request.renderer == "photon") {
         json["more_rays"] = request.more_rays;
         json["disagreement"] = request.disagreement;
@@ -541,6 +602,7 @@ void run_request(const examples::CommandLine& line, Request request,
         .threads = options.threads,
         .sampling = chosen<Sampling>(patterns, request.sampling)};
     detail::require_image_size(picture.width, picture.height);
+    const bool promised = promises(request, line);
     set_samples(request, line, picture);
     set_passes(request, line, picture);
     PhotonMappingSettings settings = settings_of(request, line, options, picture);
@@ -555,10 +617,12 @@ void run_request(const examples::CommandLine& line, Request request,
     }
 
     const std::string name = loaded.name.empty() ? stem : loaded.name;
+    const std::string rays =
+        promised ? "" : std::to_string(picture.samples) + " rays a pixel, ";
     if (!options.quiet || request.plan)
-        std::printf("%s: %zu objects, %zu lights; %d x %d, %d rays a pixel, %s\n",
-                    name.c_str(), loaded.scene.size(), loaded.scene.lights.size(),
-                    picture.width, picture.height, picture.samples,
+        std::printf("%s: %zu objects, %zu lights; %d x %d, %s%s\n", name.c_str(),
+                    loaded.scene.size(), loaded.scene.lights.size(), picture.width,
+                    picture.height, rays.c_str(),
                     !request.photons.empty()     ? "not rendered: photons as dots"
                     : request.renderer == "path" ? "path tracing"
                                                  : "photon mapping");
@@ -579,7 +643,9 @@ void run_request(const examples::CommandLine& line, Request request,
     }
     const examples::StopWatch watch;
     const RenderedT<T> rendered =
-        render_scene(loaded, picture, request, settings, options.quiet);
+        promised
+            ? render_promised(loaded, picture, request, settings, watch, options.quiet)
+            : render_scene(loaded, picture, request, settings, options.quiet);
     if (rendered.image.pixels.empty()) return;
     const double seconds = watch.seconds();
     save(rendered.image, path, request.exposure);
@@ -607,6 +673,10 @@ void body(examples::CommandLine& line) {
              "For --indirect map, photons, gather, cache", 0, 1'000'000'000);
     line.add("--preset", request.preset,
              "All settings at once; those given by name come before it", presets);
+    line.add("--seconds", request.promise.seconds,
+             "Choose all settings: the least error in that time", 0.01, 1e9);
+    line.add("--error", request.promise.error,
+             "Choose all settings: the least time to that relMSE", 1e-9, 1e9);
     line.add("--direct", request.direct,
              "sampled by shadow rays, analytic where lamps have a closed form, or mis",
              direct_lights);

@@ -129,6 +129,10 @@ TEST_CASE("caustic_budget: shares follow the scatter, and no others do better") 
     CHECK(share_out(std::array{0.0, 0.0}) == std::vector{0.5, 0.5});
     CHECK(share_out(std::array{1e300})[0] == doctest::Approx(1));
     CHECK(share_out(std::vector<double>{}).empty());
+    for (double a = 0.001; a < 10; a *= 1.01) { // rounding must not make it 1 + 2^-52
+        CHECK(share_out(std::array{a})[0] == 1);
+        CHECK(share_out(std::array{a, 0.0}, 0)[0] == 1);
+    }
     // Numbers as small and as far apart as they may be.
     const auto tiny = share_out(std::array{1e-300, 1e-310});
     CHECK(tiny[0] + tiny[1] == doctest::Approx(1));

@@ -276,6 +276,14 @@ bool CommandLine::given(const std::string& name) const {
     return option != nullptr && option->count() > 0;
 }
 
+std::vector<std::string> CommandLine::all_given() const {
+    std::vector<std::string> names;
+    for (const CLI::Option* const option : parser_->app.get_options())
+        if (option->count() > 0 && !option->get_positional())
+            names.push_back(option->get_name());
+    return names;
+}
+
 Options CommandLine::parse(const Presets& presets) {
     CLI::App& app = parser_->app;
     Options& options = parser_->options;

@@ -118,6 +118,9 @@ public:
     /// default.
     [[nodiscard]] bool given(const std::string& name) const;
 
+    /// The names of all options that were given, as "--seed".
+    [[nodiscard]] std::vector<std::string> all_given() const;
+
     /// Reads the command line, and makes the folder for the files and tries it, before
     /// any work is done in vain.
     /// \param presets  What the qualities stand for.

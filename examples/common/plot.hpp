@@ -18,7 +18,8 @@
 
 namespace examples {
 
-/// One line of a plot or table: a number a column; NaN leaves the cell empty.
+/// One line of a plot or table: a number a column; NaN leaves the cell empty, and a row
+/// without numbers interrupts the curves of a plot.
 using Row = std::vector<double>;
 
 /// A plot: the first column is x, each further one a curve named by its heading (without
@@ -31,6 +32,7 @@ struct Plot {
     bool log_x = false;               ///< Logarithmic x axis.
     bool log_y = false;               ///< Logarithmic y axis.
     std::string more = {}; ///< Further lines for gnuplot, e.g. "set key left".
+    std::vector<std::string> notes{}; ///< Lines at the top of the data: how measured.
 };
 
 /// A table: text or numbers, shown as they are given.
@@ -38,6 +40,7 @@ struct Table {
     std::string name;                             ///< Of the files.
     std::vector<std::string> columns;             ///< Headings.
     std::vector<std::vector<std::string>> rows{}; ///< Cells.
+    std::vector<std::string> notes{};             ///< As those of a plot.
 };
 
 /// A number as short as it may be: "%.4g", or nothing for NaN.
@@ -77,15 +80,29 @@ inline void save_text(const std::string& path, const std::string& contents) {
     return line + '\n';
 }
 
+/// The first lines of a CSV file: notes, each after a #, and the headings.
+/// \param notes     How the numbers were measured.
+/// \param headings  Of the columns.
+/// \return The lines.
+[[nodiscard]] inline std::string csv_head(const std::vector<std::string>& notes,
+                                          const std::vector<std::string>& headings) {
+    std::string head;
+    for (const std::string& note : notes) head += "# " + note + "\n";
+    return head + csv_line(headings);
+}
+
 /// Saves the data of a plot as NAME.csv and its instructions as NAME.gp.
 /// \param folder  Where to; it exists.
 /// \param plot    The plot.
 inline void save_plot(const std::string& folder, const Plot& plot) {
-    std::string csv = csv_line(plot.columns);
+    std::string csv = csv_head(plot.notes, plot.columns);
     for (const Row& row : plot.rows) {
         std::vector<std::string> cells;
         for (const double value : row) cells.push_back(text(value, "%.9g"));
-        csv += csv_line(cells);
+        if (!row.empty())
+            csv += csv_line(cells);
+        else if (!csv.ends_with("\n\n")) // two would begin another set of data
+            csv += "\n";
     }
     save_text(folder + "/" + plot.name + ".csv", csv);
 
@@ -114,8 +131,9 @@ inline void save_plot(const std::string& folder, const Plot& plot) {
     std::string curves;
     for (std::size_t column = 1; column < plot.columns.size(); ++column) {
         const bool empty =
-            std::all_of(plot.rows.begin(), plot.rows.end(),
-                        [column](const Row& row) { return std::isnan(row[column]); });
+            std::all_of(plot.rows.begin(), plot.rows.end(), [column](const Row& row) {
+                return row.empty() || std::isnan(row[column]);
+            });
         if (empty) continue; // e.g. an error of 0 everywhere, on a logarithmic axis
         const std::string number = std::to_string(column + 1);
         curves += (curves.empty() ? "\nplot '" : ", '") + plot.name +
@@ -131,7 +149,7 @@ inline void save_plot(const std::string& folder, const Plot& plot) {
 /// \param folder  Where to; it exists.
 /// \param table   The table.
 inline void save_table(const std::string& folder, const Table& table) {
-    std::string csv = csv_line(table.columns);
+    std::string csv = csv_head(table.notes, table.columns);
     std::string html =
         "<table class=\"markdownTable ljus-table\">\n<tr class=\"markdownTableHead\">";
     const auto escaped = [](const std::string& cell) {

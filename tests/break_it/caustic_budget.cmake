@@ -14,13 +14,13 @@ ljus_break_it(NAME caustic_budget-zero HEADER photons/detail/aim_by_share.hpp
 
 # Shares by the squares: n ~ a^2.
 ljus_break_it(NAME caustic_budget-squares HEADER photons/budget.hpp TEST caustic_budget
-    FROM "floor * equal + (1 - floor) * a / sum"
+    FROM "floor * equal + (1 - floor) * (a / sum)"
     TO   "floor * equal + (1 - floor) * a * a / (sum * sum)"
     CASES "caustic_budget: shares follow*")
 
 # No floor: who is missed by the pilot starves.
 ljus_break_it(NAME caustic_budget-floor HEADER photons/budget.hpp TEST caustic_budget
-    FROM "floor * equal + (1 - floor) * a / sum"
+    FROM "floor * equal + (1 - floor) * (a / sum)"
     TO   "a / sum"
     CASES "caustic_budget: who gets nothing*")
 

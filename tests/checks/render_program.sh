@@ -115,6 +115,20 @@ json_has '"more_rays": 0,'
 "$render" "$scene" --width 20 --height 16 --passes 2 --quiet --out choice.pfm
 json_has '"rays": 1,'
 
+# A promise: the settings are chosen, what was chosen is said, and it is kept. The clock is
+# the wall's, and the machine may be busy: the seconds are those that the program counts.
+"$render" "$scene" --width 24 --height 20 --seconds 2 --out choice.pfm >out.txt
+grep -q '^  The mean of [0-9]* pictures by ' out.txt || wrong "no reason in $(cat out.txt)"
+grep -q 'relMSE .*, by estimate: noise ' out.txt || wrong "no estimate in $(cat out.txt)"
+json_has '"seconds": 2.0,'
+took=$(sed -n 's/^ *"took": \([0-9.]*\),*$/\1/p' choice.pfm.json)
+awk "BEGIN { exit !($took >= 1.6 && $took <= 2.4) }" || wrong "2 s took $took s"
+"$render" "$scene" --width 24 --height 20 --error 0.05 --threads 1 --quiet --out choice.pfm
+json_has '"error": 0.05'
+estimate=$(sed -n 's/^ *"relMSE": \([0-9.e-]*\),*$/\1/p' choice.pfm.json)
+awk "BEGIN { exit !($estimate > 0 && $estimate <= 0.05) }" ||
+    wrong "an error of 0.05 became $estimate"
+
 # A ball with a picture on it, by its own coordinates, and one of the report's material.
 cp new/a.png picture.png
 sed -e 's/"clay": .*/"clay": {"type": "picture", "file": "picture.png", "map": "uv"},/' \
@@ -160,6 +174,15 @@ refused "--radius" "$scene" --radius nan
 refused "--caustic-kernel" "$scene" --caustic-kernel hat
 refused "--precision" "$scene" --precision half
 refused "--nope" "$scene" --nope
+refused "--seconds" "$scene" --seconds 0
+refused "--error" "$scene" --error nan
+refused "only one can be promised" "$scene" --seconds 1 --error 0.1
+for option in "--preset fast" "--rays 4" --plan "--explain 1,1" "--renderer path"; do
+    # shellcheck disable=SC2086
+    refused "does not go with --seconds, which chooses the settings" "$scene" --seconds 1 \
+        $option
+done
+refused "no time takes it away" "$scene" --width 8 --height 8 --error 1e-9
 refused "--skip" "$scene" --skip jensen
 refused "--skip-tolerance" "$scene" --skip-tolerance 1
 refused "--skip-risk" "$scene" --skip-risk 0

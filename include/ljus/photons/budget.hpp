@@ -38,7 +38,8 @@ namespace ljus {
     std::vector<double> shares;
     for (const double a : scatter) {
         const double equal = 1 / double(scatter.size());
-        shares.push_back(sum > 0 ? floor * equal + (1 - floor) * a / sum : equal);
+        // The part of one that is alone is 1, not a little more.
+        shares.push_back(sum > 0 ? floor * equal + (1 - floor) * (a / sum) : equal);
     }
     return shares;
 }
