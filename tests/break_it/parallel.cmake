@@ -64,3 +64,14 @@ ljus_break_it(NAME parallel-last-block HEADER parallel.hpp TEST parallel
     FROM "return done >= count;"
     TO   "return !stopped;"
     CASES "parallel: false at the very last*")
+
+# One stream of random numbers for all threads: who comes first, draws first.
+ljus_break_it(NAME render-shared-stream HEADER render/render.hpp TEST render
+    FROM "    typename R::Stream stream;
+    start_ray(stream, picture.seed, pixel, number, pattern);"
+    TO   "    static typename R::Stream stream = [&] {
+        typename R::Stream first;
+        start_ray(first, picture.seed, 0, 0, pattern);
+        return first;
+    }();"
+    CASES "render: rows that are*")
