@@ -12,7 +12,8 @@ set(LJUS_MISTAKES_FOLDER "${CMAKE_CURRENT_LIST_DIR}")
 function(ljus_can_break_headers result)
     find_package(Python3 3.9 QUIET COMPONENTS Interpreter)
     if(NOT Python3_Interpreter_FOUND)
-        message(STATUS "Ljus: Python 3.9 or later is not found: no program shows mistakes")
+        message(STATUS "Ljus: Python 3.9 or later is not found: "
+                       "no program shows mistakes")
     endif()
     set(${result} "${Python3_Interpreter_FOUND}" PARENT_SCOPE)
 endfunction()
@@ -22,7 +23,8 @@ function(ljus_show_mistakes target source)
     set(folder "${CMAKE_CURRENT_BINARY_DIR}/${target}_headers")
     set(tests "${PROJECT_SOURCE_DIR}/tests")
     file(GLOB_RECURSE read CONFIGURE_DEPENDS
-        "${LJUS_INCLUDE_DIR}/ljus/*.hpp" "${tests}/break_it/*.cmake" "${tests}/*_test.cpp")
+        "${LJUS_INCLUDE_DIR}/ljus/*.hpp"
+        "${tests}/break_it/*.cmake" "${tests}/*_test.cpp")
     add_custom_command(OUTPUT "${folder}/ljus_break_it.hpp"
         COMMAND "${Python3_EXECUTABLE}" -B "${LJUS_MISTAKES_FOLDER}/break_it_gallery.py"
             "${LJUS_INCLUDE_DIR}" "${folder}" "${source}" "${tests}"

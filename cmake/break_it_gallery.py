@@ -131,7 +131,8 @@ def main():
             patch.write(folder / "rows" / name / "to.txt", fields.get("TO", ""))
             row = patch.Row(number, name, fields["HEADER"], headers, folder)
             row.find()
-            rows_of.setdefault(row.source, {}).setdefault(row.find_body(), []).append(row)
+            bodies = rows_of.setdefault(row.source, {})
+            bodies.setdefault(row.find_body(), []).append(row)
             case, line = noticing_case(fields, tests)
             strings = [name, fields["HEADER"], row.old, row.new, fields["TEST"], case]
             told.append(f"    Told{{{', '.join(map(literal, strings))}, {line}}},\n")

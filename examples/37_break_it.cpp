@@ -26,9 +26,9 @@
 #include <ljus/io/load_image.hpp>
 #include <ljus/io/png.hpp>
 #include <ljus/ljus.hpp>
-#include <ljus/render/distributed.hpp>
 #include <ljus/radiosity/light_map.hpp>
 #include <ljus/radiosity/radiosity.hpp>
+#include <ljus/render/distributed.hpp>
 #include <ljus/render/plain_path_tracing.hpp>
 #include <ljus/render/progressive.hpp>
 #include <ljus/render/whitted.hpp>
@@ -83,8 +83,7 @@ Image draw(const Eye& eye, const Camera& camera, F&& color) {
                 for (int i = 0; i < grid * grid; ++i) {
                     const Vec2 place{(float(i % grid) + 0.5f) / float(grid),
                                      (float(i / grid) + 0.5f) / float(grid)};
-                    sum += color(primary_ray(camera,
-                                             Vec2{float(x), float(y)} + place,
+                    sum += color(primary_ray(camera, Vec2{float(x), float(y)} + place,
                                              eye.size, eye.size));
                 }
                 pixel(image, x, y) = sum / float(grid * grid);
@@ -110,7 +109,7 @@ Rgb shaded(const Vec3& normal, const Rgb& albedo) {
     return albedo * (0.15f + 0.85f * std::max(0.0f, glm::dot(normal, sun)));
 }
 
-// --- Rays and surfaces ----------------------------------------------------------------
+// --- Rays and surfaces ---------------------------------------------------------------
 
 /// An egg on a floor: rays are brought into the space in which it is a ball, and their
 /// directions have another length there.
@@ -184,7 +183,8 @@ Image many_balls(const Eye& eye) {
     std::vector<Box> boxes;
     for (const Sphere& ball : balls) boxes.push_back(bounds(ball));
     const Bvh tree(boxes);
-    const Camera camera = look_at({.position{2.5f, 2, 4}, .target{0, 0, 0}, .vfov_degrees = 32});
+    const Camera camera =
+        look_at({.position{2.5f, 2, 4}, .target{0, 0, 0}, .vfov_degrees = 32});
     return draw(eye, camera, [&](const Ray& ray) {
         NearestHit nearest;
         tree.closest(ray, [&](std::uint32_t slot, Ray& rest) {
@@ -207,7 +207,8 @@ Image blobs(const Eye& eye) {
             {.center{1.2f * std::cos(a), 0.4f * std::sin(2 * a), 1.2f * std::sin(a)},
              .radius = 0.42f});
     }
-    const Camera camera = look_at({.position{0, 2, 5}, .target{0, 0, 0}, .vfov_degrees = 32});
+    const Camera camera =
+        look_at({.position{0, 2, 5}, .target{0, 0, 0}, .vfov_degrees = 32});
     return draw(eye, camera, [&](const Ray& ray) {
         const auto t = intersect(ray, balls, SphereTracing{});
         if (!t) return Rgb{0.05f};
@@ -236,7 +237,7 @@ Image mirror_ball(const Eye& eye) {
     });
 }
 
-/// What a swimmer sees above: the sky within a cone, and the floor of the pool beside it.
+/// What a swimmer sees above: the sky within a cone, and the mirrored floor beside it.
 /// \param reflectance  Called with the cosine below and above the water's surface.
 template <typename F>
 Image pool(const Eye& eye, F&& reflectance) {
@@ -291,8 +292,8 @@ Image open_sky(const Eye& eye) {
         const Vec2 shift{glm::fract(1e4f * ray.direction.x), // another one for each ray
                          glm::fract(1e4f * ray.direction.y)};
         for (int i = 0; i < side * side; ++i) {
-            const Vec2 u = glm::fract(
-                shift + Vec2{float(i % side), float(i / side)} / float(side));
+            const Vec2 u = glm::fract(shift + Vec2{float(i % side), float(i / side)} /
+                                                  float(side));
             const Vec3 local = sample_naive_hemisphere(u);
             const Vec3 way = to_world(frame, local);
             const Ray out = spawn_ray(point, way);
@@ -318,7 +319,7 @@ Image rough_ball(const Eye& eye) {
     });
 }
 
-// --- Light ----------------------------------------------------------------------------
+// --- Light ---------------------------------------------------------------------------
 
 /// An open floor and a wall behind it.
 Stage floor_stage(const Rgb& albedo = Rgb{0.7f}) {
@@ -436,8 +437,10 @@ Image glass_room(const Eye& eye, Add&& add_ball) {
     for (int i = 0; i < 16; ++i) {
         const float x = -4 + 0.5f * float(i);
         const auto stripe = i % 2 == 0 ? bright : dark;
-        stage.add(Quad{.corner{x, 0, -2}, .edge_u{0, 0, 8}, .edge_v{0.5f, 0, 0}}, stripe);
-        stage.add(Quad{.corner{x, 0, -2}, .edge_u{0.5f, 0, 0}, .edge_v{0, 4, 0}}, stripe);
+        stage.add(Quad{.corner{x, 0, -2}, .edge_u{0, 0, 8}, .edge_v{0.5f, 0, 0}},
+                  stripe);
+        stage.add(Quad{.corner{x, 0, -2}, .edge_u{0.5f, 0, 0}, .edge_v{0, 4, 0}},
+                  stripe);
     }
     stage.add(PointLight{.position{-2, 3.5f, 4}, .intensity = Rgb{50}});
     stage.add(PointLight{.position{3, 3, 2}, .intensity = Rgb{14}});
@@ -446,7 +449,8 @@ Image glass_room(const Eye& eye, Add&& add_ball) {
     stage.add(Quad{.corner{-4, 4, -2}, .edge_u{8, 0, 0}, .edge_v{0, 0, 8}}, black,
               Rgb{0.9f, 0.95f, 1.0f});
     for (const float side : {-1.0f, 1.0f})
-        stage.add(Quad{.corner{4 * side, 0, 2 - 4 * side}, .edge_u{0, 0, 8 * side},
+        stage.add(Quad{.corner{4 * side, 0, 2 - 4 * side},
+                       .edge_u{0, 0, 8 * side},
                        .edge_v{0, 4, 0}},
                   black, Rgb{0.55f, 0.5f, 0.6f});
     stage.add(Quad{.corner{4, 0, 6}, .edge_u{-8, 0, 0}, .edge_v{0, 4, 0}}, black,
@@ -475,7 +479,7 @@ Image lamp_in_glass(const Eye& eye) {
     });
 }
 
-// --- Paths ----------------------------------------------------------------------------
+// --- Paths ---------------------------------------------------------------------------
 
 /// The box with two matt balls, and a lamp so large that paths meet it often.
 Room<Stage> wide_lamp_box() {
@@ -529,8 +533,10 @@ Image cards(const Eye& eye) {
     SmoothStage stage;
     const auto leaf = stage.add(Lambertian{.albedo{0.35f, 0.7f, 0.25f}});
     for (const float x : {-1.3f, 0.0f, 1.3f}) {
-        MeshData card{.positions{{x - 0.5f, 0.1f, 0}, {x + 0.5f, 0.1f, 0},
-                                 {x + 0.5f, 1.7f, 0}, {x - 0.5f, 1.7f, 0}},
+        MeshData card{.positions{{x - 0.5f, 0.1f, 0},
+                                 {x + 0.5f, 0.1f, 0},
+                                 {x + 0.5f, 1.7f, 0},
+                                 {x - 0.5f, 1.7f, 0}},
                       .triangles{{0, 1, 2}, {0, 2, 3}}};
         for (const Vec3& corner : card.positions)
             card.normals.push_back(
@@ -577,10 +583,11 @@ Image lamp_places(const Eye& eye) {
 /// What a reader of the file sees, in which a picture with a bright lamp is kept.
 Image as_saved(const Eye& eye) {
     const Image image = box_direct(eye);
-    return ljus::detail::decode_image<float>(ljus::detail::encode_png(image), "the picture");
+    return ljus::detail::decode_image<float>(ljus::detail::encode_png(image),
+                                             "the picture");
 }
 
-// --- Photons --------------------------------------------------------------------------
+// --- Photons -------------------------------------------------------------------------
 
 /// What the maps say of each matt surface, looked at directly.
 /// \param maps  Of one picture: each of them adds.
@@ -623,9 +630,9 @@ Image lamp_by_photons(const Eye& eye, const DensityEstimateSettings& gather,
     add_lamp(stage, {0, 2.1f, 0.4f}, 0.7f, 25);
     stage.add(Sphere{.center{0.7f, 0.5f, 0}, .radius = 0.5f},
               matt(stage, {0.8f, 0.5f, 0.2f}));
-    const PhotonMap map = traced(
-        eye, stage, MapType::general,
-        {.photons = photons_for(eye, photons), .max_bounces = 1});
+    const PhotonMap map =
+        traced(eye, stage, MapType::general,
+               {.photons = photons_for(eye, photons), .max_bounces = 1});
     return maps_alone(eye, stage, floor_camera(), {map}, gather);
 }
 Image direct_photons(const Eye& eye) {
@@ -647,15 +654,15 @@ Image point_by_photons(const Eye& eye) {
 /// In the box photons are reflected again and again.
 Image box_by_photons(const Eye& eye) {
     const auto room = matt_cornell_box();
-    const PhotonMap map = traced(eye, room.scene, MapType::general,
-                                 {.photons = photons_for(eye, 10)});
+    const PhotonMap map =
+        traced(eye, room.scene, MapType::general, {.photons = photons_for(eye, 10)});
     return maps_alone(eye, room.scene, room.camera, {map}, {.radius = 0.1f});
 }
 
 /// Near enough to see what the glass makes.
 Camera caustic_camera() {
-    return look_at({.position{0.1f, 1.9f, 2.6f}, .target{0.15f, 0.25f, 0.2f},
-                    .vfov_degrees = 27});
+    return look_at(
+        {.position{0.1f, 1.9f, 2.6f}, .target{0.15f, 0.25f, 0.2f}, .vfov_degrees = 27});
 }
 /// Glass below a lamp.
 Stage glass_stage(bool second) {
@@ -713,9 +720,8 @@ Image screen(const Eye& eye) {
     stage.add(Quad{.corner{-1, 0, 0.3f}, .edge_u{2, 0, 0}, .edge_v{0, 1.5f, 0}},
               matt(stage, {0.8f, 0.5f, 0.2f}));
     stage.add(PointLight{.position{0, 1.6f, -1.1f}, .intensity = Rgb{5}});
-    const PhotonMap map =
-        traced(eye, stage, MapType::general,
-               {.photons = photons_for(eye, 20), .max_bounces = 1});
+    const PhotonMap map = traced(eye, stage, MapType::general,
+                                 {.photons = photons_for(eye, 20), .max_bounces = 1});
     return maps_alone(eye, stage, floor_camera(), {map}, {.radius = 0.12f});
 }
 /// Sixty photons on a floor, each spread over the ball around it.
@@ -810,8 +816,7 @@ Image shared_budget(const Eye& eye) {
     how.caustics.seed = eye.seed;
     how.caustics.threads = eye.threads;
     const PhotonMapsT<float> maps = make_photon_maps(stage, how);
-    return maps_alone(eye, stage, caustic_camera(), {maps.caustics},
-                      {.radius = 0.03f});
+    return maps_alone(eye, stage, caustic_camera(), {maps.caustics}, {.radius = 0.03f});
 }
 
 /// Sixteen passes, each with photons of its own and a smaller radius.
@@ -821,12 +826,12 @@ Image sixteen_passes(const Eye& eye) {
     (void)run_progressive(
         state, 16,
         [&](long long pass, double shrink) {
-            const PhotonMap map = traced(eye, stage, MapType::caustics,
-                                         {.photons = photons_for(eye, 0.25),
-                                          .iteration = std::uint64_t(pass)});
+            const PhotonMap map = traced(
+                eye, stage, MapType::caustics,
+                {.photons = photons_for(eye, 0.25), .iteration = std::uint64_t(pass)});
             const DensityEstimateSettings gather{.radius = 0.12f * float(shrink)};
-            return RenderedT<float>{maps_alone({eye.size, 1, eye.seed, eye.threads}, stage,
-                                       caustic_camera(), {map}, gather)};
+            return RenderedT<float>{maps_alone({eye.size, 1, eye.seed, eye.threads},
+                                               stage, caustic_camera(), {map}, gather)};
         },
         [](const ProgressiveState&) { return true; });
     return mean_image(state);
@@ -840,7 +845,7 @@ Image box_by_radiosity(const Eye& eye) {
         .image;
 }
 
-// --- The gallery ----------------------------------------------------------------------
+// --- The gallery ---------------------------------------------------------------------
 
 /// A mistake and the scene that shows it.
 struct Mistake {
@@ -911,8 +916,8 @@ constexpr std::array mistakes{
 Image side_by_side(const Image& right, const Image& wrong, double range) {
     ImageT<double> difference = make_image<double>(right.width, right.height);
     for (std::size_t i = 0; i < right.pixels.size(); ++i)
-        difference.pixels[i] =
-            RgbT<double>{double(luminance(wrong.pixels[i]) - luminance(right.pixels[i]))};
+        difference.pixels[i] = RgbT<double>{
+            double(luminance(wrong.pixels[i]) - luminance(right.pixels[i]))};
     const Image map =
         examples::error_picture(difference, examples::Ramp::signs, -range, range);
     const int gap = 6, width = right.width;
@@ -958,8 +963,7 @@ std::string escaped(const std::string& text) {
 /// A page's address, as Doxygen names that of a source file.
 std::string source_page(const std::string& file) {
     std::string name;
-    for (const char c : file)
-        name += c == '_' ? std::string("__") : std::string(1, c);
+    for (const char c : file) name += c == '_' ? std::string("__") : std::string(1, c);
     return name + "_8cpp_source.html";
 }
 
@@ -973,8 +977,7 @@ std::string told(const ljus_break_it::Told& row, const std::string& brightness,
     return "<div class=\"ljus-mistake\"><pre class=\"fragment\">ljus/" +
            escaped(row.header) + "\n<del>- " + escaped(row.from) + "</del>\n<ins>+ " +
            (to.empty() ? std::string("(nothing)") : escaped(to)) +
-           "</ins></pre>\n<p>Row <code>" + row.name +
-           "</code>; noticed by <a href=\"" +
+           "</ins></pre>\n<p>Row <code>" + row.name + "</code>; noticed by <a href=\"" +
            source_page(std::string(row.test) + "_test") + line + "\">" +
            escaped(row.noticed) + "</a>. Mean brightness " + brightness +
            " of the right one; largest difference " + largest + ".</p></div>\n";
@@ -1024,14 +1027,16 @@ void draw_switch(const examples::Options& options) {
     using examples::draw_arrow, examples::draw_label, examples::draw_line;
     examples::Drawing drawing{
         .name = "break_it-switch",
-        .description = "A row of tests/break_it replaces a text in the body of a function. "
-                       "The body stands in the header twice, and a switch chooses.",
+        .description =
+            "A row of tests/break_it replaces a text in the body of a function. "
+            "The body stands in the header twice, and a switch chooses.",
         .low{0, 0},
         .high{7, 3.1}};
     const auto box = [&](double left, double low, double right, double high,
                          const examples::Pen& pen) {
-        draw_line(drawing, {{left, low}, {right, low}, {right, high}, {left, high},
-                            {left, low}}, pen);
+        draw_line(drawing,
+                  {{left, low}, {right, low}, {right, high}, {left, high}, {left, low}},
+                  pen);
     };
     box(0.1, 1.1, 1.6, 2.0, {});
     draw_label(drawing, {0.85, 1.7}, "a header");
@@ -1046,7 +1051,8 @@ void draw_switch(const examples::Options& options) {
     draw_label(drawing, {3.65, 1.0}, "if row 7 is on:", examples::colors::orange);
     draw_label(drawing, {3.65, 0.67}, "FROM replaced by TO", examples::colors::orange);
     draw_arrow(drawing, {4.95, 2.05}, {5.55, 2.05}, {.color = examples::colors::blue});
-    draw_arrow(drawing, {4.95, 0.85}, {5.55, 0.85}, {.color = examples::colors::orange});
+    draw_arrow(drawing, {4.95, 0.85}, {5.55, 0.85},
+               {.color = examples::colors::orange});
     draw_label(drawing, {6.25, 2.2}, "right picture", examples::colors::blue);
     draw_label(drawing, {6.25, 1.87}, "test passes", examples::colors::blue);
     draw_label(drawing, {6.25, 1.0}, "wrong picture", examples::colors::orange);
@@ -1067,10 +1073,14 @@ void table_of_mutants(const examples::Options& options) {
             }
             std::vector<std::string> cells(1);
             for (const char c : line)
-                if (c == ',') cells.emplace_back();
-                else cells.back() += c;
-            if (table.columns.empty()) table.columns = cells;
-            else table.rows.push_back(cells);
+                if (c == ',')
+                    cells.emplace_back();
+                else
+                    cells.back() += c;
+            if (table.columns.empty())
+                table.columns = cells;
+            else
+                table.rows.push_back(cells);
         }
     } else {
         table.columns = {"floor", "made", "killed", "equivalent", "share"};
@@ -1105,7 +1115,8 @@ void gallery(const examples::Options& options, const Eye& eye,
         const Image wrong = mistake.picture(eye);
         ljus_break_it::row = 0;
         const std::string name = std::string("break_it-") + mistake.row;
-        save_png(side_by_side(good, wrong, range_of(good, wrong)), options.path(name + ".png"));
+        save_png(side_by_side(good, wrong, range_of(good, wrong)),
+                 options.path(name + ".png"));
         double largest = 0;
         for (std::size_t i = 0; i < wrong.pixels.size(); ++i) {
             const double d = double(luminance(wrong.pixels[i] - good.pixels[i]));

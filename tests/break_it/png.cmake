@@ -1,4 +1,4 @@
-# The picture divided by its largest value: a lamp that comes into view darkens the room.
+# Divided by its largest value: a lamp that comes into view darkens the room.
 ljus_break_it(NAME png-maximum HEADER io/png.hpp TEST png
     FROM "const double scale = std::exp2(options.exposure);"
     TO   "double most = 0;
