@@ -338,7 +338,7 @@ int main(int argc, char** argv) {
         line.without({"--height"});
         const examples::Options options =
             line.parse({.draft{.width = 160, .height = 160, .samples = 32},
-                        .report{.width = 176, .height = 176, .samples = 256},
+                        .report{.width = 160, .height = 160, .samples = 256},
                         .reference{.width = 240, .height = 240, .samples = 1024}});
         const Eye eye{.size = options.width,
                       .samples = options.samples,
