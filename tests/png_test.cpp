@@ -4,6 +4,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "ljus/io/png.hpp"
 #include "scratch_folder.hpp"
@@ -78,6 +79,26 @@ TEST_CASE("png: a reader finds each pixel's sRGB bytes where they belong") {
         CHECK(wrong == 0);
         stbi_image_free(bytes);
     }
+}
+
+TEST_CASE("png: a bright lamp in one corner changes no other pixel") {
+    ljus::Image image = ramp(20, 10);
+    const auto bytes = [&] {
+        int w = 0, h = 0, channels = 0;
+        const ljus::Bytes file = ljus::detail::encode_png(image);
+        unsigned char* const read = stbi_load_from_memory(
+            file.data(), static_cast<int>(file.size()), &w, &h, &channels, 3);
+        REQUIRE(read != nullptr);
+        const std::vector<unsigned char> all(read, read + 3 * w * h);
+        stbi_image_free(read);
+        return all;
+    };
+    const auto before = bytes();
+    ljus::pixel(image, 19, 9) = ljus::Rgb{20.0f};
+    const auto after = bytes();
+    REQUIRE(before.size() == after.size());
+    for (std::size_t i = 0; i + 3 < before.size(); ++i) CHECK(before[i] == after[i]);
+    CHECK(after.back() == 255);
 }
 
 TEST_CASE("png: NaN and negatives are black, infinity is white, in double as well") {

@@ -27,3 +27,11 @@ ljus_break_it(NAME direct-light-shadow HEADER path/direct_light.hpp TEST direct_
     FROM "visibility(scene, point, sampled->point, vertex.time);"
     TO   "RgbT<T>{T(1)};"
     CASES "direct light: what stands between*")
+
+# The test for visibility the wrong way round, at one kind of light: what is hidden from it
+# is lit.
+ljus_break_it(NAME direct-light-inverted HEADER path/direct_light.hpp TEST direct_light
+    FROM "visible = visibility(scene, point, sampled->point, vertex.time);"
+    TO   "visible = visibility(scene, point, sampled->point, vertex.time);
+        if (light.kind == LightKind::point) visible = RgbT<T>{T(1)} - visible;"
+    CASES "direct light: what stands between*")

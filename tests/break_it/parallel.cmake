@@ -64,3 +64,11 @@ ljus_break_it(NAME parallel-last-block HEADER parallel.hpp TEST parallel
     FROM "return done >= count;"
     TO   "return !stopped;"
     CASES "parallel: false at the very last*")
+
+# One stream of random numbers for all threads: whoever comes first draws first, and no
+# picture can be made again.
+ljus_break_it(NAME render-shared-stream HEADER render/render.hpp TEST render
+    FROM "start_ray(stream, picture.seed, pixel, number, pattern);"
+    TO   "static std::uint64_t drawn = 0;
+    start_ray(stream, picture.seed, drawn++, 0, pattern);"
+    CASES "render: rows that are*")

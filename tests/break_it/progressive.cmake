@@ -1,4 +1,4 @@
-# The radius that stays nearly as it is.
+# A radius that shrinks so fast that the noise never does.
 ljus_break_it(NAME progressive-radius HEADER render/progressive.hpp TEST progressive
     FROM "(n + 1 + state.alpha) / (n + 2)"
     TO   "(n + 1) / (n + 2)"

@@ -27,3 +27,9 @@ ljus_break_it(NAME shading_normals-turned HEADER path/vertex.hpp TEST mesh
     FROM "vertex.turned ? geometric : normal"
     TO   "normal"
     CASES "mesh: mirrors*")
+
+# The shading normal alone decides which side a direction is on.
+ljus_break_it(NAME shading_normals-side HEADER path/vertex.hpp TEST mesh
+    FROM "const T side = glm::dot(world, vertex.point.normal);"
+    TO   "const T side = T(0) * world.x + local.z;"
+    CASES "mesh: no light leaks*")

@@ -27,3 +27,9 @@ ljus_break_it(NAME solid-angle-no-way HEADER geometry/solid_angle.hpp TEST solid
     FROM "if (!(distance2 > T(0))) return T(0);"
     TO   ""
     CASES "solid angle: an observer at the very*")
+
+# The area of the lamp: a small one is as bright as a large one.
+ljus_break_it(NAME solid-angle-area HEADER geometry/solid_angle.hpp TEST solid_angle
+    FROM "distance2 / (cosine * area)"
+    TO   "distance2 / (cosine + 0 * area)"
+    CASES "solid angle: triangles and quads*")

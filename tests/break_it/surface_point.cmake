@@ -27,3 +27,9 @@ ljus_break_it(NAME surface-own-light HEADER geometry/surface_point.hpp TEST surf
     FROM "seen.error += detail::rounding_bound<T>(8) * max_component(detail::sizes(way));"
     TO   ""
     CASES "surface: no lamp*")
+
+# A shadow ray that starts where the hit was rounded to: its own surface hides the light.
+ljus_break_it(NAME surface-shadow-stay HEADER geometry/surface_point.hpp TEST surface_point
+    FROM "const Vec3T<T> origin = offset_ray_origin(from, way);"
+    TO   "const Vec3T<T> origin = from.position;"
+    CASES "surface: no lamp*,surface: a ray between*")

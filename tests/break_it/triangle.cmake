@@ -1,4 +1,4 @@
-# Without u + v <= 1 the triangle is a parallelogram.
+# Without u + v <= 1 the triangle is a strip without an end.
 ljus_break_it(NAME triangle-u-plus-v HEADER geometry/triangle.hpp TEST triangle
     FROM " && u + v <= C(1) + border"
     TO   ""
