@@ -185,6 +185,7 @@ struct ExtremePicture {
     ljus::RenderedT<T> rendered{}; ///< The picture and its counts.
     std::string remarks{};         ///< Of the maps, lines.
     std::size_t photons = 0;       ///< That the map has kept.
+    std::size_t photon_bytes = 0;  ///< What they take.
 };
 
 /// Both passes.
@@ -210,7 +211,8 @@ template <std::floating_point T>
                     .samples = settings.samples,
                     .seed = settings.seed,
                     .threads = settings.threads}),
-            maps.remarks, maps.caustics.records.size()};
+            maps.remarks, maps.caustics.records.size(),
+            maps.caustics.tree.bytes() + maps.caustics.records.bytes()};
 }
 
 } // namespace examples
