@@ -10,7 +10,11 @@
 . "$(dirname "$0")/common.sh"
 programs=$LJUS_ROOT/tests/checks/footprint
 table=$LJUS_ROOT/chapters/measured/footprint.csv
-compiler="$(basename "$LJUS_CXX" | sed 's/-[0-9]*$//') $("$LJUS_CXX" -dumpfullversion 2>/dev/null || "$LJUS_CXX" -dumpversion)"
+if "$LJUS_CXX" --version | grep -q clang; then
+    compiler="clang $("$LJUS_CXX" -dumpversion)"
+else
+    compiler="g++ $("$LJUS_CXX" -dumpfullversion)"
+fi
 wrong=0
 wrong() { echo "WRONG: $*"; wrong=1; }
 
