@@ -573,10 +573,9 @@ void run_request(const examples::CommandLine& line, Request request,
     PhotonMappingSettings settings = settings_of(request, line, options, picture);
     const std::string stem = std::filesystem::path(request.scene).stem().string();
     const std::string ending =
-        request.part.count == 0
-            ? ".png"
-            : "-" + std::to_string(request.part.number) + "-of-" +
-                  std::to_string(request.part.count) + ".slice";
+        request.part.count == 0 ? ".png"
+                                : "-" + std::to_string(request.part.number) + "-of-" +
+                                      std::to_string(request.part.count) + ".slice";
     const std::string path =
         options.path(options.file.empty() ? stem + ending : options.file);
     if (!request.pixel.empty())

@@ -80,7 +80,8 @@ TEST_CASE_TEMPLATE("extremes: from a millionth to a million times the size", T, 
     const auto plain = render_extreme<double>({}, few).rendered.image;
     ExtremeSettings other = few;
     other.seed = 2;
-    const double noise = error_of(render_extreme<double>({}, other).rendered.image, plain);
+    const double noise =
+        error_of(render_extreme<double>({}, other).rendered.image, plain);
     for (const double scale : {1e-6, 1e-3, 1e3, 1e6}) {
         CAPTURE(scale);
         const auto picture = checked<T>({.scale = scale});
@@ -88,6 +89,11 @@ TEST_CASE_TEMPLATE("extremes: from a millionth to a million times the size", T, 
         // A path that rounding sends elsewhere has another light, of the same noise.
         CHECK(error_of(picture.rendered.image, plain) < noise / 20);
     }
+    // Where float ends, above the fourth root of its largest number, it says so.
+    CHECK(checked<float>({.scale = 1e10}).remarks ==
+          "coordinates reach 2e+11: above 1e9 the squares of areas leave the range of "
+          "float; use double, or a larger unit of length\n");
+    CHECK(checked<double>({.scale = 1e10}).remarks.empty());
 }
 
 TEST_CASE("extremes: far from the origin float says that it does not hold, and double "
@@ -95,7 +101,8 @@ TEST_CASE("extremes: far from the origin float says that it does not hold, and d
     const auto plain = render_extreme<double>({}, few).rendered.image;
     ExtremeSettings other = few;
     other.seed = 2;
-    const double noise = error_of(render_extreme<double>({}, other).rendered.image, plain);
+    const double noise =
+        error_of(render_extreme<double>({}, other).rendered.image, plain);
     const auto at = [](double far) { return Extreme{.moved = {far, -far, far / 2}}; };
     CHECK(error_of(checked<float>(at(100)).rendered.image, plain) < noise / 4);
     CHECK(error_of(checked<double>(at(1e6)).rendered.image, plain) < noise / 20);
@@ -110,6 +117,11 @@ TEST_CASE("extremes: far from the origin float says that it does not hold, and d
     const Plan plan = survey(examples::extreme_room<float>(at(1e6)).scene, {});
     REQUIRE(plan.remarks.size() == 1);
     CHECK(lost.remarks == plan.remarks.front() + "\n");
+    const auto gone = survey(examples::extreme_room<float>(at(1e12)).scene, {});
+    REQUIRE(gone.remarks.size() == 1);
+    CHECK(gone.remarks.front() ==
+          "an object is so small or so far away that float keeps nothing of its size; "
+          "use double, or move the scene towards the origin");
     // And double in its turn.
     CHECK(checked<double>(at(1e15)).remarks.find("double keeps ") != std::string::npos);
 }
@@ -126,6 +138,10 @@ TEST_CASE_TEMPLATE("extremes: lamps from a point to the ceiling", T, float, doub
     checked<T>({.lamp = 0.9});
     checked<T>({.lamp = Extreme::ceiling});
     checked<T>({.scale = 1e-6, .lamp = 1e-3});
+    // What lights a small room is near.
+    const auto truth = render_extreme<double>({.lamp = 0}, few).rendered.image;
+    CHECK(error_of(checked<T>({.scale = 1e-6, .lamp = 0}).rendered.image, truth) <
+          1e-3);
     checked<T>({.scale = 1e6, .lamp = 0});
 }
 
@@ -183,18 +199,19 @@ TEST_CASE_TEMPLATE("extremes: in a furnace everything that loses no light is inv
                                      .target = middle,
                                      .vfov_degrees = T(30)});
                 const auto tracer = make_path_tracer(scene);
-                const auto picture = render(tracer, camera,
-                                            {.width = 16, .height = 16, .samples = 4});
+                const auto picture =
+                    render(tracer, camera, {.width = 16, .height = 16, .samples = 4});
                 CHECK(picture.counts.rejected == 0);
                 // A path that max_depth cuts has lost its light, and is counted.
                 const double lost = double(picture.counts.cut_paths) / (16 * 16 * 4);
-                CHECK(mean_of(picture.image) == doctest::Approx(1 - lost).epsilon(1e-5));
+                CHECK(mean_of(picture.image) ==
+                      doctest::Approx(1 - lost).epsilon(1e-5));
                 CHECK(lost < 0.01);
             }
 }
 
-TEST_CASE_TEMPLATE("extremes: no photon, one, one fewer than are asked for, and more", T,
-                   float, double) {
+TEST_CASE_TEMPLATE("extremes: no photon, one, one fewer than are asked for, and more",
+                   T, float, double) {
     ExtremeSettings settings = few;
     const auto with = [&](long long photons, std::size_t nearest) {
         settings.photons = photons;
@@ -215,15 +232,15 @@ TEST_CASE_TEMPLATE("extremes: no photon, one, one fewer than are asked for, and 
 
 TEST_CASE_TEMPLATE("extremes: pictures of one pixel, of one row and of one column", T,
                    float, double) {
-    for (const auto& [width, height] :
-         {std::pair{1, 1}, std::pair{1, 200}, std::pair{200, 1}}) {
+    for (const auto& size : {std::pair{1, 1}, std::pair{1, 200}, std::pair{200, 1}}) {
         ExtremeSettings settings = few;
-        settings.width = width;
-        settings.height = height;
+        settings.width = size.first;
+        settings.height = size.second;
         const auto picture = checked<T>({}, settings).rendered;
-        CHECK(picture.image.width == width);
-        CHECK(picture.image.height == height);
-        CHECK(picture.counts.camera_rays == std::uint64_t(width * height * 2));
+        CHECK(picture.image.width == settings.width);
+        CHECK(picture.image.height == settings.height);
+        CHECK(picture.counts.camera_rays ==
+              std::uint64_t(size.first * size.second * 2));
     }
 }
 

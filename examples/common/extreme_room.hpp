@@ -20,14 +20,14 @@ namespace examples {
 
 /// What may be extreme about a room. What is below 0 is as in the report.
 struct Extreme {
-    double scale = 1;                    ///< Of all lengths.
-    ljus::Vec3T<double> moved{0.0};      ///< Where its origin is, after scaling.
-    double lamp = -1;    ///< Radius of one ball that is the lamp, before scaling; 0: a
-                         ///< point; `ceiling`: all of the ceiling shines.
-    double albedo = -1;  ///< Of all matt surfaces.
-    double index = -1;   ///< Of all glass.
-    double gloss = -1;   ///< The mirror is glossy, of this roughness.
-    double matt = -1;    ///< The matt surfaces are rough, of this roughness.
+    double scale = 1;               ///< Of all lengths.
+    ljus::Vec3T<double> moved{0.0}; ///< Where its origin is, after scaling.
+    double lamp = -1;   ///< Radius of one ball that is the lamp, before scaling; 0: a
+                        ///< point; `ceiling`: all of the ceiling shines.
+    double albedo = -1; ///< Of all matt surfaces.
+    double index = -1;  ///< Of all glass.
+    double gloss = -1;  ///< The mirror is glossy, of this roughness.
+    double matt = -1;   ///< The matt surfaces are rough, of this roughness.
     static constexpr double ceiling = 1e9; ///< See lamp.
 };
 
@@ -62,7 +62,8 @@ struct Placed {
         return {(*this)(q.corner), along(q.edge_u), along(q.edge_v)};
     }
     /// A triangle.
-    [[nodiscard]] ljus::TriangleT<T> operator()(const ljus::TriangleT<double>& t) const {
+    [[nodiscard]] ljus::TriangleT<T>
+    operator()(const ljus::TriangleT<double>& t) const {
         return {(*this)(t.v1), (*this)(t.v2), (*this)(t.v3)};
     }
 };
@@ -96,12 +97,12 @@ ljus::MaterialId add_material(S& scene, const Extreme& how,
 template <std::floating_point T, typename S>
 ljus::MaterialId add_material(S& scene, const Extreme& how,
                               const ljus::MixtureT<double>& mixture) {
-    return scene.add(ljus::MixtureT<T>{
-        .color = ljus::RgbT<T>(mixture.color),
-        .reflectivity = T(mixture.reflectivity),
-        .transparency = T(mixture.transparency),
-        .index = T(how.index >= 0 ? how.index : mixture.index),
-        .absorption = ljus::RgbT<T>(mixture.absorption / how.scale)});
+    return scene.add(
+        ljus::MixtureT<T>{.color = ljus::RgbT<T>(mixture.color),
+                          .reflectivity = T(mixture.reflectivity),
+                          .transparency = T(mixture.transparency),
+                          .index = T(how.index >= 0 ? how.index : mixture.index),
+                          .absorption = ljus::RgbT<T>(mixture.absorption / how.scale)});
 }
 
 } // namespace detail
@@ -156,10 +157,10 @@ template <std::floating_point T>
         const Vec3T<double> at{6, 0, 4};
         const double s = how.scale, r = how.lamp;
         if (r > 0)
-            room.scene.add(place(SphereT<double>{at, r}),
-                           room.scene.add(LambertianT<T>{.albedo = RgbT<T>(T(0))}),
-                           RgbT<T>(T(flux / (4 * std::numbers::pi * std::numbers::pi *
-                                             r * r))));
+            room.scene.add(
+                place(SphereT<double>{at, r}),
+                room.scene.add(LambertianT<T>{.albedo = RgbT<T>(T(0))}),
+                RgbT<T>(T(flux / (4 * std::numbers::pi * std::numbers::pi * r * r))));
         else
             room.scene.add(PointLightT<T>{
                 place(at), RgbT<T>(T(s * s * flux / (4 * std::numbers::pi)))});
@@ -169,14 +170,14 @@ template <std::floating_point T>
 
 /// How an extreme is rendered.
 struct ExtremeSettings {
-    int width = 64;                ///< Pixels.
-    int height = 64;               ///< Pixels.
-    int samples = 4;               ///< Rays a pixel.
-    long long photons = 20000;     ///< Of the caustics map.
-    double radius = 0.15;          ///< Of its estimates, before scaling.
-    std::size_t nearest = 0;       ///< Photons of an estimate; 0: all in the radius.
-    std::uint64_t seed = 1;        ///< Of photons and rays.
-    int threads = 0;               ///< 0: all.
+    int width = 64;            ///< Pixels.
+    int height = 64;           ///< Pixels.
+    int samples = 4;           ///< Rays a pixel.
+    long long photons = 20000; ///< Of the caustics map.
+    double radius = 0.15;      ///< Of its estimates, before scaling.
+    std::size_t nearest = 0;   ///< Photons of an estimate; 0: all in the radius.
+    std::uint64_t seed = 1;    ///< Of photons and rays.
+    int threads = 0;           ///< 0: all.
 };
 
 /// A picture of an extreme, and what the program says of it.

@@ -75,14 +75,14 @@ inline constexpr int max_slices = 65536;
 
 /// A part of a picture, and all that tells whose part it is.
 struct PictureSlice {
-    SliceNumber slice{};          ///< Which part.
-    int width = 0;                ///< Of the whole picture.
-    int height = 0;               ///< Of the whole picture.
-    bool wide = false;            ///< Rendered in double.
-    double exposure = 0;          ///< Of a PNG file of the whole, in stops.
-    std::string settings{};       ///< JSON: scene, its hash, and every setting.
-    ljus::Counts counts{};        ///< What its rows cost.
-    double seconds = 0;           ///< Photons and rows.
+    SliceNumber slice{};    ///< Which part.
+    int width = 0;          ///< Of the whole picture.
+    int height = 0;         ///< Of the whole picture.
+    bool wide = false;      ///< Rendered in double.
+    double exposure = 0;    ///< Of a PNG file of the whole, in stops.
+    std::string settings{}; ///< JSON: scene, its hash, and every setting.
+    ljus::Counts counts{};  ///< What its rows cost.
+    double seconds = 0;     ///< Photons and rows.
     std::vector<ljus::RgbT<double>> pixels{}; ///< Its rows, from the top.
 };
 
@@ -96,10 +96,10 @@ struct PictureSlice {
     std::uint64_t hash = hash_of(scene);
     const auto each = [&](const auto& self, const nlohmann::json& json) -> void {
         if (json.is_object() && json.contains("file") && json["file"].is_string())
-            hash = hash_of(
-                ljus::load_file((folder / json["file"].get<std::string>()).string(),
-                                most),
-                hash);
+            hash =
+                hash_of(ljus::load_file(
+                            (folder / json["file"].get<std::string>()).string(), most),
+                        hash);
         if (json.is_structured())
             for (const auto& member : json) self(self, member);
     };
@@ -224,8 +224,8 @@ inline void save_slice(const std::string& path, const PictureSlice& part) {
     part.pixels.resize(pixels);
     for (ljus::RgbT<double>& color : part.pixels)
         for (int i = 0; i < 3; ++i)
-            color[i] = part.wide ? take_number<double>(at)
-                                 : double(take_number<float>(at));
+            color[i] =
+                part.wide ? take_number<double>(at) : double(take_number<float>(at));
     return part;
 }
 
@@ -266,8 +266,7 @@ struct MergedPicture {
 /// \throws std::runtime_error  with one sentence if a slice is missing, there twice, of
 ///         another picture, or cannot be read.
 // [merge]
-[[nodiscard]] inline MergedPicture
-merge_slices(const std::vector<std::string>& paths) {
+[[nodiscard]] inline MergedPicture merge_slices(const std::vector<std::string>& paths) {
     if (paths.empty()) throw std::runtime_error("there is no slice to merge");
     const PictureSlice first = load_slice(paths.front());
     const auto fail = [](const std::string& why) { throw std::runtime_error(why); };

@@ -48,16 +48,16 @@ template <std::floating_point T>
 /// plane from where it is.
 ///
 /// On which side of the plane a point lies that is at T from the corner is the sign of
-/// \f$ T \cdot (E_1 \times E_2) \f$: a sum of products with 9 roundings on the way, none
-/// larger than \f$ |T|\,|E_1|\,|E_2| \f$ with \f$ |X| = |X_x| + |X_y| + |X_z| \f$. Over
-/// twice the area that is a height,
+/// \f$ T \cdot (E_1 \times E_2) \f$: a sum of products with 9 roundings on the way,
+/// none larger than \f$ |T|\,|E_1|\,|E_2| \f$ with
+/// \f$ |X| = |X_x| + |X_y| + |X_z| \f$. Over twice the area that is a height,
 /// \f[ \gamma_9 |T| \, \frac{|E_1|\,|E_2|}{|E_1 \times E_2|} . \f]
 /// The quotient, the tilt, is 1 to 3 for a square; for two edges at a small angle it is
 /// 1 over its sine: the plane of a sliver is known badly. Where the arithmetic is wider
 /// than the data, as for float, it does not matter and nothing is added.
 /// \param point  Of the shape; gets its tilt and a larger error.
 /// \param e1     An edge.
-/// \param e2     Another one; if they are parallel, nothing is added: no ray meets them.
+/// \param e2     Another one; of parallel ones, which no ray meets, nothing is added.
 // [add_tilt]
 template <std::floating_point T>
 void add_tilt(SurfacePointT<T>& point, const Vec3T<T>& e1,
@@ -98,8 +98,8 @@ template <std::floating_point W>
 /// coordinate for the rounding of the sum. A point of a wall through the origin may
 /// have no coordinate but 0: then the error in the wall's plane gives the scale.
 ///
-/// A ray in double that leaves a flat shape does not meet it again if its angle with the
-/// plane is above some 20 roundoffs times the tilt: for a sliver of 1 to 1e-6, 2e-9.
+/// A ray in double that leaves a flat shape does not meet it again if its angle with
+/// the plane is above some 20 roundoffs times the tilt: 2e-9 for a sliver of 1 to 1e-6.
 /// Below that double cannot tell on which side of the plane the ray goes.
 ///
 /// \param point      A point of the surface, with its error.

@@ -18,9 +18,9 @@ using namespace ljus;
 namespace {
 
 #ifdef ALL_HEADERS
-using MattBox = Scene<
-    Shapes<Quad, Sphere, Triangle>,
-    Materials<Lambertian, Mirror, Glass, Mixture, Glossy, Eon, OrenNayar, SoapFilm>>;
+using MattBox =
+    Scene<Shapes<Quad, Sphere, Triangle>, Materials<Lambertian, Mirror, Glass, Mixture,
+                                                    Glossy, Eon, OrenNayar, SoapFilm>>;
 #else
 using MattBox = Scene<Shapes<Quad, Sphere>, Materials<Lambertian>>;
 #endif
@@ -45,8 +45,9 @@ int main() {
               Rgb{17, 13, 8});
     const auto maps = make_photon_maps(scene);
     const auto mapper = make_photon_mapper(scene, maps);
-    report(render(mapper,
-                  look_at({.position{0, 1, 4.4f}, .target{0, 1, 0}, .vfov_degrees = 33}),
-                  {.width = 64, .height = 64, .samples = 4, .threads = 1}),
-           maps.caustics.records.size());
+    report(
+        render(mapper,
+               look_at({.position{0, 1, 4.4f}, .target{0, 1, 0}, .vfov_degrees = 33}),
+               {.width = 64, .height = 64, .samples = 4, .threads = 1}),
+        maps.caustics.records.size());
 }

@@ -9,8 +9,9 @@
 using namespace ljus;
 
 int main() {
-    Scene<Shapes<Quad, Sphere, Triangle, Metaballs>,
-          Materials<Lambertian, Mirror, Glass, Mixture, Glossy, Eon, OrenNayar, SoapFilm>>
+    Scene<
+        Shapes<Quad, Sphere, Triangle, Metaballs>,
+        Materials<Lambertian, Mirror, Glass, Mixture, Glossy, Eon, OrenNayar, SoapFilm>>
         scene;
     add_report_room(scene);
     const auto place = [&](float x, const auto& material) {

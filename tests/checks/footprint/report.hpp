@@ -26,9 +26,8 @@ inline void report(const ljus::RenderedT<float>& rendered, std::size_t photons =
         for (const unsigned char byte : raw) hash = (hash ^ byte) * 0x100000001b3u;
     }
     const ljus::Counts& counts = rendered.counts;
-    std::printf("%llu %llu %zu %zu %016llx\n",
-                static_cast<unsigned long long>(counts.rays()),
-                static_cast<unsigned long long>(counts.map_queries), photons,
-                photons == 0 ? 0 : bytes / photons,
-                static_cast<unsigned long long>(hash));
+    std::printf(
+        "%llu %llu %zu %zu %016llx\n", static_cast<unsigned long long>(counts.rays()),
+        static_cast<unsigned long long>(counts.map_queries), photons,
+        photons == 0 ? 0 : bytes / photons, static_cast<unsigned long long>(hash));
 }
