@@ -280,7 +280,7 @@ TEST_CASE("extremes: what cannot be rendered is refused in a sentence") {
         CAPTURE(said);
         CHECK(said.find(words) != std::string::npos);
     };
-    refused("radius", {.scale = 0});
+    refused("absorption", {.scale = 0});
     refused("radius", {.scale = 1e-20});
     refused("quad.corner", {.scale = 1e39});
     refused("albedo", {.albedo = 1.001});
