@@ -13,6 +13,7 @@
 ///     render scene.json --skip enough          shadow rays that photons make needless
 ///     render scene.json --passes 100 --checkpoint a.check --preview a.png
 ///                                              maps that converge; --resume goes on
+///     render scene.json --slice 3/16 --out part    a part of it; see ljus-merge
 
 #include <array>
 #include <charconv>
@@ -23,17 +24,16 @@
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
 #include "common/photon_options.hpp"
+#include "common/picture_slice.hpp"
 #include "common/progressive_picture.hpp"
 #include "common/promised_picture.hpp"
+#include "common/save_picture.hpp"
 #include "common/terminal.hpp"
 #include "ljus/inspect/census.hpp"
 #include "ljus/inspect/explain.hpp"
 #include "ljus/inspect/photon_dots.hpp"
 #include "ljus/inspect/survey.hpp"
-#include "ljus/io/hdr.hpp"
 #include "ljus/io/load_json.hpp"
-#include "ljus/io/pfm.hpp"
-#include "ljus/io/png.hpp"
 #include "ljus/math/stratified_stream.hpp"
 #include "ljus/render/adaptive.hpp"
 #include "ljus/render/photon_mapping.hpp"
@@ -97,6 +97,8 @@ struct Request {
     examples::PassOptions passes;
     examples::Promise promise;
     nlohmann::ordered_json kept; ///< How the promise was kept.
+    std::string slice;
+    examples::SliceNumber part;
     std::string path_lights = "balance";
     double roulette_threshold = 1;
     double roulette_max = 1;
@@ -215,6 +217,29 @@ bool promises(const Request& request, const examples::CommandLine& line) {
     return true;
 }
 
+/// Takes the number of a slice, and refuses what needs all of the picture.
+void set_slice(Request& request, const examples::CommandLine& line,
+               const std::string& file) {
+    const bool slice_file = std::filesystem::path(file).extension() == ".slice";
+    if (request.slice.empty()) {
+        if (slice_file)
+            throw std::invalid_argument("a file NAME.slice is for --slice K/N");
+        return;
+    }
+    request.part = examples::slice_of(request.slice);
+    if (!file.empty() && !slice_file)
+        throw std::invalid_argument(
+            "a slice is no picture: --out must be NAME.slice, or a folder for it; "
+            "ljus-merge makes the picture");
+    for (const char* option : {"--explain", "--photons", "--passes"})
+        if (line.given(option))
+            throw std::invalid_argument(
+                std::string(option).append(" does not go with --slice."));
+    if (request.more_rays > 0)
+        throw std::invalid_argument(
+            "--slice takes the same rays in every pixel: give --more-rays 0.");
+}
+
 /// What the passes will be, as a line of the plan.
 std::string passes_line(const Request& request, const PhotonMappingSettings& settings) {
     const long long passes = request.passes.passes;
@@ -311,6 +336,10 @@ RenderedT<T> run(const Renderer& renderer, const CameraT<T>& camera,
                                          .batches = 1,
                                          .disagreement = request.disagreement});
         rendered = {std::move(adaptive.image), adaptive.counts, adaptive.complete};
+    } else if (request.part.count > 0) {
+        const RowRange rows = examples::rows_of(request.part, picture.height);
+        if (rows.first == rows.last) return rendered; // more slices than rows
+        rendered = render_rows(stoppable, camera, picture, rows);
     } else {
         rendered = render(stoppable, camera, picture);
     }
@@ -467,11 +496,9 @@ RenderedT<T> render_scene(const LoadedSceneT<T>& loaded, const RenderSettings& p
     return run(mapper, loaded.camera, picture, request, quiet);
 }
 
-/// All settings of a picture, and what it cost, for the file beside it.
-template <std::floating_point T>
-std::string to_json(const Request& request, const RenderSettings& picture,
-                    const PhotonMappingSettings& settings, const RenderedT<T>& rendered,
-                    double seconds) {
+/// All settings of a picture, for the file beside it.
+nlohmann::ordered_json to_json(const Request& request, const RenderSettings& picture,
+                               const PhotonMappingSettings& settings) {
     const auto pass = [](const PhotonPassSettings& of,
                          const DensityEstimateSettings& how) {
         return nlohmann::ordered_json{
@@ -517,16 +544,7 @@ std::string to_json(const Request& request, const RenderSettings& picture,
         json["roulette_threshold"] = request.roulette_threshold;
         json["roulette_max"] = request.roulette_max;
     }
-    json["cost"] = {{"seconds", seconds},
-                    {"camera_rays", rendered.counts.camera_rays},
-                    {"bounce_rays", rendered.counts.bounce_rays},
-                    {"shadow_rays", rendered.counts.shadow_rays},
-                    {"map_queries", rendered.counts.map_queries},
-                    {"skipped_rays", rendered.counts.skipped_rays},
-                    {"skipped_bounces", rendered.counts.skipped_bounces},
-                    {"rejected", rendered.counts.rejected},
-                    {"cut_paths", rendered.counts.cut_paths}};
-    return json.dump(2) + "\n";
+    return json;
 }
 
 constexpr PhotonKind kinds[] = {PhotonKind::direct, PhotonKind::indirect,
@@ -572,15 +590,25 @@ ImageT<T> draw_photons(const LoadedSceneT<T>& loaded, const RenderSettings& pict
     return image;
 }
 
+/// A slice and all that tells whose part it is, as a file.
 template <std::floating_point T>
-void save(const ImageT<T>& image, const std::string& path, double exposure) {
-    const std::string kind = std::filesystem::path(path).extension().string();
-    if (kind == ".pfm")
-        save_pfm(image, path);
-    else if (kind == ".hdr")
-        save_hdr(image, path);
-    else
-        save_png(image, path, {.exposure = exposure});
+void save_part(const std::string& path, const Request& request,
+               const RenderSettings& picture, nlohmann::ordered_json settings,
+               const RenderedT<T>& rendered, double seconds) {
+    settings["scene_hash"] = examples::scene_hash(request.scene);
+    settings["exposure"] = request.exposure;
+    settings["version"] = {LJUS_VERSION_MAJOR, LJUS_VERSION_MINOR, LJUS_VERSION_PATCH};
+    examples::PictureSlice part{.slice = request.part,
+                                .width = picture.width,
+                                .height = picture.height,
+                                .wide = std::is_same_v<T, double>,
+                                .exposure = request.exposure,
+                                .settings = settings.dump(),
+                                .counts = rendered.counts,
+                                .seconds = seconds};
+    for (const RgbT<T>& color : rendered.image.pixels)
+        part.pixels.push_back(RgbT<double>(color));
+    examples::save_slice(path, part);
 }
 
 /// Does what the user asked for, in one precision.
@@ -605,10 +633,15 @@ void run_request(const examples::CommandLine& line, Request request,
     const bool promised = promises(request, line);
     set_samples(request, line, picture);
     set_passes(request, line, picture);
+    set_slice(request, line, options.file);
     PhotonMappingSettings settings = settings_of(request, line, options, picture);
     const std::string stem = std::filesystem::path(request.scene).stem().string();
+    const std::string ending =
+        request.part.count == 0 ? ".png"
+                                : "-" + std::to_string(request.part.number) + "-of-" +
+                                      std::to_string(request.part.count) + ".slice";
     const std::string path =
-        options.path(options.file.empty() ? stem + ".png" : options.file);
+        options.path(options.file.empty() ? stem + ending : options.file);
     if (!request.pixel.empty())
         (void)pixel_of(request.pixel, picture);
     else if (!request.plan) {
@@ -636,8 +669,9 @@ void run_request(const examples::CommandLine& line, Request request,
     }
 
     if (!request.photons.empty()) {
-        save(draw_photons(loaded, picture, request, settings, options), path,
-             request.exposure);
+        examples::save_picture(
+            draw_photons(loaded, picture, request, settings, options), path,
+            request.exposure);
         if (!options.quiet) std::printf("  %s\n", path.c_str());
         return;
     }
@@ -646,11 +680,17 @@ void run_request(const examples::CommandLine& line, Request request,
         promised
             ? render_promised(loaded, picture, request, settings, watch, options.quiet)
             : render_scene(loaded, picture, request, settings, options.quiet);
-    if (rendered.image.pixels.empty()) return;
+    if (rendered.image.pixels.empty() && request.part.count == 0) return;
     const double seconds = watch.seconds();
-    save(rendered.image, path, request.exposure);
-    const std::string json = to_json(request, picture, settings, rendered, seconds);
-    save_file(path + ".json", Bytes(json.begin(), json.end()));
+    nlohmann::ordered_json json = to_json(request, picture, settings);
+    if (request.part.count > 0) {
+        save_part(path, request, picture, json, rendered, seconds);
+    } else {
+        examples::save_picture(rendered.image, path, request.exposure);
+        json["cost"] = examples::cost_json(rendered.counts, seconds);
+        const std::string text = json.dump(2) + "\n";
+        save_file(path + ".json", Bytes(text.begin(), text.end()));
+    }
     if (options.quiet) return;
     std::printf("  %-16s %8.2f s\n", "all passes", seconds);
     std::printf("  %s\n", path.c_str());
@@ -659,9 +699,9 @@ void run_request(const examples::CommandLine& line, Request request,
 void body(examples::CommandLine& line) {
     Request request;
     line.about("Renders a scene file into one picture: --out NAME.png, NAME.hdr or "
-               "NAME.pfm, or a folder for SCENE.png.");
+               "NAME.pfm, or a folder for SCENE.png (of a slice: NAME.slice).");
     line.add_positional("SCENE.json", request.scene, "The scene file");
-    line.file_types({".png", ".hdr", ".pfm"});
+    line.file_types({".png", ".hdr", ".pfm", ".slice"});
     line.add("--renderer", request.renderer, "photon or path", {"photon", "path"});
     line.add("--depth", request.depth, "Surfaces on a path, mirrors counted", 1, 1000);
     line.add("--roulette", request.roulette, "Surface from which roulette ends paths",
@@ -734,6 +774,8 @@ void body(examples::CommandLine& line) {
     line.add("--explain", request.pixel, "X,Y: print that pixel's paths, no picture");
     line.add("--photons", request.photons, "No rendering: photons as dots",
              {"direct", "indirect", "shadow", "caustic", "all"});
+    line.add("--slice", request.slice,
+             "K/N: the K-th of N parts, for ljus-merge to put together");
     line.add("--plan", request.plan, "Print what would run and why, no picture");
     const examples::Options options = line.parse();
     if (request.precision == "double")

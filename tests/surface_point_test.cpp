@@ -190,3 +190,47 @@ TEST_CASE(
         CHECK(detail::span_area(size * slanted, size * (slanted + 1e-6 * z)));
     }
 }
+
+TEST_CASE_TEMPLATE("surface: slivers do not meet again what leaves them", T, float,
+                   double) {
+    // In double the plane of a sliver is known worse than its points are: a test of it
+    // rounds by what is left of its area.
+    using V = Vec3T<double>;
+    Numbers n;
+    for (const double thin : {1.0, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10})
+        for (const double offset : {0.0, 10.0}) {
+            long cases = 0, again = 0, at_lamp = 0, at_floor = 0;
+            for (int i = 0; i < 2000; ++i) {
+                const V a = n.direction(), corner = offset * n.point(1);
+                const V b = glm::normalize(glm::cross(a, n.direction()));
+                const V third = n.between(-0.5, 1.5) * a + thin * b;
+                const TriangleT<T> triangle{Vec3T<T>(corner), Vec3T<T>(corner + a),
+                                            Vec3T<T>(corner + third)};
+                const QuadT<T> quad{triangle.v1, triangle.v2 - triangle.v1,
+                                    triangle.v3 - triangle.v1};
+                const Vec3T<T> way(n.direction());
+                const auto far = static_cast<T>(n.power(-1, 3));
+                const auto check = [&](const auto& shape) {
+                    if (!detail::has_area(shape)) return;
+                    const auto point = sample_area(shape, n.square<T>());
+                    // Below that angle no rounded test knows the side of the plane.
+                    const double sine = std::abs(glm::dot(V(way), V(point.normal)));
+                    if (sine < 1e-3) return;
+                    ++cases;
+                    again += intersect(spawn_ray(point, way), shape).has_value();
+                    const SurfacePointT<T> seen{.position = point.position + far * way,
+                                                .normal = -way};
+                    at_lamp += intersect(spawn_ray_to(seen, point), shape).has_value();
+                    at_floor += intersect(spawn_ray_to(point, seen), shape).has_value();
+                };
+                check(triangle);
+                check(quad);
+            }
+            CAPTURE(thin);
+            CAPTURE(offset);
+            CHECK(cases > 3000);
+            CHECK(again == 0);
+            CHECK(at_lamp == 0);
+            CHECK(at_floor == 0);
+        }
+}

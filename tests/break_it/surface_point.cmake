@@ -33,3 +33,21 @@ ljus_break_it(NAME surface-shadow-stay HEADER geometry/surface_point.hpp TEST su
     FROM "const Vec3T<T> origin = offset_ray_origin(from, way);"
     TO   "const Vec3T<T> origin = from.position;"
     CASES "surface: no lamp*,surface: a ray between*")
+
+# In double, half of the rays that leave a sliver meet it again.
+ljus_break_it(NAME surface-tilt HEADER geometry/surface_point.hpp TEST surface_point
+    FROM "point.error += rounding_bound<T>(9) * (size_of(e1) + size_of(e2)) * tilt;"
+    TO   ""
+    CASES "surface: slivers*")
+
+# A lamp that is a sliver shades itself.
+ljus_break_it(NAME surface-tilt-own-light HEADER geometry/surface_point.hpp TEST surface_point
+    FROM "seen.error += detail::rounding_bound<T>(18) * detail::size_of(way) * to.tilt;"
+    TO   "(void)to;"
+    CASES "surface: slivers*")
+
+# Only along the normal of a square, and none of a sliver.
+ljus_break_it(NAME surface-tilt-area HEADER geometry/surface_point.hpp TEST surface_point
+    FROM "size_of(e1) * size_of(e2) / std::sqrt(glm::dot(up, up))"
+    TO   "T(1)"
+    CASES "surface: slivers*")

@@ -87,10 +87,13 @@ template <std::floating_point T>
                                                const Vec3T<T>& normal) noexcept {
     const Vec3T<T> b = u * quad.edge_u;
     const Vec3T<T> c = v * quad.edge_v;
-    return {.position = quad.corner + b + c,
-            .error = detail::rounding_bound<T>(5) *
-                     (detail::sizes(quad.corner) + detail::sizes(b) + detail::sizes(c)),
-            .normal = normal};
+    SurfacePointT<T> point{
+        .position = quad.corner + b + c,
+        .error = detail::rounding_bound<T>(5) *
+                 (detail::sizes(quad.corner) + detail::sizes(b) + detail::sizes(c)),
+        .normal = normal};
+    detail::add_tilt(point, quad.edge_u, quad.edge_v);
+    return point;
 }
 
 /// The point of a quad at u, v.

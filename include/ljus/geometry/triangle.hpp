@@ -208,10 +208,13 @@ template <std::floating_point T>
     const Vec3T<T> a = (T(1) - u - v) * triangle.v1;
     const Vec3T<T> b = u * triangle.v2;
     const Vec3T<T> c = v * triangle.v3;
-    return {.position = a + b + c,
-            .error = detail::rounding_bound<T>(7) *
-                     (detail::sizes(a) + detail::sizes(b) + detail::sizes(c)),
-            .normal = normal};
+    SurfacePointT<T> point{.position = a + b + c,
+                           .error =
+                               detail::rounding_bound<T>(7) *
+                               (detail::sizes(a) + detail::sizes(b) + detail::sizes(c)),
+                           .normal = normal};
+    detail::add_tilt(point, triangle.v2 - triangle.v1, triangle.v3 - triangle.v1);
+    return point;
 }
 
 /// The point of a triangle, if its normal is not known.

@@ -14,17 +14,22 @@
 
 namespace ljus::detail {
 
-/// Digits that are left of the shapes, if they are fewer than three.
+/// Digits that are left of the shapes, if they are fewer than three, and lengths that
+/// are too large.
 ///
 /// A number x of p bits is off by up to 2^-p x. Of a ball of radius r whose points have
 /// coordinates up to c, the surface is off by 2^-p c / r of its radius: that are
-/// log10(2^p r / c) digits.
+/// log10(2^p r / c) digits. The direction of a shadow ray is as long as its way, and
+/// chord() multiplies four lengths: above the fourth root of the largest number a ball
+/// may cast no shadow.
 /// \param scene  The scene.
 /// \return A sentence, or nothing.
 template <SceneLike S>
 [[nodiscard]] std::string digits_remark(const S& scene) {
     using T = typename S::Scalar;
-    double most = 1, radius = 0;
+    constexpr bool single = std::is_same_v<T, float>;
+    constexpr double widest = single ? 1e9 : 1e75;
+    double most = 1, radius = 0, reach = 0;
     for (std::uint32_t type = 0; type < scene.objects.size(); ++type)
         for (std::uint32_t i = 0; i < scene.objects[type].size(); ++i) {
             const SphereT<double> bound = scene.visit_shape({type, i}, [](const auto&
@@ -32,7 +37,9 @@ template <SceneLike S>
                 const SphereT<T> ball = bounding_sphere(shape);
                 return SphereT<double>{Vec3T<double>(ball.center), double(ball.radius)};
             });
+            // [digits]
             const Vec3T<double> far = glm::abs(bound.center) + bound.radius;
+            reach = std::max(reach, max_component(far));
             const double ratio = max_component(far) / bound.radius;
             if (!(ratio > most)) continue;
             most = ratio;
@@ -40,9 +47,22 @@ template <SceneLike S>
         }
     constexpr double half = double(std::numeric_limits<T>::epsilon()) / 2;
     const int digits = int(std::max(0.0, std::floor(-std::log10(half * most))));
-    if (digits >= 3) return {};
-    const bool single = std::is_same_v<T, float>;
+    // [digits]
     char times[40], size[40];
+    if (digits >= 3) {
+        if (!(reach > widest)) return {};
+        std::snprintf(times, sizeof times, "%.0e", reach);
+        return join({"coordinates reach ", times,
+                     single ? ": above 1e9 the squares of areas leave the range of "
+                              "float; use double, or a larger unit of length"
+                            : ": above 1e75 the squares of areas leave the range of "
+                              "double; use a larger unit of length"});
+    }
+    if (!std::isfinite(most)) // all corners are one point
+        return join({"an object is so small or so far away that ",
+                     single ? "float" : "double", " keeps nothing of its size; ",
+                     single ? "use double, or move the scene towards the origin"
+                            : "move the scene towards the origin"});
     std::snprintf(times, sizeof times, "%.0e", most);
     std::snprintf(size, sizeof size, "%.3g", radius);
     return join({"coordinates reach ", times, " times the smallest radius, ", size,

@@ -1,0 +1,31 @@
+#pragma once
+
+/// \file save_picture.hpp
+/// \brief Saves a picture as the kind of file that its name says.
+
+#include <filesystem>
+#include <string>
+
+#include "ljus/io/hdr.hpp"
+#include "ljus/io/pfm.hpp"
+#include "ljus/io/png.hpp"
+
+namespace examples {
+
+/// Saves a picture as PFM or HDR, which hold radiance, or else as PNG.
+/// \param image     Linear colours.
+/// \param path      The file; its ending says what it becomes.
+/// \param exposure  Of a PNG file, in stops.
+template <std::floating_point T>
+void save_picture(const ljus::ImageT<T>& image, const std::string& path,
+                  double exposure) {
+    const std::string kind = std::filesystem::path(path).extension().string();
+    if (kind == ".pfm")
+        ljus::save_pfm(image, path);
+    else if (kind == ".hdr")
+        ljus::save_hdr(image, path);
+    else
+        ljus::save_png(image, path, {.exposure = exposure});
+}
+
+} // namespace examples
