@@ -4,7 +4,7 @@
 /// Standard errors come from independent maps, one a seed. A mean is accepted within 4.5
 /// of them: each such check gives a false alarm once in 150 000 seeds.
 
-#include "ljus/photons/density_estimate.hpp"
+#include "ljus/photons/detail/estimates_together.hpp"
 
 #include <doctest/doctest.h>
 
@@ -196,6 +196,46 @@ TEST_CASE("photon_map: eight at a time give what one by one give") {
             REQUIRE(plain == b);
         }
     }
+}
+
+TEST_CASE("photon_map: estimates that are answered together are those one by one") {
+    Numbers numbers{83};
+    ljus::detail::BallBlocks room; // of the search before, as it was left
+    for (const int count : {0, 1, 7, 32, 33, 300, 5000})
+        for (const Kernel kernel : kernels) {
+            std::vector<Photon> photons = rain(count, numbers);
+            for (Photon& photon : photons)
+                photon.kind = static_cast<PhotonKind>(numbers.below(4));
+            const auto map = ljus::make_photon_map(photons);
+            const DensityEstimateSettings gather{
+                .radius = float(numbers.between(0.02, 0.3)),
+                .kernel = kernel,
+                .thickness = float(numbers.between(0.1, 1.2))};
+            const ljus::PhotonKinds kinds{static_cast<std::uint8_t>(numbers.below(16))};
+            // Some within the square, some beside it, above it, and seen from below.
+            std::vector<ljus::detail::EstimatePlaceT<float>> places;
+            std::vector<Rgb> each(200), together(200, Rgb{0});
+            std::uint64_t summed_each = 0, summed = 0;
+            for (std::uint32_t i = 0; i < 200; ++i) {
+                auto surface = floor_at<float>(numbers.point<float>(1.2));
+                if (i % 8 != 0) surface.point.position.z *= 0.01f;
+                surface.wo = glm::normalize(numbers.point<float>(1));
+                const Rgb throughput = numbers.point<float>(1);
+                places.push_back(
+                    ljus::detail::estimate_place(surface, matt, throughput, i));
+                each[i] =
+                    throughput * ljus::estimate_radiance(map, surface, matt, surface.wo,
+                                                         gather, kinds, summed_each);
+            }
+            ljus::detail::estimates_together<float>(
+                map, places, gather, kinds, summed, room,
+                [&](const auto& place, const Rgb& light) {
+                    together[place.item] += place.throughput * light;
+                });
+            CAPTURE(count);
+            REQUIRE(summed == summed_each);
+            for (std::size_t i = 0; i < 200; ++i) REQUIRE(together[i] == each[i]);
+        }
 }
 
 TEST_CASE("photon_map: one by one, too, find the flux density") {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "ljus/render/path_tracing.hpp"
+#include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"
 #include "support/rooms.hpp"
 #include "support/within.hpp"
@@ -40,7 +41,108 @@ RgbT<T> radiance(const Echo&, const RayT<T>&, RandomStream& stream, Counts&,
     return next_3d<T>(stream);
 }
 
+/// A renderer that answers with its numbers, at once or later; every eighth answer is
+/// not a number, and some samples have two answers or none.
+struct Late {
+    using Stream = RandomStream;
+    /// The answers that come later.
+    struct Later {
+        std::uint32_t item = 0;
+        std::vector<std::pair<std::uint32_t, Rgb>> answers{};
+        void finish(const Late&, Counts& counts, std::span<Rgb> samples) {
+            counts.map_queries += answers.size();
+            for (const auto& [to, light] : answers) samples[to] += light;
+            answers.clear();
+        }
+    };
+};
+template <typename Log = NoLog>
+Rgb radiance(const Late&, const Ray&, RandomStream& stream, Counts& counts,
+             Log&& log = {}) {
+    Rgb sum{0};
+    for (int i = static_cast<int>(3 * next_1d(stream)); i > 0; --i) {
+        Rgb light = next_3d(stream);
+        if (light.x < 0.125f) light.x = std::numeric_limits<float>::quiet_NaN();
+        if constexpr (requires { log.answers; }) {
+            log.answers.push_back({log.item, light});
+        } else {
+            ++counts.map_queries;
+            sum += light;
+        }
+    }
+    return sum;
+}
+
+/// The picture of a renderer whose every question is answered at once.
+template <typename R>
+RenderedT<float> plain_picture(const R& renderer, const Camera& camera,
+                               const RenderSettings& picture) {
+    RenderedT<float> plain{.image = make_image(picture.width, picture.height)};
+    const Pattern pattern = make_pattern(picture.sampling, picture.samples);
+    for (int y = 0; y < picture.height; ++y)
+        for (int x = 0; x < picture.width; ++x) {
+            RgbT<double> sum{0};
+            for (int i = 0; i < picture.samples; ++i) {
+                const Rgb sample = detail::sample_pixel(renderer, camera, picture,
+                                                        pattern, x, y, i, plain.counts);
+                if (is_finite(sample))
+                    sum += RgbT<double>(sample);
+                else
+                    ++plain.counts.rejected;
+            }
+            pixel(plain.image, x, y) = Rgb(sum / double(picture.samples));
+        }
+    return plain;
+}
+
 } // namespace
+
+TEST_CASE("render: answers that come later go to their own samples") {
+    for (const int samples : {1, 3, 4, 63, 64, 65, 200})
+        for (const int width : {1, 16, 21}) {
+            const RenderSettings picture{.width = width,
+                                         .height = 3,
+                                         .samples = samples,
+                                         .seed = 12,
+                                         .threads = 1};
+            const auto late = render(Late{}, Camera{}, picture);
+            const auto plain = plain_picture(Late{}, Camera{}, picture);
+            REQUIRE(late.image.pixels == plain.image.pixels);
+            REQUIRE(late.counts.rejected == plain.counts.rejected);
+            REQUIRE(late.counts.map_queries == plain.counts.map_queries);
+        }
+}
+
+// The terms of a path are the same, but those of caustics are added last: each of some
+// dozen sums rounds by half a unit in the last place.
+TEST_CASE("render: caustics that are asked for together are those asked one by one") {
+    const Camera camera = room_camera<float>();
+    for (const Ball ball : {Ball::glass, Ball::oren_nayar, Ball::mixture})
+        for (const std::size_t nearest : {0u, 20u}) {
+            const Room room = make_room<float>(ball, Lamp::quad, 1);
+            PhotonMappingSettings settings;
+            settings.caustics.photons = 20000;
+            settings.caustics_estimate = {.radius = 0.1f, .nearest = nearest};
+            const auto maps = make_photon_maps(room, settings);
+            const auto mapper = make_photon_mapper(room, maps, settings);
+            for (const int samples : {1, 5, 70}) {
+                const RenderSettings picture{
+                    .width = 21, .height = 16, .samples = samples, .threads = 2};
+                const auto together = render(mapper, camera, picture);
+                const auto plain = plain_picture(mapper, camera, picture);
+                for (std::size_t i = 0; i < plain.image.pixels.size(); ++i)
+                    for (int c = 0; c < 3; ++c)
+                        REQUIRE(
+                            together.image.pixels[i][c] ==
+                            doctest::Approx(plain.image.pixels[i][c]).epsilon(1e-5));
+                CHECK(together.counts.rays() == plain.counts.rays());
+                CHECK(together.counts.map_queries == plain.counts.map_queries);
+                CHECK(together.counts.map_photons == plain.counts.map_photons);
+                CHECK(together.counts.rejected == plain.counts.rejected);
+                if (ball == Ball::glass) CHECK(plain.counts.map_photons > 0);
+            }
+        }
+}
 
 TEST_CASE("render: no ray of a picture has the numbers of another one") {
     // Of 24 bits each: that two of 3200 triples agree by chance is as good as impossible.

@@ -1,8 +1,8 @@
 # Rows of a machine's part that are traced as if they were the first ones: each strip
 # shows the top of the picture.
 ljus_break_it(NAME parallel-rows HEADER render/render.hpp TEST render
-    FROM "x, rows.first + row, i, cost"
-    TO   "x, row, i, cost"
+    FROM "rows.first + row, i, cost, log"
+    TO   "row, i, cost, log"
     CASES "render: rows that are*")
 
 # Blocks in turns: two threads are given the same one where one had it.

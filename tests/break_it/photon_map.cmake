@@ -80,7 +80,7 @@ ljus_break_it(NAME lane-estimate-kinds HEADER photons/detail/flux_in_disc.hpp TE
 
 # A sum in float alone.
 ljus_break_it(NAME lane-estimate-float HEADER photons/detail/flux_in_disc.hpp TEST photon_map
-    FROM "if (++parts == 16) add_part();"
+    FROM "if (++parts_ == 16) add_part();"
     TO   ""
     CASES "photon_map: two million*")
 
@@ -89,3 +89,24 @@ ljus_break_it(NAME photon-map-radius HEADER photons/density_estimate.hpp TEST ph
     FROM "gather.radius >= 1e-15f"
     TO   "gather.radius > 0"
     CASES "photon_map: a way to gather*")
+
+# Estimates that are answered together: all of them at the first place, photons of a
+# leaf's first block only, and a ball that gets those of the one before.
+ljus_break_it(NAME together-center HEADER photons/detail/estimates_together.hpp
+    TEST photon_map
+    FROM "{ return places[i].center; }"
+    TO   "{ return places[0 * i].center; }"
+    CASES "photon_map: estimates that are*")
+ljus_break_it(NAME together-block HEADER accel/detail/kd_tree8_traverse.hpp TEST photon_map
+    FROM "some != 0; ++block, some >>= 8)"
+    TO   "some != 0; ++block, some = 0)"
+    CASES "photon_map: estimates that are*")
+ljus_break_it(NAME together-room HEADER accel/detail/kd_tree8_traverse.hpp TEST photon_map
+    FROM "found.blocks.clear();"
+    TO   ""
+    CASES "photon_map: estimates that are*")
+ljus_break_it(NAME together-side HEADER photons/detail/estimates_together.hpp
+    TEST photon_map
+    FROM "std::copysign(T(1), vertex.wo.z) * vertex.frame.normal"
+    TO   "vertex.frame.normal"
+    CASES "photon_map: estimates that are*")

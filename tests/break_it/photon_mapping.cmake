@@ -47,3 +47,18 @@ ljus_break_it(NAME photon-mapping-plan HEADER render/photon_mapping.hpp TEST sur
     FROM "detail::choose_passes(needs(scene), settings).indirect_rays"
     TO   "settings.max_depth > 0"
     CASES "survey: what the plan leaves out*")
+
+# Caustics that come later without what the path is worth, and all samples' to the first
+# one of them.
+ljus_break_it(NAME later-throughput HEADER render/detail/later_caustics.hpp TEST render
+    FROM "place.throughput * light"
+    TO   "light"
+    CASES "render: caustics that*")
+ljus_break_it(NAME later-item HEADER render/detail/strip_sums.hpp TEST render
+    FROM "later_.item = static_cast<std::uint32_t>(count_);"
+    TO   "later_.item = 0;"
+    CASES "render: answers that come*")
+ljus_break_it(NAME later-left HEADER render/render.hpp TEST render
+    FROM "sums.finish();"
+    TO   ""
+    CASES "render: answers that come*")

@@ -116,6 +116,13 @@ public:
                             return false;
                         });
     }
+    /// What visit_blocks() visits, for many balls of one radius: see
+    /// detail::find_in_balls().
+    template <typename Center, typename Expect>
+    void find_in_balls(std::size_t balls, Center center, T radius, Expect expect,
+                       detail::BallBlocks& found) const {
+        detail::find_in_balls(parts_, balls, center, radius, expect, found);
+    }
     /// Calls `visit(index, distance2)` for each point within a closed ball.
     /// \param center  Of the ball.
     /// \param radius  As for visit_blocks().

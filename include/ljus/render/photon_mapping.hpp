@@ -7,7 +7,7 @@
 #include "ljus/path/continue_path.hpp"
 #include "ljus/path/path_log.hpp"
 #include "ljus/path/renderer.hpp"
-#include "ljus/photons/density_estimate.hpp"
+#include "ljus/render/detail/later_caustics.hpp"
 #include "ljus/render/photon_maps.hpp"
 #include "ljus/scene/index.hpp"
 
@@ -31,8 +31,10 @@ namespace ljus {
 ///                the rays of a pixel share out lamps and directions.
 template <SceneLike S, typename Draws = RandomStream>
 struct PhotonMapper {
-    using Stream = Draws;      ///< What render() gives it to draw from.
-    detail::IndexedT<S> scene; ///< What is rendered.
+    using Stream = Draws; ///< What render() gives it to draw from.
+    /// The caustics map answers many samples of a picture together.
+    using Later = detail::LaterCaustics<typename S::Scalar>;
+    detail::IndexedT<S> scene;                   ///< What is rendered.
     const PhotonMapsT<typename S::Scalar>& maps; ///< Of the first pass.
     PhotonMappingSettings settings;              ///< How.
     Lobes bounces; ///< By which lobes a path goes on until its light is gathered.
@@ -83,7 +85,8 @@ PhotonMapper<S, Draws> make_photon_mapper(const S& scene,
 /// \param gather    Whether the general map answers for all that is not a caustic.
 /// \param stream    The numbers of the path.
 /// \param counts    Counts rays and photons.
-/// \param add       Called as add(owner, letters, radiance) with each term.
+/// \param add       Called as add(owner, letters, radiance) with each term; it may put
+///                  off the caustics map.
 /// \report{Sections 3.2.3 and 3.2.6}
 // [light_at]
 template <SceneLike S, std::floating_point T, Material M, typename Stream, typename Add>
@@ -126,7 +129,8 @@ void light_at(const PhotonMapper<S, Stream>& mapper, const VertexT<T>& vertex,
                                                  mapper.maps.cache, vertex,
                                                  settings.gather, stream, counts),
                               Lobes::diffuse, stream));
-    if (!mapper.maps.caustics.empty())
+    if (!mapper.maps.caustics.empty() &&
+        !detail::put_off(add, vertex, material, settings.caustics_estimate))
         add("caustics map", "DS+L",
             ask(mapper.maps.caustics, settings.caustics_estimate, light_kinds));
 }
@@ -172,11 +176,7 @@ template <SceneLike S, typename Stream, std::floating_point T, typename Log = No
     RgbT<T> sum{T(0)};
     std::vector<PathStateT<T>> branches; // split off; following one may add more
     const auto follow_path = [&](PathStateT<T> path) {
-        const auto add = [&](const char* owner, const char* letters,
-                             const RgbT<T>& light) {
-            log.term(owner, letters, path.throughput * light);
-            sum += path.throughput * light;
-        };
+        detail::AddTerm add{sum, path.throughput, log};
         while (path.depth < settings.max_depth) {
             const auto vertex = next_vertex(mapper.scene, path, stream);
             if (!vertex) return;

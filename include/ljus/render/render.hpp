@@ -11,6 +11,7 @@
 #include "ljus/math/sampling_pattern.hpp"
 #include "ljus/parallel.hpp"
 #include "ljus/path/renderer.hpp"
+#include "ljus/render/detail/strip_sums.hpp"
 #include "ljus/scene/camera.hpp"
 
 namespace ljus {
@@ -140,26 +141,26 @@ requires Renderer<R, T>
             static_cast<long long>(rows.last), "at most the picture's height");
     RenderedT<T> result{.image = make_image<T>(picture.width, rows.last - rows.first)};
     const Pattern pattern = make_pattern(picture.sampling, picture.samples);
-    const int tiles = (picture.width + 15) / 16;
+    const int tiles = (picture.width - 1) / detail::strip_width + 1;
     std::vector<Counts> counts(static_cast<std::size_t>(tiles) *
                                static_cast<std::size_t>(result.image.height));
     // [strip]
     const auto strip = [&](long long number) {
         const int row = static_cast<int>(number / tiles);
-        const int first = static_cast<int>(number % tiles) * 16;
+        const int first = static_cast<int>(number % tiles) * detail::strip_width;
+        const int last = std::min(first + detail::strip_width, picture.width);
         Counts cost; // of its own: two threads do not share a cache line
-        for (int x = first; x < std::min(first + 16, picture.width); ++x) {
-            RgbT<double> sum{0}; // a float would lose the last of 100 000 samples
-            for (int i = 0; i < picture.samples; ++i) {
-                const RgbT<T> sample = detail::sample_pixel(
-                    renderer, camera, picture, pattern, x, rows.first + row, i, cost);
-                if (is_finite(sample))
-                    sum += RgbT<double>(sample);
-                else
-                    ++cost.rejected;
-            }
-            pixel(result.image, x, row) = RgbT<T>(sum / double(picture.samples));
-        }
+        detail::StripSums<R, T> sums(renderer, cost);
+        for (int x = first; x < last; ++x)
+            for (int i = 0; i < picture.samples; ++i)
+                sums.add(x - first, [&](auto& log) {
+                    return detail::sample_pixel(renderer, camera, picture, pattern, x,
+                                                rows.first + row, i, cost, log);
+                });
+        sums.finish();
+        for (int x = first; x < last; ++x)
+            pixel(result.image, x, row) =
+                RgbT<T>(sums.of(x - first) / double(picture.samples));
         counts[static_cast<std::size_t>(number)] = cost;
     };
     // [strip]

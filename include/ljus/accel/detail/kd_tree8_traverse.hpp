@@ -133,6 +133,61 @@ void towards(const KdTree8PartsT<T>& tree, const Vec3T<T>& center,
     }
 }
 
+/// A block of eight points, of which a ball holds some.
+struct BallBlock {
+    std::uint32_t ball = 0;  ///< Which ball.
+    std::uint32_t block = 0; ///< Which block of the tree.
+    std::uint32_t found = 0; ///< Which of its points: a bit each.
+};
+/// What a search for many balls finds: room that is kept from one to the next.
+struct BallBlocks {
+    /// A leaf that a ball reaches.
+    struct Leaf {
+        std::uint32_t ball;  ///< Which ball.
+        std::uint32_t first; ///< Its first block,
+        std::uint32_t last;  ///< and one past its last.
+    };
+    std::vector<Leaf> leaves{};      ///< Those of the first ball, of the second, ...
+    std::vector<BallBlock> blocks{}; ///< In the same order.
+};
+/// Finds the points within many balls together, by one step for all of them at a time:
+/// what the next step reads is on its way from memory meanwhile.
+/// \param tree    The tree.
+/// \param balls   How many; below 2^32.
+/// \param center  Called as center(ball).
+/// \param radius  Of all of them.
+/// \param expect  Called as expect(block) for each block that will be found, to fetch
+///                what else it has.
+/// \param found   Gets the blocks: of each ball those that in_ball() would visit, in
+///                its order.
+// [find_in_balls]
+template <std::floating_point T, typename Center, typename Expect>
+void find_in_balls(const KdTree8PartsT<T>& tree, std::size_t balls, Center center,
+                   T radius, Expect expect, BallBlocks& found) {
+    const auto reach = ReachT<T>::up_to(double(radius) * double(radius), false);
+    found.leaves.clear();
+    found.blocks.clear();
+    for (std::size_t ball = 0; ball < balls; ++ball)
+        in_ball(tree, center(ball), radius, reach, [&](auto first, auto last) {
+            prefetch<KdTree8Shape::leaf_blocks * sizeof(Lanes3T<T>) / 64>(
+                tree.blocks.data() + first);
+            found.leaves.push_back({static_cast<std::uint32_t>(ball),
+                                    static_cast<std::uint32_t>(first),
+                                    static_cast<std::uint32_t>(last)});
+            return false;
+        });
+    for (const BallBlocks::Leaf& leaf : found.leaves) {
+        std::uint32_t some =
+            in_leaf(tree, leaf.first, leaf.last, center(leaf.ball), reach);
+        for (std::uint32_t block = leaf.first; some != 0; ++block, some >>= 8)
+            if ((some & 255) != 0) {
+                expect(block);
+                found.blocks.push_back({leaf.ball, block, some & 255});
+            }
+    }
+}
+// [find_in_balls]
+
 /// \}
 
 } // namespace ljus::detail

@@ -103,6 +103,106 @@ lanes_in_disc(const Lanes3T<T>& points, const RecordBlockT<T>& record,
     return inside;
 }
 
+/// Sums the weighted flux in discs, of photons that come from one side: block by block.
+template <std::floating_point T, typename K>
+class DiscFluxT {
+public:
+    /// \param records   What the photons carry.
+    /// \param disc      Which of them count.
+    DiscFluxT(const PhotonRecordsT<T>& records, const FluxDiscT<T, K>& disc) noexcept
+        : records_(records), disc_(disc),
+          per_radius2_(T(1) / (disc.radius * disc.radius)) {}
+
+    /// Adds a block.
+    void add(const FoundBlockT<T>& block) noexcept {
+        const RecordBlockT<T>& record = records_.blocks()[block.first / 8];
+        if (const std::uint32_t rest = block.found & (block.found - 1);
+            (rest & (rest - 1)) == 0) {
+            add_one(block, record, std::countr_zero(block.found));
+            if (rest != 0) add_one(block, record, std::countr_zero(rest));
+        } else {
+            add_eight(block, record);
+        }
+        if (++parts_ == 16) add_part();
+    }
+    /// The sum of weight times flux; W.
+    RgbT<double> sum() noexcept {
+        if (parts_ > 0) add_part();
+        return sum_;
+    }
+    /// How many photons lie in the disc, from either side.
+    std::uint64_t gathered() const noexcept {
+        std::uint64_t all = 0;
+        for (const std::int32_t lane : count_) all += static_cast<std::uint64_t>(lane);
+        return all;
+    }
+
+private:
+    void add_part() noexcept {
+        for (std::size_t i = 0; i < lane_count / 2; ++i)
+            sum_ += RgbT<double>(part_[i] + part_[i + lane_count / 2]);
+        part_ = {};
+        parts_ = 0;
+    }
+    // Of a block of which one or two are found, these alone.
+    void add_one(const FoundBlockT<T>& block, const RecordBlockT<T>& record,
+                 int lane) noexcept {
+        const auto i = static_cast<std::size_t>(lane);
+        const std::uint32_t kinds = std::uint32_t{disc_.kinds.bits}
+                                    << RecordCode::kind_shift;
+        const std::uint32_t code = record.code[i];
+        const T height = glm::dot(block.points[i] - disc_.center, disc_.normal);
+        const SmallNormal normal = RecordCode::normal(code);
+        if ((code & kinds) == 0 || std::abs(height) > disc_.thickness * disc_.radius ||
+            turned_away(normal, disc_.normal))
+            return;
+        ++count_[0];
+        if (!(glm::dot(record.direction[i], disc_.from) < T(0))) return;
+        const T share = block.distance2.lane[i] * per_radius2_;
+        const T weight = kernel_weight(disc_.kernel, share < T(1) ? share : T(1));
+        part_.x[i] += weight * record.flux.x[i];
+        part_.y[i] += weight * record.flux.y[i];
+        part_.z[i] += weight * record.flux.z[i];
+    }
+    void add_eight(const FoundBlockT<T>& block,
+                   const RecordBlockT<T>& record) noexcept {
+        const LanesT<T> inside =
+            lanes_in_disc(block.points, record, disc_, block.found);
+        const Vec3T<T> d = disc_.from;
+        const T per_radius2 = per_radius2_;
+        // No choices between products: compilers make jumps of them. What does not lie
+        // inside is infinite or NaN at worst, and becomes 1.
+        LanesT<T> shares, lit;
+        for_lanes([&](int i) {
+            const T share = block.distance2.lane[i] * per_radius2;
+            shares.lane[i] = share < T(1) ? share : T(1);
+        });
+        const LanesT<T> weight = kernel_weights(disc_.kernel, shares);
+        for_lanes([&](int i) {
+            const T towards = record.direction.x[i] * d.x +
+                              record.direction.y[i] * d.y + record.direction.z[i] * d.z;
+            const T facing = towards < T(0) ? T(1) : T(0);
+            lit.lane[i] = inside.lane[i] * facing * weight.lane[i];
+        });
+        for_lanes([&](int i) {
+            part_.x[i] += lit.lane[i] * record.flux.x[i];
+            part_.y[i] += lit.lane[i] * record.flux.y[i];
+            part_.z[i] += lit.lane[i] * record.flux.z[i];
+        });
+        for_lanes(
+            [&](int i) { count_[i] += static_cast<std::int32_t>(inside.lane[i]); });
+    }
+
+    const PhotonRecordsT<T>& records_;
+    const FluxDiscT<T, K>& disc_;
+    T per_radius2_;
+    // Of some blocks: more terms would cost a float its last digits.
+    Lanes3T<T> part_{};
+    RgbT<double> sum_{0};
+    std::int32_t count_[lane_count] = {};
+    int parts_ = 0;
+};
+
 /// The weighted flux in a disc, of photons that come from one side.
 ///
 /// The same photons as one by one, and the same weights within the rounding of T.
@@ -115,79 +215,11 @@ template <std::floating_point T, typename K>
 [[nodiscard]] RgbT<double>
 flux_in_disc(const KdTree8T<T>& tree, const PhotonRecordsT<T>& records,
              const FluxDiscT<T, K>& disc, std::uint64_t& gathered) {
-    const T per_radius2 = T(1) / (disc.radius * disc.radius);
-    const T limit = disc.thickness * disc.radius;
-    const std::uint32_t kinds = std::uint32_t{disc.kinds.bits}
-                                << RecordCode::kind_shift;
-    const Vec3T<T> d = disc.from;
-    RgbT<double> sum{0};
-    // Of some blocks: more terms would cost a float its last digits.
-    Lanes3T<T> part{};
-    std::int32_t count[lane_count] = {};
-    int parts = 0;
-    const auto add_part = [&] {
-        for (std::size_t i = 0; i < lane_count / 2; ++i)
-            sum += RgbT<double>(part[i] + part[i + lane_count / 2]);
-        part = {};
-        parts = 0;
-    };
-    // Of a block of which one or two are found, these alone.
-    const auto add_one = [&](const FoundBlockT<T>& block, const RecordBlockT<T>& record,
-                             int lane) {
-        const auto i = static_cast<std::size_t>(lane);
-        const std::uint32_t code = record.code[i];
-        const T height = glm::dot(block.points[i] - disc.center, disc.normal);
-        const SmallNormal normal = RecordCode::normal(code);
-        if ((code & kinds) == 0 || std::abs(height) > limit ||
-            turned_away(normal, disc.normal))
-            return;
-        ++count[0];
-        if (!(glm::dot(record.direction[i], d) < T(0))) return;
-        const T share = block.distance2.lane[i] * per_radius2;
-        const T weight = kernel_weight(disc.kernel, share < T(1) ? share : T(1));
-        part.x[i] += weight * record.flux.x[i];
-        part.y[i] += weight * record.flux.y[i];
-        part.z[i] += weight * record.flux.z[i];
-    };
-    const auto add_eight = [&](const FoundBlockT<T>& block,
-                               const RecordBlockT<T>& record) {
-        const LanesT<T> inside = lanes_in_disc(block.points, record, disc, block.found);
-        // No choices between products: compilers make jumps of them. What does not lie
-        // inside is infinite or NaN at worst, and becomes 1.
-        LanesT<T> shares, lit;
-        for_lanes([&](int i) {
-            const T share = block.distance2.lane[i] * per_radius2;
-            shares.lane[i] = share < T(1) ? share : T(1);
-        });
-        const LanesT<T> weight = kernel_weights(disc.kernel, shares);
-        for_lanes([&](int i) {
-            const T towards = record.direction.x[i] * d.x +
-                              record.direction.y[i] * d.y + record.direction.z[i] * d.z;
-            const T facing = towards < T(0) ? T(1) : T(0);
-            lit.lane[i] = inside.lane[i] * facing * weight.lane[i];
-        });
-        for_lanes([&](int i) {
-            part.x[i] += lit.lane[i] * record.flux.x[i];
-            part.y[i] += lit.lane[i] * record.flux.y[i];
-            part.z[i] += lit.lane[i] * record.flux.z[i];
-        });
-        for_lanes(
-            [&](int i) { count[i] += static_cast<std::int32_t>(inside.lane[i]); });
-    };
-    const auto visit = [&](const FoundBlockT<T>& block) {
-        const RecordBlockT<T>& record = records.blocks()[block.first / 8];
-        if (const std::uint32_t rest = block.found & (block.found - 1);
-            (rest & (rest - 1)) == 0) {
-            add_one(block, record, std::countr_zero(block.found));
-            if (rest != 0) add_one(block, record, std::countr_zero(rest));
-        } else {
-            add_eight(block, record);
-        }
-        if (++parts == 16) add_part();
-    };
-    tree.visit_blocks(disc.center, disc.radius, visit);
-    if (parts > 0) add_part();
-    for (const std::int32_t lane : count) gathered += static_cast<std::uint64_t>(lane);
+    DiscFluxT<T, K> flux(records, disc);
+    tree.visit_blocks(disc.center, disc.radius,
+                      [&](const FoundBlockT<T>& block) { flux.add(block); });
+    const RgbT<double> sum = flux.sum();
+    gathered += flux.gathered();
     return sum;
 }
 

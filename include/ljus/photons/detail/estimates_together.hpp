@@ -1,0 +1,96 @@
+#pragma once
+
+/// \file ljus/photons/detail/estimates_together.hpp
+/// \brief Estimates at many places, answered together.
+
+#include <span>
+
+#include "ljus/photons/density_estimate.hpp"
+
+namespace ljus::detail {
+
+/// \addtogroup photon_map
+/// \{
+
+/// A place of a matt surface where an estimate is wanted, and for whom.
+template <std::floating_point T>
+struct EstimatePlaceT {
+    Vec3T<T> center{T(0)};    ///< Where.
+    Vec3T<T> normal{T(0)};    ///< Of the surface, as photons are compared with it.
+    Vec3T<T> from{T(0)};      ///< As in FluxDiscT: the side that is seen.
+    RgbT<T> brdf{T(0)};       ///< Of the surface, per steradian.
+    RgbT<T> throughput{T(0)}; ///< Of the path that asks: the light is multiplied by it.
+    std::uint32_t item = 0;   ///< A number that the caller knows it by.
+};
+
+/// What estimate_radiance() takes of a vertex.
+/// \param vertex      The place.
+/// \param material    What it is made of.
+/// \param throughput  Of the path.
+/// \param item        A number that the caller knows it by.
+/// \return The place; its estimate is that of estimate_radiance() with the vertex's wo.
+template <std::floating_point T>
+[[nodiscard]] EstimatePlaceT<T>
+estimate_place(const VertexT<T>& vertex, const LambertianT<T>& material,
+               const RgbT<T>& throughput, std::uint32_t item) noexcept {
+    return {.center = vertex.point.position,
+            .normal = vertex.point.normal,
+            .from = std::copysign(T(1), vertex.wo.z) * vertex.frame.normal,
+            .brdf = evaluate(material, vertex.wo, vertex.wo),
+            .throughput = throughput,
+            .item = item};
+}
+
+/// What estimate_radiance() gives at many places, to the last bit. An estimate waits
+/// for memory, for the tree and then for what the photons carry; here all of them wait
+/// at the same time.
+/// \param map       The photons.
+/// \param places    Where.
+/// \param gather    Radius, kernel, thickness; in_lanes(), and without `nearest`.
+/// \param kinds     Which kinds count.
+/// \param gathered  Counts the photons that were summed.
+/// \param found     Room for the search.
+/// \param give      Called as give(place, radiance), in the order of the places; not
+///                  for those without a photon.
+// [estimates_together]
+template <std::floating_point T, KernelLike<T> K, typename Give>
+void estimates_together(const PhotonMapT<T>& map,
+                        std::span<const EstimatePlaceT<T>> places,
+                        const DensityEstimateOf<K>& gather, PhotonKinds kinds,
+                        std::uint64_t& gathered, BallBlocks& found, Give give) {
+    const T radius = T(gather.radius);
+    const double r2 = double(gather.radius) * double(gather.radius);
+    map.tree.find_in_balls(
+        places.size(),
+        [&](std::size_t i) -> const Vec3T<T>& { return places[i].center; }, radius,
+        [&](std::size_t block) {
+            prefetch<sizeof(RecordBlockT<T>) / 64>(&map.records.blocks()[block]);
+        },
+        found);
+    auto at = found.blocks.begin();
+    while (at != found.blocks.end()) {
+        const std::uint32_t ball = at->ball;
+        const EstimatePlaceT<T>& place = places[ball];
+        const FluxDiscT<T, K> disc{.center = place.center,
+                                   .normal = place.normal,
+                                   .from = place.from,
+                                   .radius = radius,
+                                   .thickness = T(gather.thickness),
+                                   .kernel = gather.kernel,
+                                   .kinds = kinds};
+        DiscFluxT<T, K> flux(map.records, disc);
+        for (; at != found.blocks.end() && at->ball == ball; ++at) {
+            const Lanes3T<T>& points = map.tree.blocks()[at->block];
+            flux.add({8 * std::size_t{at->block}, at->found, points,
+                      distances2(points, place.center)});
+        }
+        const RgbT<double> sum = RgbT<double>(place.brdf) * flux.sum();
+        gathered += flux.gathered();
+        give(place, RgbT<T>(sum / (std::numbers::pi * r2)));
+    }
+}
+// [estimates_together]
+
+/// \}
+
+} // namespace ljus::detail
