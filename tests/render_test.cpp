@@ -99,12 +99,14 @@ RenderedT<float> plain_picture(const R& renderer, const Camera& camera,
 
 TEST_CASE("render: answers that come later go to their own samples") {
     for (const int samples : {1, 3, 4, 63, 64, 65, 200})
-        for (const int width : {1, 16, 21}) {
+        for (const auto& [width, filter] :
+             {std::pair{1, Filter::box}, {16, Filter::mitchell}, {21, Filter::box}}) {
             const RenderSettings picture{.width = width,
                                          .height = 3,
                                          .samples = samples,
                                          .seed = 12,
-                                         .threads = 1};
+                                         .threads = 1,
+                                         .filter = filter};
             const auto late = render(Late{}, Camera{}, picture);
             const auto plain = plain_picture(Late{}, Camera{}, picture);
             REQUIRE(late.image.pixels == plain.image.pixels);

@@ -24,6 +24,6 @@ ljus_break_it(NAME extremes-too-large HEADER render/detail/scene_remarks.hpp TES
 
 # As many strips in a row as in a column, as in a picture that is square.
 ljus_break_it(NAME extremes-strips HEADER render/render.hpp TEST extremes
-    FROM "const int tiles = (picture.width + 15) / 16;"
-    TO   "const int tiles = (picture.height + 15) / 16;"
+    FROM "(picture.width - 1) / detail::strip_width + 1;"
+    TO   "(picture.height - 1) / detail::strip_width + 1;"
     CASES "extremes: pictures of one*")

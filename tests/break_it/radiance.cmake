@@ -30,8 +30,8 @@ ljus_break_it(NAME radiance-filter-middle HEADER image/filter.hpp TEST filter
 
 # The pixel loop forgets what a ray counts.
 ljus_break_it(NAME radiance-filter-render HEADER render/render.hpp TEST filter
-    FROM "return at.weight * radiance(renderer, ray, stream, counts, log);"
-    TO   "return radiance(renderer, ray, stream, counts, log);"
+    FROM "return {radiance(renderer, ray, stream, counts, log), at.weight};"
+    TO   "return {radiance(renderer, ray, stream, counts, log), T(1)};"
     CASES "filter: a picture of a wave*")
 
 # The cosine law and the inverse square law, where a lamp's point is drawn.

@@ -79,7 +79,14 @@ template <std::floating_point T, typename Stream>
     return at;
 }
 
-/// The radiance of one primary ray, as the pixel loop asks for it.
+/// What one ray of a pixel brings.
+template <std::floating_point T>
+struct PixelSampleT {
+    RgbT<T> radiance{T(0)}; ///< W/(m^2 sr).
+    T weight = T(1);        ///< Of the filter, where the ray goes through it.
+};
+
+/// Sends one ray through a pixel, as the pixel loop does.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    A CameraT, or anything with a camera_ray().
 /// \param picture   Size, rays, seed, filter.
@@ -89,22 +96,35 @@ template <std::floating_point T, typename Stream>
 /// \param number    Which of the pixel's rays.
 /// \param counts    Counts the rays.
 /// \param log       Told of each vertex and each term, without the weight.
+/// \return Radiance, and what it counts.
+// [trace_pixel]
+template <typename R, template <std::floating_point> typename AnyCamera,
+          std::floating_point T, typename Log = NoLog>
+[[nodiscard]] PixelSampleT<T> trace_pixel(const R& renderer, const AnyCamera<T>& camera,
+                                          const RenderSettings& picture,
+                                          const Pattern& pattern, int x, int y,
+                                          int number, Counts& counts, Log&& log = {}) {
+    typename R::Stream stream;
+    const auto at = place_of_ray<T>(picture, pattern, x, y, number, stream);
+    const RayT<T> ray =
+        camera_ray(camera, at.place, picture.width, picture.height, stream);
+    ++counts.camera_rays;
+    return {radiance(renderer, ray, stream, counts, log), at.weight};
+}
+// [trace_pixel]
+
+/// The same in one number.
 /// \return Radiance times the weight of the filter, W/(m^2 sr).
-// [sample_pixel]
 template <typename R, template <std::floating_point> typename AnyCamera,
           std::floating_point T, typename Log = NoLog>
 [[nodiscard]] RgbT<T> sample_pixel(const R& renderer, const AnyCamera<T>& camera,
                                    const RenderSettings& picture,
                                    const Pattern& pattern, int x, int y, int number,
                                    Counts& counts, Log&& log = {}) {
-    typename R::Stream stream;
-    const auto at = place_of_ray<T>(picture, pattern, x, y, number, stream);
-    const RayT<T> ray =
-        camera_ray(camera, at.place, picture.width, picture.height, stream);
-    ++counts.camera_rays;
-    return at.weight * radiance(renderer, ray, stream, counts, log);
+    const PixelSampleT<T> found =
+        trace_pixel(renderer, camera, picture, pattern, x, y, number, counts, log);
+    return found.weight * found.radiance;
 }
-// [sample_pixel]
 
 } // namespace detail
 
@@ -154,8 +174,8 @@ requires Renderer<R, T>
         for (int x = first; x < last; ++x)
             for (int i = 0; i < picture.samples; ++i)
                 sums.add(x - first, [&](auto& log) {
-                    return detail::sample_pixel(renderer, camera, picture, pattern, x,
-                                                rows.first + row, i, cost, log);
+                    return detail::trace_pixel(renderer, camera, picture, pattern, x,
+                                               rows.first + row, i, cost, log);
                 });
         sums.finish();
         for (int x = first; x < last; ++x)

@@ -54,12 +54,14 @@ public:
 
     /// Adds a sample.
     /// \param pixel  Of the strip, counted from its first.
-    /// \param trace  Called with a log; returns the sample.
+    /// \param trace  Called with a log; returns radiance and weight of the sample.
     template <typename Trace>
     void add(int pixel, const Trace& trace) {
         const auto item = static_cast<std::size_t>(count_);
         if constexpr (AsksLater<R>) later_.item = static_cast<std::uint32_t>(count_);
-        samples_[item] = trace(later_);
+        const auto found = trace(later_);
+        samples_[item] = found.radiance;
+        weights_[item] = found.weight;
         pixels_[item] = pixel;
         if (++count_ == LaterOf<R>::together) finish();
     }
@@ -71,7 +73,7 @@ public:
         for (std::size_t i = 0; i < count; ++i)
             if (is_finite(samples_[i]))
                 sums_[static_cast<std::size_t>(pixels_[i])] +=
-                    RgbT<double>(samples_[i]);
+                    RgbT<double>(weights_[i] * samples_[i]);
             else
                 ++cost_.rejected;
         count_ = 0;
@@ -87,6 +89,7 @@ private:
     typename LaterOf<R>::Type later_{};
     int count_ = 0;
     std::array<RgbT<T>, LaterOf<R>::together> samples_;
+    std::array<T, LaterOf<R>::together> weights_;
     std::array<int, LaterOf<R>::together> pixels_;
     // In double: a float would lose the last of 100 000 samples.
     std::array<RgbT<double>, strip_width> sums_{};
