@@ -49,3 +49,9 @@ ljus_break_it(NAME radiance-exitance HEADER scene/light.hpp TEST radiance
     FROM "return std::numbers::pi_v<T> * area * radiance;"
     TO   "return T(2) * std::numbers::pi_v<T> * area * radiance;"
     CASES "radiance: a Lambertian lamp*")
+
+# What comes later counts without the filter's weight.
+ljus_break_it(NAME radiance-filter-later HEADER render/detail/strip_sums.hpp TEST render
+    FROM "RgbT<double>(weights_[i] * samples_[i]);"
+    TO   "RgbT<double>(samples_[i]);"
+    CASES "render: answers that come later*")
