@@ -430,16 +430,22 @@ TEST_CASE("texture: the tables of a JPEG file, segment by segment") {
 }
 #endif
 
-TEST_CASE("texture: a BMP file of many pixels and few bytes is refused") {
+TEST_CASE("texture: a file of many pixels and few bytes is refused") {
     // 10 289 152 x 3 pixels of 16 bits in 63 bytes, as a fuzzer found it.
-    Bytes file(63, 0);
-    file[0] = 'B', file[1] = 'M', file[10] = 54, file[14] = 40;
-    file[20] = 0x9d, file[22] = 3, file[26] = 1, file[28] = 16;
-    try {
-        (void)detail::decode_image(file, "a.bmp");
-        CHECK(false);
-    } catch (const std::runtime_error& error) {
-        CHECK(std::string(error.what()) ==
-              "a.bmp is damaged: it ends in the middle of its pixels.");
+    Bytes bmp(63, 0);
+    bmp[0] = 'B', bmp[1] = 'M', bmp[10] = 54, bmp[14] = 40;
+    bmp[20] = 0x9d, bmp[22] = 3, bmp[26] = 1, bmp[28] = 16;
+    // 63 753 x 256 of three channels in 644 bytes, which the fuzzer found next.
+    Bytes jpeg{0xff, 0xd8, 0xff, 0xc0, 0, 17,   8, 1, 0,    0xf9, 0x09,
+               3,    1,    0x11, 0,    2, 0x11, 0, 3, 0x11, 0};
+    jpeg.resize(644);
+    for (const Bytes& file : {bmp, jpeg}) {
+        try {
+            (void)detail::decode_image(file, "a");
+            CHECK(false);
+        } catch (const std::runtime_error& error) {
+            CHECK(std::string(error.what()) ==
+                  "a is damaged: it ends in the middle of its pixels.");
+        }
     }
 }

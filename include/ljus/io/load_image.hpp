@@ -195,8 +195,10 @@ template <std::floating_point T = float>
     if (width > max_image_pixels / height)
         refuse(join({"has ", to_text(width), " x ", to_text(height),
                      " pixels; there can be at most ", to_text(max_image_pixels)}));
-    // A BMP file is not packed; what it lacks stb_image would take for zeros.
-    if (!png && !jpeg && std::size_t(width) * std::size_t(height) / 8 > bytes.size())
+    // Pixels in a byte at best: PNG packs a thousand bytes of eight into one, JPEG needs
+    // a bit for 64, BMP packs nothing. What lacks, stb_image would take for zeros.
+    const std::size_t most = png ? 8256 : jpeg ? 1024 : 8;
+    if (std::size_t(width) * std::size_t(height) / most > bytes.size())
         refuse("is damaged: it ends in the middle of its pixels");
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
         stbi_load_from_memory(data, size, &width, &height, &channels, 3),
