@@ -205,7 +205,7 @@ std::vector<Setting> settings_of(const std::string& knob, float unit, int size,
             add(text(double(a)), double(a),
                 [&](Setting&, auto& how) { how.gather.reach = a; });
     if (knob == "irradiance-every")
-        counts({1, 4, 16, 64},
+        counts({2, 6, 16, 64},
                [](Setting&, auto& how, int n) { how.irradiance.every = n; });
     if (knob == "precision")
         words({"float", "double"},

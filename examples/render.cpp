@@ -53,6 +53,18 @@ struct Stoppable {
     const Renderer& renderer;
 };
 
+/// The same for a renderer that asks some of its questions later, together.
+template <detail::AsksLater Renderer>
+struct Stoppable<Renderer> {
+    using Stream = typename Renderer::Stream;
+    struct Later : Renderer::Later {
+        void finish(const Stoppable& stoppable, Counts& counts, auto samples) {
+            Renderer::Later::finish(stoppable.renderer, counts, samples);
+        }
+    };
+    const Renderer& renderer;
+};
+
 template <typename Renderer, std::floating_point T, typename Log>
 RgbT<T> radiance(const Stoppable<Renderer>& stoppable, const RayT<T>& ray,
                  typename Renderer::Stream& stream, Counts& counts, Log&& log) {

@@ -195,8 +195,8 @@ template <std::floating_point T = float>
     if (width > max_image_pixels / height)
         refuse(join({"has ", to_text(width), " x ", to_text(height),
                      " pixels; there can be at most ", to_text(max_image_pixels)}));
-    // Pixels in a byte at best: PNG packs a thousand bytes of eight into one, JPEG needs
-    // a bit for 64, BMP packs nothing. What lacks, stb_image would take for zeros.
+    // Pixels in a byte at best: PNG packs a thousand bytes of eight into one, JPEG
+    // takes a bit for 64, BMP packs nothing. stb_image takes what lacks for zeros.
     const std::size_t most = png ? 8256 : jpeg ? 1024 : 8;
     if (std::size_t(width) * std::size_t(height) / most > bytes.size())
         refuse("is damaged: it ends in the middle of its pixels");
