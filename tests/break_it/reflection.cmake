@@ -1,4 +1,4 @@
-# I itself is the ray that slides along the surface, not the one that leaves it.
+# I - D is -(D.N)N: every ray leaves along the normal.
 ljus_break_it(NAME reflection-half HEADER optics/reflection.hpp TEST reflection
     FROM "T(2) * along - d"
     TO   "along - d")

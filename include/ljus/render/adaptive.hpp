@@ -16,7 +16,7 @@ namespace ljus {
 /// where they take away most of the error. RenderSettings::samples is the number of
 /// rays a pixel in the mean, at most.
 ///
-///     // 2 rays; where they disagree by more than 0.2 of what they see, 8 more
+///     // 2 rays; 8 more where their mean has a relative standard error above 0.2
 ///     render_adaptive(mapper, camera, {.samples = 10},
 ///                     {.first = 2, .more = 8, .batches = 1, .disagreement = 0.2});
 ///     // as many as it takes, up to 1000 in the mean, for a relMSE of 0.01
