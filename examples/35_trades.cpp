@@ -3,8 +3,9 @@
 /// \brief Chapter 35: every knob of the photon mapper, turned. Error against time and
 /// memory, what half of the time costs, and the settings that no other beats.
 ///
-/// Each setting that is done is a line of trades.json; what is there is not done again,
-/// so that a run can be stopped and gone on with. ./scripts/trades builds and runs it.
+/// Each setting that is done is a line of trades-notebook.json; what is there is not done
+/// again, so that a run can be stopped and gone on with. ./scripts/trades builds and runs
+/// it.
 
 #include <array>
 #include <cstdio>
@@ -364,7 +365,7 @@ int main(int argc, char** argv) {
         if (!line.given("--seeds")) request.seeds = options.pick(3, 5, 16);
         if (!line.given("--truth")) request.truth = options.pick(4096, 65536, 262144);
         auto notebook = examples::open_notebook(
-            options.path("trades.json"),
+            options.path("trades-notebook.json"),
             examples::conditions(options, std::to_string(request.seeds) +
                                               " seeds from 1 on, pictures of " +
                                               std::to_string(request.size) + " x " +

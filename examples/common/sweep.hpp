@@ -59,9 +59,11 @@ struct Measured {
     /// All of it.
     [[nodiscard]] double error() const { return std::max(bias + noise, 1e-9); }
 };
+/// \cond
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Measured, scene, knob, value, x, seconds, photons,
                                    megabytes, rays, rmse, bias, noise, maps, block,
                                    trimmed, flip, stamp)
+/// \endcond
 
 /// What numbers depend on, for the top of files.
 /// \param options  Threads.
