@@ -106,8 +106,6 @@ struct Claim {
               "rays", &Measured::block, 5, far);
         ratio("a finer net of points costs time", "gather-tile", "1", "8",
               &Measured::seconds, 1.1, far);
-        ratio("the draft takes less time than exact", "preset", "draft", "exact",
-              &Measured::seconds, 0, 0.95);
         ratio("fast has less noise than the draft", "preset", "fast", "draft",
               &Measured::noise, 0, 0.8);
         ratio("double is as noisy as float", "precision", "double", "float",
