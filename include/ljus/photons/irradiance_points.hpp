@@ -123,8 +123,9 @@ template <SceneLike S, std::floating_point T>
     const S& scene, const PhotonMapT<T>& general, const PhotonMapT<T>& caustics,
     const IrradiancePointSettings& settings, std::uint64_t seed, int threads = 0) {
     const auto every = static_cast<std::size_t>(settings.every);
-    // Every so many photons by their emission: chance, and not the tree's order, which
-    // has more points where there are more photons than there should be.
+    // By the order of emission, which is chance. In the tree's order there would be
+    // more points where there are too many photons, and the mean over a surface would
+    // be too small.
     const auto is_point = [&](std::size_t i) {
         return general.tree.point_ids()[i] % every == 0;
     };

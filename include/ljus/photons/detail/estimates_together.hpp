@@ -12,7 +12,7 @@ namespace ljus::detail {
 /// \addtogroup photon_map
 /// \{
 
-/// A place of a matt surface where an estimate is wanted, and for whom.
+/// A place of a diffuse surface where an estimate is wanted, and for whom.
 template <std::floating_point T>
 struct EstimatePlaceT {
     Vec3T<T> center{T(0)};    ///< Where.

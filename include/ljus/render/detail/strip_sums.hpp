@@ -18,13 +18,13 @@ namespace ljus::detail {
 /// So many pixels beside each other are rendered at a time.
 inline constexpr int strip_width = 16;
 
-/// A renderer that puts some of its questions off, to ask those of many samples
-/// together. It names a type `Later` that is the log of these samples and has
+/// A renderer that puts some map queries off, to answer those of many samples together.
+/// Its type `Later` is the log of these samples, and has
 ///
 ///     std::uint32_t item;  // which of the samples is being traced
 ///     void finish(const R& renderer, Counts& counts, std::span<RgbT<T>> samples);
 ///
-/// of which the second adds what was put off to the samples.
+/// finish() adds the answers to the samples.
 template <typename R>
 concept AsksLater = requires {
     typename R::Later;
