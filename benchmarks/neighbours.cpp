@@ -44,6 +44,12 @@
 #include <nanoflann.hpp>
 #define LJUS_BENCH_NANOFLANN 1
 #endif
+#ifdef LJUS_BENCH_NANOFLANN_LATEST // a file; its names must not meet the older ones
+#undef NANOFLANN_VERSION
+#define nanoflann nanoflann_latest
+#include LJUS_BENCH_NANOFLANN_LATEST
+#undef nanoflann
+#endif
 #if __has_include(<kdtree++/kdtree.hpp>)
 #include <kdtree++/kdtree.hpp>
 #define LJUS_BENCH_KDTREEPP 1
@@ -74,6 +80,7 @@ std::vector<float> payload_of(const Tree& tree) {
 
 /// The wide tree of the book.
 struct WideTree {
+    static constexpr const char* name = "wide";
     ljus::KdTree8 tree;
     std::vector<float> values; // in the tree's order
 
@@ -119,6 +126,7 @@ struct WideTree {
 
 /// The plain tree of the book.
 struct PlainTree {
+    static constexpr const char* name = "plain";
     ljus::KdTree tree;
     std::vector<float> values; // in the tree's order
 
@@ -141,35 +149,62 @@ struct PlainTree {
     float one(Vec3 center) const { return sum_nearest(center, 1); }
 };
 
+/// A vector of points, as nanoflann reads it.
+struct Cloud {
+    std::vector<Vec3> points;
+    std::size_t kdtree_get_point_count() const { return points.size(); }
+    float kdtree_get_pt(std::size_t i, std::size_t axis) const {
+        return points[i][static_cast<int>(axis)];
+    }
+    template <typename Box>
+    bool kdtree_get_bbox(Box&) const {
+        return false;
+    }
+};
+
 #ifdef LJUS_BENCH_NANOFLANN
-/// nanoflann, told how to read a vector of points.
-struct Nanoflann {
-    struct Cloud {
-        std::vector<Vec3> points;
-        std::size_t kdtree_get_point_count() const { return points.size(); }
-        float kdtree_get_pt(std::size_t i, std::size_t axis) const {
-            return points[i][static_cast<int>(axis)];
-        }
-        template <typename Box>
-        bool kdtree_get_bbox(Box&) const {
-            return false;
-        }
-    };
+/// The installed nanoflann's words.
+struct Installed {
+    static constexpr const char* name = "nanoflann";
+    static constexpr const char* stopped = "  stopped";
+    static constexpr const char* book = "kd_tree-nanoflann";
     using Metric = nanoflann::L2_Simple_Adaptor<float, Cloud>;
     using Tree = nanoflann::KDTreeSingleIndexAdaptor<Metric, Cloud, 3, std::uint32_t>;
+    using Found = std::pair<std::uint32_t, float>;
+    using Search = nanoflann::SearchParams;
+};
+#endif
+#ifdef LJUS_BENCH_NANOFLANN_LATEST
+/// The newer one's.
+struct Latest {
+    static constexpr const char* name = "nanoflann, newer";
+    static constexpr const char* stopped = "  stopped";
+    static constexpr const char* book = "kd_tree-nanoflann-latest";
+    using Metric = nanoflann_latest::L2_Simple_Adaptor<float, Cloud>;
+    using Tree =
+        nanoflann_latest::KDTreeSingleIndexAdaptor<Metric, Cloud, 3, std::uint32_t>;
+    using Found = nanoflann_latest::ResultItem<std::uint32_t, float>;
+    using Search = nanoflann_latest::SearchParameters;
+};
+#endif
 
+/// nanoflann, of one version or the other.
+template <typename Words>
+struct Nanoflann {
+    static constexpr const char* name = Words::name;
+    static constexpr const char* book = Words::book;
     Cloud cloud;
-    Tree tree;
+    typename Words::Tree tree;
     std::vector<float> values;
 
     explicit Nanoflann(const std::vector<Vec3>& points)
         // From version 1.4 on the constructor builds the tree.
         : cloud{points}, tree(3, cloud, {16}), values(payload(points.size())) {}
     const auto& within(const Vec3& center, float radius) const {
-        static thread_local std::vector<std::pair<std::uint32_t, float>> found;
-        nanoflann::SearchParams unsorted;
+        static thread_local std::vector<typename Words::Found> found;
+        typename Words::Search unsorted;
         unsorted.sorted = false;
-        tree.radiusSearch(&center.x, radius * radius, found, unsorted);
+        (void)tree.radiusSearch(&center.x, radius * radius, found, unsorted);
         return found;
     }
     float sum_within(Vec3 center, float radius) const {
@@ -197,9 +232,14 @@ struct Nanoflann {
 };
 
 /// nanoflann with a result set of our own, which stops it at the first point found.
-struct NanoflannStopped : Nanoflann {
-    using Nanoflann::Nanoflann;
+template <typename Words>
+struct NanoflannStopped : Nanoflann<Words> {
+    static constexpr const char* name = Words::stopped;
+    static constexpr const char* book = nullptr; // in the other one's table
+    using Nanoflann<Words>::Nanoflann;
     struct First {
+        using DistanceType = float;
+        using IndexType = std::uint32_t;
         float radius2;
         bool found = false;
         std::size_t size() const { return found ? 1 : 0; }
@@ -208,15 +248,15 @@ struct NanoflannStopped : Nanoflann {
             found = found || distance2 < radius2;
             return !found;
         }
+        void sort() {}
         float worstDist() const { return radius2; }
     };
     float any(Vec3 center, float radius) const {
         First first{radius * radius};
-        tree.findNeighbors(first, &center.x, {});
+        this->tree.findNeighbors(first, &center.x, {});
         return first.found ? 1.0f : 0.0f;
     }
 };
-#endif
 
 #ifdef LJUS_BENCH_KDTREEPP
 /// What libkdtree++ calls of an allocator, and C++20 has taken away.
@@ -242,6 +282,7 @@ struct OldAllocator : std::allocator<T> {
 
 /// libkdtree++, which the report uses: its range is a cube, made a ball here.
 struct KdTreePp {
+    static constexpr const char* name = "kdtree++";
     struct Item {
         using value_type = float;
         Vec3 point;
@@ -363,9 +404,10 @@ void query(benchmark::State& state) {
 }
 
 template <typename Peer>
-void register_all(const char* name) {
+void register_all() {
     const auto with = [&](const char* what, auto function) {
-        benchmark::RegisterBenchmark((std::string(what) + "/" + name).c_str(), function)
+        benchmark::RegisterBenchmark((std::string(what) + "/" + Peer::name).c_str(),
+                                     function)
             ->ArgsProduct({{10000, 1000000}, {0, 1}});
     };
     with("build", build<Peer>);
@@ -389,7 +431,7 @@ double cpu_seconds() {
 /// \return The ratios, and the first one's time in ns.
 template <typename... Times>
 std::pair<std::vector<double>, double> print_line(const char* what,
-                                                  const std::vector<std::string>& peers,
+                                                  const std::vector<const char*>& peers,
                                                   int rounds, Times... times) {
     std::vector<std::vector<double>> all(sizeof...(times));
     for (int round = 0; round < rounds; ++round) {
@@ -407,10 +449,9 @@ std::pair<std::vector<double>, double> print_line(const char* what,
         std::sort(all[i].begin(), all[i].end());
         const double time = all[i][all[i].size() / 2];
         if (time < 0)
-            std::printf(" | %-9s %9s %6s", peers[i].c_str(), "-", "-");
+            std::printf(" | %-9s %9s %6s", peers[i], "-", "-");
         else
-            std::printf(" | %-9s %9.0f %6.2f", peers[i].c_str(), time,
-                        ratio[ratio.size() / 2]);
+            std::printf(" | %-9s %9.0f %6.2f", peers[i], time, ratio[ratio.size() / 2]);
     }
     std::printf("\n");
     std::fflush(stdout);
@@ -419,9 +460,14 @@ std::pair<std::vector<double>, double> print_line(const char* what,
 
 float sink = 0; // what the peers return, so that none is left out
 
+/// A table of the book: one peer, and where it stands among all.
+struct Book {
+    examples::Table table;
+    std::size_t peer; ///< The one that stops at the first point follows.
+};
+
 template <typename... Peers>
-void table(int kind, std::size_t count, const std::vector<std::string>& names_of,
-           examples::Table& book) {
+void measure(int kind, std::size_t count, std::vector<Book>& books) {
     const auto points = points_of(kind, count);
     const float radius = radius_for_50(points);
     std::printf("%zu points %s; ns, and times the first\n", count,
@@ -433,17 +479,19 @@ void table(int kind, std::size_t count, const std::vector<std::string>& names_of
             return (cpu_seconds() - start) * 1e9 / double(count);
         };
     };
-    const auto of_nanoflann = [&](const std::vector<double>& ratios, std::size_t peer) {
-        book.rows.back().push_back(
-            peer < ratios.size() && ratios[peer] > 0
-                ? examples::text(ratios[peer], ratios[peer] < 9.5 ? "%.1f" : "%.0f")
-                : "");
+    const auto note = [&](const std::vector<double>& ratios, std::size_t after) {
+        for (Book& book : books) {
+            const double ratio = ratios[book.peer + after];
+            book.table.rows.back().push_back(
+                ratio > 0 ? examples::text(ratio, ratio < 9.5 ? "%.1f" : "%.0f") : "");
+        }
     };
-    book.rows.push_back({(count == 10000 ? "10 000" : "a million") +
-                         std::string(kind == 0 ? " on walls" : " in caustics")});
-    of_nanoflann(
-        print_line("build", names_of, 5, built.template operator()<Peers>()...).first,
-        1);
+    const std::vector<const char*> all{Peers::name...};
+    for (Book& book : books)
+        book.table.rows.push_back(
+            {(count == 10000 ? "10 000" : "a million") +
+             std::string(kind == 0 ? " on walls" : " in caustics")});
+    note(print_line("build", all, 5, built.template operator()<Peers>()...).first, 0);
     const std::tuple<std::unique_ptr<Peers>...> peers{
         std::make_unique<Peers>(points)...};
     // Side by side: to fetch a centre from afar is nobody's search.
@@ -465,12 +513,13 @@ void table(int kind, std::size_t count, const std::vector<std::string>& names_of
             };
         };
         const auto [ratios, first] =
-            print_line(names[std::size_t(query)], names_of, 7,
+            print_line(names[std::size_t(query)], all, 7,
                        time(*std::get<std::unique_ptr<Peers>>(peers))...);
-        of_nanoflann(ratios, 1);
-        if (query == Query::any) of_nanoflann(ratios, 2); // stopped at the first
+        note(ratios, 0);
+        if (query == Query::any) note(ratios, 1); // stopped at the first
         if (query == Query::one)
-            book.rows.back().push_back(examples::text(1e-3 * first, "%.2f"));
+            for (Book& book : books)
+                book.table.rows.back().push_back(examples::text(1e-3 * first, "%.2f"));
     };
     line.template operator()<Query::within>();
     line.template operator()<Query::blocks>();
@@ -499,45 +548,70 @@ void must_agree() {
     }
 }
 
-/// Calls `f` with all peers that are there.
-template <typename F>
-void with_peers(F f) {
-#if defined(LJUS_BENCH_NANOFLANN) && defined(LJUS_BENCH_KDTREEPP)
-    f.template operator()<WideTree, Nanoflann, NanoflannStopped, KdTreePp, PlainTree>(
-        {"wide", "nanoflann", "  stopped", "kdtree++", "plain"});
-#elif defined(LJUS_BENCH_NANOFLANN)
-    f.template operator()<WideTree, Nanoflann, NanoflannStopped, PlainTree>(
-        {"wide", "nanoflann", "  stopped", "plain"});
-#else
-    f.template operator()<WideTree, PlainTree>({"wide", "plain"});
+template <typename... Peers>
+struct List {};
+template <typename... A, typename... B>
+constexpr List<A..., B...> operator+(List<A...>, List<B...>) {
+    return {};
+}
+template <typename Words>
+using Both = List<Nanoflann<Words>, NanoflannStopped<Words>>;
+
+/// All peers that are there.
+constexpr auto all_peers = List<WideTree>{}
+#ifdef LJUS_BENCH_NANOFLANN
+                           + Both<Installed>{}
 #endif
+#ifdef LJUS_BENCH_NANOFLANN_LATEST
+                           + Both<Latest>{}
+#endif
+#ifdef LJUS_BENCH_KDTREEPP
+                           + List<KdTreePp>{}
+#endif
+                           + List<PlainTree>{};
+
+/// The tables of the book that can be made.
+template <typename... Peers>
+std::vector<Book> books_of(List<Peers...>) {
+    std::vector<Book> books;
+    std::size_t place = 0;
+    const auto look = [&]<typename Peer>() {
+        if constexpr (requires { Peer::book; })
+            if (Peer::book != nullptr)
+                books.push_back(
+                    {.table = {.name = Peer::book,
+                               .columns = {"nanoflann's time over the wide tree's",
+                                           "build", "ball", "by blocks", "50 nearest",
+                                           "200 nearest", "any", "any, stopped",
+                                           "nearest",
+                                           "the wide tree's nearest, microseconds"}},
+                     .peer = place});
+        ++place;
+    };
+    (look.template operator()<Peers>(), ...);
+    return books;
+}
+
+template <typename... Peers>
+int run(int argc, char** argv, List<Peers...> list) {
+    (must_agree<WideTree, Peers>(), ...);
+    if (argc > 1 &&
+        (std::strcmp(argv[1], "--table") == 0 || std::strcmp(argv[1], "--csv") == 0)) {
+        std::vector<Book> books = books_of(list);
+        for (const std::size_t count : {10000u, 1000000u})
+            for (const int kind : {0, 1}) measure<Peers...>(kind, count, books);
+        for (const Book& book : books) save_csv(csv_folder(argc, argv), book.table);
+        return std::isnan(sink) ? 1 : 0;
+    }
+    (register_all<Peers>(), ...);
+    benchmark::Initialize(&argc, argv);
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
 }
 
 } // namespace
 
 /// Runs the benchmarks, or prints the table.
 int main(int argc, char** argv) {
-    with_peers([]<typename... Peers>(const std::vector<std::string>&) {
-        (must_agree<WideTree, Peers>(), ...);
-    });
-    if (argc > 1 &&
-        (std::strcmp(argv[1], "--table") == 0 || std::strcmp(argv[1], "--csv") == 0)) {
-        examples::Table book{
-            .name = "kd_tree-nanoflann",
-            .columns = {"nanoflann's time over the wide tree's", "build", "ball",
-                        "by blocks", "50 nearest", "200 nearest", "any", "any, stopped",
-                        "nearest", "the wide tree's nearest, microseconds"}};
-        with_peers([&]<typename... Peers>(const std::vector<std::string>& of) {
-            for (const std::size_t count : {10000u, 1000000u})
-                for (const int kind : {0, 1}) table<Peers...>(kind, count, of, book);
-        });
-        save_csv(csv_folder(argc, argv), book);
-        return std::isnan(sink) ? 1 : 0;
-    }
-    with_peers([]<typename... Peers>(const std::vector<std::string>& of) {
-        std::size_t i = 0;
-        (register_all<Peers>(of[i++].c_str()), ...);
-    });
-    benchmark::Initialize(&argc, argv);
-    benchmark::RunSpecifiedBenchmarks();
+    return run(argc, argv, all_peers);
 }

@@ -1,5 +1,6 @@
 /// \file rays_meshes.cpp
-/// \brief The two trees over meshes of 6 000 to 125 000 triangles, and Embree.
+/// \brief The two trees over meshes of 6 000 to 125 000 triangles, Embree, and the
+/// eight-wide tree of tinybvh where it was fetched (LJUS_PEERS).
 
 #include <cstdio>
 
@@ -52,8 +53,12 @@ int main(int argc, char** argv) {
                           .columns = {"mesh", "triangles", "primary", "diffuse",
                                       "shadow", "plain tree: primary", "diffuse",
                                       "shadow", "build time", "bytes a triangle"}};
-    std::printf("%-10s %-8s %9s %9s %9s   x Embree: plain  wide\n", "", "", "plain, ns",
-                "wide, ns", "Embree");
+    examples::Table tiny_table{.name = "bvh-tinybvh",
+                               .columns = {"mesh", "triangles", "primary", "diffuse",
+                                           "shadow", "build time",
+                                           "tinybvh's bytes a triangle"}};
+    std::printf("%-10s %-8s %9s %9s %9s %9s   x Embree: plain  wide\n", "", "",
+                "plain, ns", "wide, ns", "Embree", "tinybvh");
     for (const rays::Named& named : rays::meshes()) {
         const rays::Mesh& mesh = named.mesh;
         const House<ljus::Bvh> plain{mesh, rays::plain_tree(mesh)};
@@ -73,12 +78,12 @@ int main(int argc, char** argv) {
         std::printf("%s: %zu triangles, %.1f bytes each, built in %.1f ms",
                     named.name.c_str(), mesh.size(),
                     double(wide.tree.bytes()) / double(mesh.size()), 1e3 * build);
-#ifdef LJUS_BENCH_EMBREE
-        rays::Embree embree;
         std::vector<float> vertices;
         for (const Triangle& t : mesh)
             for (const Vec3& v : {t.v1, t.v2, t.v3})
                 vertices.insert(vertices.end(), {v.x, v.y, v.z});
+#ifdef LJUS_BENCH_EMBREE
+        rays::Embree embree;
         embree.add(RTC_GEOMETRY_TYPE_TRIANGLE, vertices, 3, 3);
         embree.commit();
         std::printf(", Embree in %.1f ms", 1e3 * embree.build);
@@ -87,20 +92,31 @@ int main(int argc, char** argv) {
         const rays::NoPeer embree;
         const std::string ratio;
 #endif
+#ifdef LJUS_BENCH_TINYBVH
+        const rays::TinyBvh tiny(vertices);
+        std::printf(", tinybvh in %.1f ms", 1e3 * tiny.build);
+        const std::string tiny_ratio = examples::text(build / tiny.build, "%.2f");
+        const std::string tiny_bytes =
+            examples::text(tiny.bytes() / double(mesh.size()), "%.0f");
+#else
+        const rays::NoPeer tiny;
+        const std::string tiny_ratio, tiny_bytes;
+#endif
         std::printf("\n");
-        std::vector<std::string> wide_ratios, plain_ratios;
+        std::vector<std::string> wide_ratios, plain_ratios, tiny_ratios;
         const auto row = [&](const char* name, const std::vector<Ray>& set, bool any) {
-            const auto t = rays::compare(set, any, plain, wide, embree);
-            std::printf("%-10s %-8s %9.1f %9.1f %9.1f   %15.2f %5.2f   %s\n", "", name,
-                        t.nanoseconds[0], t.nanoseconds[1], t.nanoseconds[2],
-                        t.nanoseconds[2] / t.nanoseconds[0],
+            const auto t = rays::compare(set, any, plain, wide, embree, tiny);
+            std::printf("%-10s %-8s %9.1f %9.1f %9.1f %9.1f   %15.2f %5.2f   %s\n", "",
+                        name, t.nanoseconds[0], t.nanoseconds[1], t.nanoseconds[2],
+                        t.nanoseconds[3], t.nanoseconds[2] / t.nanoseconds[0],
                         t.nanoseconds[2] / t.nanoseconds[1],
                         t.sums[0] == t.sums[1] ? "same" : "DIFFERENT");
-            const auto to_embree = [&](std::size_t k) {
-                return examples::text(t.nanoseconds[2] / t.nanoseconds[k], "%.2f");
+            const auto over = [&](std::size_t peer, std::size_t k) {
+                return examples::text(t.nanoseconds[peer] / t.nanoseconds[k], "%.2f");
             };
-            plain_ratios.push_back(to_embree(0));
-            wide_ratios.push_back(to_embree(1));
+            plain_ratios.push_back(over(2, 0));
+            wide_ratios.push_back(over(2, 1));
+            tiny_ratios.push_back(over(3, 1));
         };
         row("primary", sets.primary, false);
         row("diffuse", sets.diffuse, false);
@@ -113,6 +129,14 @@ int main(int argc, char** argv) {
         cells.push_back(ratio);
         cells.push_back(
             examples::text(double(wide.tree.bytes()) / double(mesh.size()), "%.0f"));
+        tiny_table.rows.push_back({table.rows.back()[0], table.rows.back()[1]});
+        tiny_table.rows.back().insert(tiny_table.rows.back().end(), tiny_ratios.begin(),
+                                      tiny_ratios.end());
+        tiny_table.rows.back().push_back(tiny_ratio);
+        tiny_table.rows.back().push_back(tiny_bytes);
     }
     save_csv(folder, table);
+#ifdef LJUS_BENCH_TINYBVH
+    save_csv(folder, tiny_table);
+#endif
 }

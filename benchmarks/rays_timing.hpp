@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file rays_timing.hpp
-/// \brief How the benchmarks of rays take time, and Embree behind an adapter.
+/// \brief How the benchmarks of rays take time; Embree and tinybvh behind adapters.
 ///
 /// A way to the first hit is a struct
 ///
@@ -23,6 +23,14 @@
 
 #if __has_include(<embree3/rtcore.h>) && defined(LJUS_BENCH_EMBREE)
 #include <embree3/rtcore.h>
+#endif
+// Its eight-wide tree is for processors with these instructions alone.
+#if defined(LJUS_BENCH_TINYBVH) && defined(__AVX2__) && defined(__FMA__)
+#define NO_THREADED_BUILDS // one thread, as all others here
+#define TINYBVH_IMPLEMENTATION
+#include <tiny_bvh.h>
+#else
+#undef LJUS_BENCH_TINYBVH
 #endif
 
 namespace rays {
@@ -149,6 +157,37 @@ struct Embree {
         rtcOccluded1(scene, &context, &shadow);
         return shadow.tfar < 0;
     }
+};
+#endif
+
+#ifdef LJUS_BENCH_TINYBVH
+/// The eight-wide tree of tinybvh.
+struct TinyBvh {
+    tinybvh::BVH8_CPU tree;
+    std::vector<tinybvh::bvhvec4> vertices; // it refers to them
+    double build = 0;                       ///< Seconds of Build().
+
+    /// \param corners  Three floats each, three corners a triangle.
+    explicit TinyBvh(const std::vector<float>& corners) {
+        for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
+            vertices.emplace_back(corners[i], corners[i + 1], corners[i + 2], 0.0f);
+        const double start = seconds();
+        tree.Build(vertices.data(), std::uint32_t(vertices.size() / 3));
+        build = seconds() - start;
+    }
+    [[nodiscard]] double bytes() const { return 64.0 * tree.usedBlocks; }
+    static tinybvh::Ray ray_of(const ljus::Ray& r) {
+        return {{r.origin.x, r.origin.y, r.origin.z},
+                {r.direction.x, r.direction.y, r.direction.z},
+                std::min(r.t_max, BVH_FAR)};
+    }
+    float closest(const ljus::Ray& ray) const {
+        tinybvh::Ray own = ray_of(ray);
+        const float end = own.hit.t;
+        (void)tree.Intersect(own);
+        return own.hit.t < end ? own.hit.t : -1;
+    }
+    bool any(const ljus::Ray& ray) const { return tree.IsOccluded(ray_of(ray)); }
 };
 #endif
 

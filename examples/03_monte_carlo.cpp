@@ -23,9 +23,11 @@
 #include "common/command_line.hpp"
 #include "common/convergence.hpp"
 #include "common/drawing.hpp"
+#include "common/glass_integral.hpp"
 
 namespace {
 
+using namespace examples::detail; // f, its truth, the ways to draw
 using examples::Drawing;
 using examples::Point;
 using examples::text;
@@ -43,33 +45,6 @@ struct Sizes {
 };
 
 // --- The integral ---------------------------------------------------------------------
-
-constexpr double r0 = ljus::schlick_r0(1.0, 1.5); // of glass: 0.04
-constexpr double truth = r0 + (1 - r0) / 21;
-
-/// What glass under an even sky reflects: the share R of the light from the cosine c,
-/// times how much light comes from there.
-// [integrand]
-double f(double c) {
-    return 2 * c * ljus::schlick(r0, c);
-}
-// [integrand]
-
-/// Ways to draw a cosine from a number u of [0, 1), each with its density.
-// [ways]
-struct Uniform {
-    static double sample(double u) { return u; }
-    static double pdf(double) { return 1; }
-};
-struct Cosine {
-    static double sample(double u) { return std::sqrt(1 - u); } // never 0
-    static double pdf(double c) { return 2 * c; }
-};
-struct Grazing {
-    static double sample(double u) { return 1 - std::pow(1 - u, 1.0 / 6); }
-    static double pdf(double c) { return 6 * std::pow(1 - c, 5); }
-};
-// [ways]
 
 /// A density in steps, each as high as f in its middle.
 struct Table {
@@ -110,22 +85,6 @@ ljus::RandomStream stream_of(int seed, int iteration = 0) {
     return ljus::random_stream(std::uint64_t(seed), ljus::Pass::user,
                                std::uint64_t(iteration), 0);
 }
-
-/// Where the numbers of a run come from.
-enum class Points { random, strata, owen };
-
-/// One number of n.
-// [where numbers come from]
-double number(Points points, int i, int n, std::uint64_t seed,
-              ljus::RandomStream& stream) {
-    if (points == Points::strata) return (i + next_1d<double>(stream)) / n;
-    if (points == Points::owen) {
-        auto sobol = ljus::sobol_stream(seed, ljus::Pass::user, 0, std::uint64_t(i));
-        return next_1d<double>(sobol);
-    }
-    return next_1d<double>(stream);
-}
-// [where numbers come from]
 
 /// The rms error of the mean of `value(u)` over n numbers, from many runs.
 template <typename Value>

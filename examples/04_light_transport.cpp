@@ -115,7 +115,7 @@ void truncations(const examples::Options& options) {
     };
     constexpr Kind kinds[] = {
         {"ray casting (Appel 1968)", "ED?L", "casting"},
-        {"WhittedSettings 1980", "ES*D?L", "whitted"},
+        {"Whitted 1980", "ES*D?L", "whitted"},
         {"caustics alone (Arvo 1986)", "ES*DS+L", "caustics"},
         {"radiosity (Goral 1984)", "ED*L", "radiosity"},
         {"radiosity seen in mirrors", "ES*D*L", "two-pass"},

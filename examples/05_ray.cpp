@@ -360,9 +360,8 @@ int main(int argc, char** argv) {
               std::pair{"100", 100.0}, std::pair{"10000", 1e4}}) {
             ljus::save_png(picture(options.width, scale, 1e-3f),
                            options.path(std::string("ray-fixed-") + name + ".png"));
-            ljus::save_png(
-                picture(options.width, scale, 0),
-                options.path(std::string("ray-leave-") + name + ".png"));
+            ljus::save_png(picture(options.width, scale, 0),
+                           options.path(std::string("ray-leave-") + name + ".png"));
         }
     });
 }

@@ -12,6 +12,7 @@
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
+#include "common/drawing.hpp"
 #include "common/plot.hpp"
 #include "ljus/accel/detail/triangle_bvh.hpp"
 #include "ljus/geometry/shape.hpp"
@@ -215,10 +216,59 @@ void tabulate(const examples::Options& options) {
     examples::save_table(options.out, table);
     if (options.quiet) return;
     std::printf("%zu triangles\n", mesh.size());
-    for (const auto& row : table.rows) {
-        for (const auto& cell : row) std::printf("%-12s ", cell.c_str());
-        std::printf("\n");
+    examples::print_rows(table, 12);
+}
+
+/// Drawing: a ray in a plane of balls, and the boxes of the nodes that it visits.
+void draw_walk(const std::string& folder) {
+    using namespace examples;
+    std::vector<ljus::Sphere> spheres;
+    std::vector<ljus::Box> boxes;
+    ljus::RandomStream stream = ljus::random_stream(5, ljus::Pass::user, 0, 0);
+    for (int i = 0; i < 24; ++i) {
+        const ljus::Vec2 at = 92.0f * ljus::next_2d<float>(stream) + 4.0f;
+        const float radius = 1.2f + 2.4f * ljus::next_1d<float>(stream);
+        spheres.push_back({.center = {at, 0}, .radius = radius});
+        boxes.push_back(ljus::bounds(spheres.back()));
     }
+    const ljus::Bvh tree(boxes, {.leaf_size = 2, .threads = 1});
+    Drawing figure{.name = "bvh-walk",
+                   .description = "Balls in boxes in boxes. A ray passes through some "
+                                  "of the boxes, down to the ball that it hits",
+                   .low = {0, 0},
+                   .high = {100, 100},
+                   .scale = 3.6};
+    const auto circle = [&](std::uint32_t i, const Pen& pen) {
+        const auto& [center, radius] = spheres[i];
+        draw_arc(figure, {center.x, center.y}, radius, 0, 2 * std::numbers::pi, pen);
+    };
+    for (std::uint32_t i = 0; i < spheres.size(); ++i) circle(i, {"currentColor", 1});
+
+    const Vec3 from{2, 20, 0};
+    const Ray ray{.origin = from, .direction = glm::normalize(Vec3{96, 90, 0} - from)};
+    NearestHit nearest;
+    tree.closest(
+        ray,
+        [&](std::uint32_t slot, Ray& rest) {
+            const std::uint32_t i = tree.primitive_ids()[slot];
+            circle(i, {colors::red, 2.5});
+            if (const auto t = ljus::intersect(rest, spheres[i]))
+                nearest.offer({.t = *t}, i, rest);
+        },
+        [&](std::uint32_t i) {
+            const auto& [low, high] = tree.nodes()[i].box;
+            const std::vector<Point> corners{{low.x, low.y},
+                                             {high.x, low.y},
+                                             {high.x, high.y},
+                                             {low.x, high.y},
+                                             {low.x, low.y}};
+            draw_area(figure, corners, colors::blue);
+            draw_line(figure, corners, {colors::blue, 1.5});
+        });
+    circle(nearest.number, {colors::green, 3});
+    const Vec3 hit = point_at(ray, nearest.at.t);
+    draw_arrow(figure, {from.x, from.y}, {hit.x, hit.y}, {.width = 2});
+    save_drawing(folder, figure);
 }
 
 /// From blue over green and yellow to red.
@@ -245,7 +295,7 @@ void heat_map(const examples::Options& options) {
                 const Vec3 eye{0, 0, 5};
                 int nodes = 0;
                 (void)way.first({.origin = eye, .direction = glm::normalize(to - eye)},
-                                [&] { ++nodes; });
+                                [&](std::uint32_t) { ++nodes; });
                 sum += nodes;
                 ljus::pixel(image, x, y) = heat(float(nodes) / most);
             }
@@ -268,6 +318,7 @@ int main(int argc, char** argv) {
             line.parse({.draft{.width = 300, .height = 300, .samples = 1},
                         .report{.width = 400, .height = 400, .samples = 1},
                         .reference{.width = 800, .height = 800, .samples = 1}});
+        draw_walk(options.out);
         plot_crossover(options);
         tabulate(options);
         heat_map(options);

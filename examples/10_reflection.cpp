@@ -15,7 +15,7 @@
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
 #include "common/drawing.hpp"
-#include "common/terminal.hpp"
+#include "common/rendered.hpp"
 
 namespace {
 
@@ -124,19 +124,12 @@ void hall(const examples::Options& options) {
         placed(Quad{{-0.5f, 2.59f, -0.8f}, {1, 0, 0}, {0, 0, 1.6f}}, grey, Rgb{9}));
     const auto camera = ljus::look_at(
         {.position{-1.1f, 1.35f, 2.6f}, .target{0.35f, 1.05f, -3}, .vfov_degrees = 50});
-    examples::ProgressBar bar("reflection-hall", options.quiet);
     const ljus::PhotonMappingSettings settings{
         .caustics{.photons = options.pick(200000, 1000000, 10000000)},
         .caustics_estimate{.radius = options.pick(0.15f, 0.1f, 0.05f)}};
     const auto maps = make_photon_maps(scene, settings);
-    const auto picture = render(make_photon_mapper(scene, maps, settings), camera,
-                                {.width = options.width,
-                                 .height = options.height,
-                                 .samples = options.samples,
-                                 .seed = options.seed,
-                                 .threads = options.threads,
-                                 .progress = bar});
-    examples::stop_if_asked();
+    const auto picture = examples::rendered(
+        "reflection-hall", make_photon_mapper(scene, maps, settings), camera, options);
     save_png(picture.image, options.path("reflection-hall.png"));
 }
 
@@ -253,7 +246,7 @@ int main(int argc, char** argv) {
                  100000000);
         const examples::Options options =
             line.parse({.draft{.width = 300, .height = 200, .samples = 16},
-                        .report{.width = 600, .height = 400, .samples = 256},
+                        .report{.width = 600, .height = 400, .samples = 64},
                         .reference{.width = 900, .height = 600, .samples = 4096}});
         draw_figure_9(options.path(""));
         plot_powers(options.path(""));

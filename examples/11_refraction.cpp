@@ -17,7 +17,7 @@
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
 #include "common/drawing.hpp"
-#include "common/terminal.hpp"
+#include "common/rendered.hpp"
 
 namespace {
 
@@ -171,15 +171,8 @@ void picture(const examples::Options& options, const std::string& name, Error er
         .caustics_estimate{.radius = options.pick(0.1f, 0.05f, 0.02f)}};
     settings.caustics.threads = options.threads;
     const auto maps = make_photon_maps(scene, settings);
-    examples::ProgressBar bar(name, options.quiet);
-    const auto result = render(make_photon_mapper(scene, maps, settings), camera,
-                               {.width = options.width,
-                                .height = options.height,
-                                .samples = options.samples,
-                                .seed = options.seed,
-                                .threads = options.threads,
-                                .progress = bar});
-    examples::stop_if_asked();
+    const auto result = examples::rendered(
+        name, make_photon_mapper(scene, maps, settings), camera, options);
     save_png(result.image, options.path(name + ".png"));
 }
 
@@ -307,7 +300,7 @@ int main(int argc, char** argv) {
         line.add("--calls", calls, "Rays for each error of the plot", 3, 10000000);
         const examples::Options options =
             line.parse({.draft{.width = 270, .height = 180, .samples = 32},
-                        .report{.width = 600, .height = 400, .samples = 256},
+                        .report{.width = 600, .height = 400, .samples = 64},
                         .reference{.width = 900, .height = 600, .samples = 4096}});
         const std::string folder = options.path("");
         draw_figure_10(folder);

@@ -19,7 +19,7 @@
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
 #include "common/plot.hpp"
-#include "common/terminal.hpp"
+#include "common/rendered.hpp"
 
 namespace {
 
@@ -166,15 +166,8 @@ ljus::Image picture(const examples::Options& options, const std::string& name,
         placed(Sphere{.center{1.7f, 0.8f, 0}, .radius = 0.8f}, right));
     const auto camera = ljus::look_at(
         {.position{0, 1.5f, 3.9f}, .target{0, 0.85f, 0}, .vfov_degrees = 42});
-    examples::ProgressBar bar(name, options.quiet);
-    const auto result = render(make_path_tracer(scene), camera,
-                               {.width = options.width,
-                                .height = options.height,
-                                .samples = options.samples,
-                                .seed = options.seed,
-                                .threads = options.threads,
-                                .progress = bar});
-    examples::stop_if_asked();
+    const auto result =
+        examples::rendered(name, make_path_tracer(scene), camera, options);
     save_png(result.image, options.path(name + ".png"));
     return result.image;
 }
@@ -222,8 +215,7 @@ void tabulate_trade(const examples::Options& options) {
             examples::text(out, "%.2g"),
             examples::text(ljus::rel_mse(image, exact), "%.2g"),
             examples::text(ljus::block_error(image, exact), "%.2g")};
-        for (const auto& cell : cells) std::printf("%-26s", cell.c_str());
-        std::printf("\n");
+        examples::print_row(cells, 26);
         return cells;
     };
     const Errors errors = largest_errors(1.5);
@@ -255,7 +247,7 @@ int main(int argc, char** argv) {
         line.about("Chapter 12, Fresnel: what glass and metal reflect.");
         const examples::Options options =
             line.parse({.draft{.width = 300, .height = 150, .samples = 36},
-                        .report{.width = 600, .height = 300, .samples = 400},
+                        .report{.width = 600, .height = 300, .samples = 100},
                         .reference{.width = 900, .height = 450, .samples = 4096}});
         const std::string folder = options.path("");
         plot_glass(folder);

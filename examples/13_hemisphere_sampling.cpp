@@ -17,8 +17,8 @@
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
+#include "common/rendered.hpp"
 #include "common/sampler_plot.hpp"
-#include "common/terminal.hpp"
 
 namespace {
 
@@ -126,8 +126,7 @@ void tabulate_variance(const std::string& folder, int size) {
             means += (means.empty() ? "" : "  ") + examples::text(found.mean, "%.3f");
         }
         row.push_back(means);
-        for (const auto& cell : row) std::printf("%-22s", cell.c_str());
-        std::printf("\n");
+        examples::print_row(row, 22);
         table.rows.push_back(row);
     };
     (add(Way{}), ...);
@@ -188,15 +187,9 @@ ljus::Image picture(const examples::Options& options, const std::string& name,
     const auto camera =
         ljus::look_at({.position{0, 2.4f, 6}, .target{0, 0.8f, 0}, .vfov_degrees = 32});
     const auto tracer = make_path_tracer(scene, {.sample_lights = false});
-    examples::ProgressBar bar(name, options.quiet);
-    const auto result = render(tracer, camera,
-                               {.width = options.width,
-                                .height = options.height,
-                                .samples = rays,
-                                .seed = options.seed,
-                                .threads = options.threads,
-                                .progress = bar});
-    examples::stop_if_asked();
+    auto picture = examples::picture_settings(options);
+    picture.samples = rays;
+    const auto result = examples::rendered(name, tracer, camera, picture, options);
     if (save) save_png(result.image, options.path(name + ".png"));
     return result.image;
 }
@@ -240,8 +233,7 @@ void tabulate_pictures(const examples::Options& options) {
             examples::text(ljus::rel_mse(b, lamp), "%.3f"),
             examples::text(ljus::block_error(a, sky), "%.5f"),
             examples::text(ljus::block_error(b, lamp), "%.4f")};
-        for (const auto& cell : row) std::printf("%-22s", cell.c_str());
-        std::printf("\n");
+        examples::print_row(row, 22);
         table.rows.push_back(row);
     };
     add(Cosine{}, "hemisphere-cosine");

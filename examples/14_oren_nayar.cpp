@@ -16,8 +16,9 @@
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
+#include "common/drawing.hpp"
 #include "common/plot.hpp"
-#include "common/terminal.hpp"
+#include "common/rendered.hpp"
 
 namespace {
 
@@ -43,15 +44,8 @@ Image ball(const examples::Options& options, const std::string& name,
                                 ljus::Lambertian{.albedo = Rgb{0}}, Rgb{60}));
     const auto camera =
         ljus::look_at({.position{0, 0, 6}, .target{0, 0, 0}, .vfov_degrees = 21});
-    examples::ProgressBar bar(name, options.quiet);
-    const auto result = render(make_path_tracer(scene, {.max_depth = 1}), camera,
-                               {.width = options.width,
-                                .height = options.height,
-                                .samples = options.samples,
-                                .seed = options.seed,
-                                .threads = options.threads,
-                                .progress = bar});
-    examples::stop_if_asked();
+    const auto result = examples::rendered(
+        name, make_path_tracer(scene, {.max_depth = 1}), camera, options);
     if (save) save_png(result.image, options.path(name + ".png"));
     return result.image;
 }
@@ -93,8 +87,7 @@ void figure_14(const examples::Options& options) {
                               examples::text(1 - s2 / (2 * (s2 + 0.57)), "%.4f"),
                               examples::text(0.45 * s2 / (s2 + 0.09), "%.4f"), error,
                               levels});
-        for (const auto& cell : table.rows.back()) std::printf("%-12s", cell.c_str());
-        std::printf("\n");
+        examples::print_row(table.rows.back(), 12);
     }
     examples::save_table(options.path(""), table);
 }
@@ -162,6 +155,45 @@ void plot_retroreflection(const std::string& folder) {
     save_plot(folder, plot);
 }
 
+/// Drawing: where two rough surfaces send the light that comes from one side.
+void draw_lobes(const std::string& folder) {
+    using namespace examples;
+    Drawing figure{.name = "oren_nayar-lobes",
+                   .description = "Light comes from the upper left. Lambert's surface "
+                                  "is equally bright from all sides, rough ones are "
+                                  "brightest seen from where the light comes from",
+                   .low = {-2.1, -0.15},
+                   .high = {2.1, 1.75},
+                   .scale = 110};
+    const auto direction = [](double degrees) {
+        const double a = degrees * std::numbers::pi / 180;
+        return Vec3T<double>{std::sin(a), 0, std::cos(a)};
+    };
+    const auto lobe = [&](const auto& material, const Pen& pen) {
+        std::vector<Point> points;
+        for (int angle = -89; angle <= 89; ++angle) {
+            const Vec3T<double> wo = direction(angle);
+            const double r =
+                std::numbers::pi * evaluate(material, wo, direction(-60)).x;
+            points.push_back({r * wo.x, r * wo.z});
+        }
+        draw_area(figure, points, pen.color);
+        draw_line(figure, points, pen);
+    };
+    const ljus::RgbT<double> white{1};
+    lobe(ljus::LambertianT<double>{white}, {"currentColor", 1.5, true});
+    lobe(ljus::OrenNayarT<double>{white, 0.7}, {colors::green, 2.5});
+    lobe(ljus::EonT<double>{white, 0.7}, {colors::red, 2.5});
+    draw_line(figure, {{-2.1, 0}, {2.1, 0}});
+    const Vec3T<double> light = direction(-60);
+    draw_arrow(figure, {1.9 * light.x, 1.9 * light.z}, {0.1 * light.x, 0.1 * light.z},
+               {colors::blue, 2.5});
+    draw_label(figure, {0.4, 1.2}, "EON", colors::red);
+    draw_label(figure, {1.25, 0.5}, "Lambert");
+    draw_label(figure, {-0.35, 0.55}, "1994", colors::green);
+    save_drawing(folder, figure);
+}
+
 /// Nanoseconds to evaluate, the best of 21 runs over random directions.
 template <typename Material>
 double nanoseconds(const Material& material) {
@@ -219,8 +251,7 @@ void tabulate_trade(const examples::Options& options, int size) {
              examples::text(least, "%.3f") + " to " + examples::text(most, "%.3f"),
              examples::text(ljus::rel_mse(image, truth), "%.1e"),
              examples::text(weight_variance(material, 75), "%.3f")});
-        for (const auto& cell : table.rows.back()) std::printf("%-26s", cell.c_str());
-        std::printf("\n");
+        examples::print_row(table.rows.back(), 26);
     };
     const ljus::RgbT<double> one{1};
     const auto model = [&](const char* name, RoughModel which) {
@@ -249,6 +280,7 @@ int main(int argc, char** argv) {
                         .reference{.width = 400, .height = 400, .samples = 1024}});
         const std::string folder = options.path("");
         const int size = options.pick(150, 600, 1500);
+        draw_lobes(options.out);
         figure_14(options);
         plot_albedo(folder, size);
         plot_retroreflection(folder);

@@ -19,6 +19,7 @@
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
+#include "common/drawing.hpp"
 #include "common/plot.hpp"
 #include "common/terminal.hpp"
 
@@ -250,10 +251,7 @@ void figure_4(const examples::Options& options) {
         table.rows[1].push_back(
             examples::text(ljus::luminance(furnace_albedo(material, rays)), "%.3f"));
     });
-    for (const auto& row : table.rows) {
-        for (const auto& cell : row) std::printf("%-11s", cell.c_str());
-        std::printf("\n");
-    }
+    examples::print_rows(table, 11);
     examples::save_table(options.path(""), table);
 }
 
@@ -332,6 +330,44 @@ auto own_sampler(const Material& material) {
     };
 }
 
+/// Drawing: where gloss of three roughnesses sends the light that comes from one side.
+void draw_lobes(const std::string& folder) {
+    using namespace examples;
+    Drawing figure{.name = "materials-lobes",
+                   .description = "Light comes from the upper left. The rougher the "
+                                  "gloss, the wider the lobe on the other side",
+                   .low = {-3.2, -0.15},
+                   .high = {4.6, 3.2},
+                   .scale = 65};
+    const auto direction = [](double degrees) {
+        const double a = degrees * std::numbers::pi / 180;
+        return Vec3T<double>{std::sin(a), 0, std::cos(a)};
+    };
+    const char* inks[] = {colors::red, colors::green, colors::violet};
+    const double roughnesses[] = {0.6, 0.7, 1};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const ljus::GlossyT<double> gloss{RgbT<double>{1}, roughnesses[i]};
+        std::vector<Point> points;
+        for (int angle = -89; angle <= 89; ++angle) {
+            const Vec3T<double> wo = direction(angle);
+            const double r = std::numbers::pi * evaluate(gloss, wo, direction(-45)).x;
+            points.push_back({r * wo.x, r * wo.z});
+        }
+        draw_area(figure, points, inks[i]);
+        draw_line(figure, points, {inks[i], 2.5});
+        const Point& label = points[130];
+        draw_label(figure, {label.x + 0.3, label.y + 0.2},
+                   (i == 0 ? "roughness " : "") + text(roughnesses[i], "%.1f"),
+                   inks[i]);
+    }
+    draw_line(figure, {{-3.2, 0}, {4.6, 0}});
+    draw_arc(figure, {0, 0}, 1, 0, std::numbers::pi, {"currentColor", 1.5, true});
+    const Vec3T<double> light = direction(-45);
+    draw_arrow(figure, {4 * light.x, 4 * light.z}, {0.1 * light.x, 0.1 * light.z},
+               {colors::blue, 2.5});
+    save_drawing(folder, figure);
+}
+
 /// Plots: what white gloss loses, and what the choice of the sampler is worth.
 void plot_gloss(const std::string& folder, int count) {
     examples::Plot loss{.name = "materials-loss",
@@ -385,7 +421,7 @@ double nanoseconds(F f) {
 void tabulate_trade(const examples::Options& options) {
     examples::Table table{.name = "materials-trade",
                           .columns = {"material", "evaluate, ns", "sample, ns",
-                                      "variance of the weight at 60°", "µs a path",
+                                      "variance of the weight at 60°", "µs per path",
                                       "relMSE of 16 rays"},
                           .rows = {}};
     const int size = options.pick(48, 96, 192);
@@ -414,8 +450,7 @@ void tabulate_trade(const examples::Options& options) {
                             "%.3f"),
              examples::text(micro, "%.2f"),
              examples::text(ljus::rel_mse(a, b) / 2, "%.2g")});
-        for (const auto& cell : table.rows.back()) std::printf("%-22s", cell.c_str());
-        std::printf("\n");
+        examples::print_row(table.rows.back(), 22);
         examples::stop_if_asked();
     };
     const Row row = colored_row();
@@ -474,8 +509,7 @@ void compare_full(const examples::Options& options) {
                             "%.1e"),
              examples::text(ljus::block_error(picture(full, options.seed + 2), truth),
                             "%.1e")});
-        for (const auto& cell : table.rows.back()) std::printf("%-10s", cell.c_str());
-        std::printf("\n");
+        examples::print_row(table.rows.back(), 10);
     }
     examples::save_table(options.path(""), table);
 }
@@ -557,9 +591,10 @@ int main(int argc, char** argv) {
         line.about("Chapter 15, materials: figure 4, and what each material costs.");
         const examples::Options options =
             line.parse({.draft{.width = 600, .height = 150, .samples = 25},
-                        .report{.width = 1200, .height = 300, .samples = 256},
+                        .report{.width = 1200, .height = 300, .samples = 64},
                         .reference{.width = 1600, .height = 400, .samples = 2048}});
         figure_4(options);
+        draw_lobes(options.out);
         sweep_roughness(options);
         plot_gloss(options.path(""), options.pick(20000, 200000, 1000000));
         tabulate_trade(options);

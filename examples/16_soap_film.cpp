@@ -18,7 +18,7 @@
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
 #include "common/plot.hpp"
-#include "common/terminal.hpp"
+#include "common/rendered.hpp"
 
 namespace {
 
@@ -220,10 +220,7 @@ void trade(const examples::Options& options, const ljus::FilmTable& table) {
                                 examples::text(most[i], "%.1f"),
                                 examples::text(pictures[i], "%.1e"),
                                 examples::text(times[i], "%.0f")});
-    for (const auto& row : numbers.rows) {
-        for (const auto& cell : row) std::printf("%-24s", cell.c_str());
-        std::printf("\n");
-    }
+    examples::print_rows(numbers, 24);
     std::printf("table: %zu colours, %d mixed with grey, the worst had %.3f\n",
                 table.cells.size(), table.greyed, double(table.worst));
     examples::save_table(options.path(""), numbers);
@@ -277,16 +274,12 @@ void figure_4(const examples::Options& options, const ljus::FilmTable& table) {
         for (const auto* pass : plan.items()) std::printf("%s", to_text(*pass).c_str());
     }
     const auto maps = make_photon_maps(scene, settings);
-    examples::ProgressBar bar("figure 4", options.quiet);
+    auto picture = examples::picture_settings(options);
+    picture.width *= 2;
+    picture.height *= 2;
     const auto result =
-        render(make_photon_mapper(scene, maps, settings), ljus::report_camera(),
-               {.width = options.width * 2,
-                .height = options.height * 2,
-                .samples = options.samples,
-                .seed = options.seed,
-                .threads = options.threads,
-                .progress = bar});
-    examples::stop_if_asked();
+        examples::rendered("figure 4", make_photon_mapper(scene, maps, settings),
+                           ljus::report_camera(), picture, options);
     save_png(result.image, options.path("soap_film-figure-4.png"));
 }
 
@@ -298,7 +291,7 @@ int main(int argc, char** argv) {
         line.about("Chapter 16, the soap bubble: thin films and their colours.");
         const examples::Options options =
             line.parse({.draft{.width = 200, .height = 200, .samples = 4},
-                        .report{.width = 300, .height = 300, .samples = 100},
+                        .report{.width = 300, .height = 300, .samples = 36},
                         .reference{.width = 500, .height = 500, .samples = 1000}});
         const auto table = ljus::bake_film_table(1.33f);
         const auto look = [&](double c, double d) {

@@ -15,7 +15,7 @@
 
 #include "common/command_line.hpp"
 #include "common/plot.hpp"
-#include "common/terminal.hpp"
+#include "common/rendered.hpp"
 
 namespace {
 
@@ -66,12 +66,7 @@ template <typename Renderer>
 ljus::RenderedT<float> rendered(const std::string& name, const Renderer& renderer,
                                 ljus::RenderSettings picture,
                                 const examples::Options& options) {
-    examples::ProgressBar bar(name, options.quiet);
-    picture.progress = bar;
-    picture.threads = options.threads;
-    auto result = render(renderer, two_balls_camera(), picture);
-    examples::stop_if_asked();
-    return result;
+    return examples::rendered(name, renderer, two_balls_camera(), picture, options);
 }
 
 /// Depth 0 to 5, and how many rays the tree of a camera ray has.
@@ -83,7 +78,7 @@ void depths(const TwoBalls& scene, const examples::Options& options) {
                                     "rays that hit one ball of glass: 1 + 2d",
                                     "the two balls by both branches",
                                     "the two balls by one branch"},
-                        .y_label = "rays a camera ray, without shadow rays",
+                        .y_label = "rays per camera ray, without shadow rays",
                         .log_y = true,
                         .more = "set yrange [0.8:200]\nset format y '%g'\n"};
     const auto rays_of = [](const ljus::Counts& counts) {
@@ -103,7 +98,7 @@ void depths(const TwoBalls& scene, const examples::Options& options) {
         plot.rows.push_back({double(depth), std::exp2(depth + 1) - 1, 1.0 + 2 * depth,
                              rays_of(both.counts), rays_of(one.counts)});
         if (!options.quiet)
-            std::printf("depth %d: %.3f rays a camera ray by both branches, %.3f by "
+            std::printf("depth %d: %.3f rays per camera ray by both branches, %.3f by "
                         "one; %.3f shadow rays\n",
                         depth, rays_of(both.counts), rays_of(one.counts),
                         double(both.counts.shadow_rays) /
@@ -140,13 +135,13 @@ void branches(const TwoBalls& scene, int most, const examples::Options& options)
                  options)
             .image;
     examples::Plot plot{.name = "whitted-cost",
-                        .columns = {"rays a pixel of all kinds", "both branches",
+                        .columns = {"rays per pixel of all kinds", "both branches",
                                     "one branch by roulette"},
                         .y_label = "RMS error on the glass ball",
                         .log_x = true,
                         .log_y = true};
     examples::Table table{.name = "whitted-cost-table",
-                          .columns = {"camera rays a pixel", "both: all rays",
+                          .columns = {"camera rays per pixel", "both: all rays",
                                       "both: RMS error", "one: all rays",
                                       "one: RMS error"}};
     const double empty = std::numeric_limits<double>::quiet_NaN();
@@ -198,7 +193,7 @@ int main(int argc, char** argv) {
         line.add("--photons", photons, "Of the picture to compare with; 0: by quality",
                  0, 1'000'000'000);
         int most = 0;
-        line.add("--most", most, "Most rays a pixel in the error curves; 0: by quality",
+        line.add("--most", most, "Most rays per pixel in the curves; 0: by quality",
                  0, 1 << 16);
         const examples::Options options =
             line.parse({.draft{.width = 300, .height = 200, .samples = 9},

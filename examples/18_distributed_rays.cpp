@@ -13,6 +13,7 @@
 
 #include "common/command_line.hpp"
 #include "common/plot.hpp"
+#include "common/rendered.hpp"
 #include "common/terminal.hpp"
 
 namespace {
@@ -234,7 +235,7 @@ void curves(const std::string& name, const Shot& shot, int most,
     const Image truth = by(Sampling::sobol, 16 * most, 99);
     examples::Plot plot{
         .name = "distributed_rays-" + name + "-error",
-        .columns = {"rays a pixel", "random", "jittered", "multi-jittered", "Sobol"},
+        .columns = {"rays per pixel", "random", "jittered", "multi-jittered", "Sobol"},
         .y_label = "RMS error",
         .log_x = true,
         .log_y = true};
@@ -270,15 +271,10 @@ void curves(const std::string& name, const Shot& shot, int most,
 void picture(const std::string& name, const Shot& shot, int few,
              const examples::Options& options) {
     for (const int rays : {few, options.samples}) {
-        examples::ProgressBar bar(name, options.quiet);
-        const auto result = render(ljus::make_distributed(shot.scene), shot.camera,
-                                   {.width = options.width,
-                                    .height = options.height,
-                                    .samples = rays,
-                                    .seed = options.seed,
-                                    .threads = options.threads,
-                                    .progress = bar});
-        examples::stop_if_asked();
+        auto picture = examples::picture_settings(options);
+        picture.samples = rays;
+        const auto result = examples::rendered(name, ljus::make_distributed(shot.scene),
+                                               shot.camera, picture, options);
         save_png(result.image, options.path("distributed_rays-" + name +
                                             (rays == few ? "-few.png" : ".png")));
     }
@@ -298,11 +294,11 @@ int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         int most = 0;
         line.about("Distributed rays: five blurs, and how fast each becomes smooth.");
-        line.add("--most", most, "Most rays a pixel in the error curves; 0: by quality",
+        line.add("--most", most, "Most rays per pixel in the curves; 0: by quality",
                  0, 1 << 16);
         const examples::Options options =
             line.parse({.draft{.width = 240, .height = 160, .samples = 36},
-                        .report{.width = 600, .height = 400, .samples = 256},
+                        .report{.width = 600, .height = 400, .samples = 100},
                         .reference{.width = 900, .height = 600, .samples = 1024}});
         if (most == 0) most = options.pick(64, 256, 1024);
         examples::Table table{.name = "distributed_rays-slopes",

@@ -22,10 +22,13 @@
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
 #include "common/plot.hpp"
+#include "common/rendered.hpp"
 #include "common/terminal.hpp"
+#include "common/veach_plates.hpp"
 
 namespace {
 
+using examples::rendered;
 using examples::text;
 using ljus::Image;
 using ljus::MisHeuristic;
@@ -39,7 +42,7 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 /// What the user may set besides the common options.
 struct Sizes {
-    int most = 0;  ///< Most rays a pixel in the curves of noise.
+    int most = 0;  ///< Most rays per pixel in the curves of noise.
     int runs = 0;  ///< Of roulette with a constant chance.
     int paths = 0; ///< A run.
 };
@@ -69,56 +72,7 @@ ljus::Camera low_camera() {
         {.position{0, 1, 4.4f}, .target{0, 0.6f, 0}, .vfov_degrees = 22});
 }
 
-constexpr std::array roughness{0.07f, 0.14f, 0.22f, 0.32f};
-constexpr std::array lamp_radius{0.0333f, 0.1f, 0.3f, 0.9f};
-
-/// Four plates, from nearly a mirror to satin, and four lamps of the same power, from a
-/// point nearly to a ball. Each plate mirrors the lamps to the eye.
-auto plates() {
-    ljus::Room<ljus::Scene<ljus::Shapes<Quad, Sphere>,
-                           ljus::Materials<ljus::Lambertian, ljus::Glossy>>>
-        room;
-    auto& scene = room.scene;
-    const Vec3 eye{0, 2, 15}, x{1, 0, 0};
-    const std::array middles{Vec3{0, -2.4f, -0.1f}, Vec3{0, -3.06f, 0.9f},
-                             Vec3{0, -3.6f, 2.2f}, Vec3{0, -3.9f, 3.6f}};
-    for (std::size_t i = 0; i < 4; ++i) {
-        const auto gloss = scene.add(
-            ljus::Glossy{.reflectance = Rgb{0.6f}, .roughness = roughness[i]});
-        const Vec3 normal =
-            normalize(normalize(eye - middles[i]) + normalize(-middles[i]));
-        const Vec3 v = cross(normal, x);
-        scene.add(Quad{middles[i] - 4.0f * x - 0.5f * v, 8.0f * x, v}, gloss);
-    }
-    const auto black = scene.add(ljus::Lambertian{.albedo = Rgb{0}});
-    const std::array colors{Rgb{1, 0.75f, 0.5f}, Rgb{1, 0.95f, 0.6f},
-                            Rgb{0.6f, 1, 0.7f}, Rgb{0.6f, 0.7f, 1}};
-    for (std::size_t i = 0; i < 4; ++i) {
-        const float r = lamp_radius[i];
-        scene.add(Sphere{{2.5f * float(i) - 3.75f, 0, 0}, r}, black,
-                  colors[i] / (r * r));
-    }
-    const auto wall = scene.add(ljus::Lambertian{.albedo = Rgb{0.3f}});
-    scene.add(Quad{{-10, -4.2f, 10}, {20, 0, 0}, {0, 0, -12}}, wall);
-    scene.add(Quad{{-10, -4.2f, -2}, {20, 0, 0}, {0, 12, 0}}, wall);
-    room.camera = look_at(
-        ljus::View{.position = eye, .target{0, -1.8f, 2.5f}, .vfov_degrees = 26});
-    return room;
-}
 // --- Noise ----------------------------------------------------------------------------
-
-/// A picture, with a bar while it is made.
-template <typename Renderer>
-ljus::RenderedT<float>
-rendered(const std::string& name, const Renderer& renderer, const ljus::Camera& camera,
-         ljus::RenderSettings picture, const examples::Options& options) {
-    examples::ProgressBar bar(name, options.quiet);
-    picture.progress = bar;
-    if (picture.threads == 0) picture.threads = options.threads;
-    auto result = render(renderer, camera, picture);
-    examples::stop_if_asked();
-    return result;
-}
 
 /// What is known of a way to render without knowing the truth: from two pictures that
 /// differ in their seeds.
@@ -177,7 +131,7 @@ void in_the_room(const examples::Options& options, const Sizes& sizes) {
                                        options.seed};
     const int side = options.pick(48, 80, 120);
     examples::Plot plot{.name = "path_tracing-noise",
-                        .columns = {"camera rays a pixel", ways[0].name, ways[1].name,
+                        .columns = {"camera rays per pixel", ways[0].name, ways[1].name,
                                     ways[2].name, "slope -1/2"},
                         .y_label = "RMS noise, W/(m^2 sr)",
                         .log_x = true,
@@ -185,7 +139,7 @@ void in_the_room(const examples::Options& options, const Sizes& sizes) {
     for (int rays = 1; rays <= sizes.most; rays *= 4)
         plot.rows.push_back({double(rays), nothing, nothing, nothing, nothing});
     examples::Table table{.name = "path_tracing-ways",
-                          .columns = {"way", "rays a camera ray", "slope", "noise",
+                          .columns = {"way", "rays per camera ray", "slope", "noise",
                                       "efficiency by rays", "by time"}};
     double first_rms = 0, first_by_rays = 0, first_by_time = 0;
     for (std::size_t way = 0; way < 3; ++way) {
@@ -299,7 +253,7 @@ noise_on_plates(const Scene& scene, const ljus::Camera& camera, const Noise& noi
 
 /// Veach's plates by each way, and what each of the two brings.
 void on_the_plates(const examples::Options& options) {
-    const auto room = plates();
+    const auto room = examples::veach_plates();
     const ljus::RenderSettings picture{options.width,
                                        std::max(1, options.width * 2 / 3),
                                        options.samples, options.seed};
@@ -325,8 +279,9 @@ void on_the_plates(const examples::Options& options) {
                                       "paths", "shadow rays", "balance", "power"}};
     for (std::size_t plate = 0; plate < 4; ++plate)
         for (std::size_t lamp = 0; lamp < 4; ++lamp) {
-            table.rows.push_back({text(double(roughness[plate]), "%.2f"),
-                                  text(double(lamp_radius[lamp]), "%.2g")});
+            table.rows.push_back(
+                {text(double(examples::plate_roughness[plate]), "%.2f"),
+                 text(double(examples::lamp_radius[lamp]), "%.2g")});
             for (const auto& way : noise)
                 table.rows.back().push_back(text(100 * way[plate][lamp], "%.0f %%"));
         }
@@ -443,7 +398,7 @@ void constant_chances(const examples::Options& options, const Sizes& sizes) {
                         .columns = {"chance p to go on", "albedo 0.9: closed form",
                                     "albedo 0.9: measured", "albedo 0.5: closed form",
                                     "albedo 0.5: measured"},
-                        .y_label = "variance x surfaces a path",
+                        .y_label = "variance x surfaces per path",
                         .log_y = true,
                         .more = "set xrange [0:1]\nset yrange [1:1e7]\n"};
     for (int i = 1; i < 100; ++i) {
@@ -464,7 +419,7 @@ void constant_chances(const examples::Options& options, const Sizes& sizes) {
 
     examples::Table table{
         .name = "path_tracing-catastrophe",
-        .columns = {"chance p", "surfaces a path", "standard deviation of a path",
+        .columns = {"chance p", "surfaces per path", "standard deviation of a path",
                     "median of the runs (truth: 10)", "runs that are too low",
                     "truth within 2 of a run's own standard errors"}};
     for (const double p : {0.3, 0.5, 0.7, 0.85, 0.9, 0.95}) {
@@ -516,7 +471,7 @@ void roulette(const examples::Options& options, const Sizes& sizes) {
                         .log_x = true,
                         .more = "set yrange [0:*]\n"};
     examples::Table table{.name = "path_tracing-roulette-table",
-                          .columns = {"chance to go on", "rays a camera ray",
+                          .columns = {"chance to go on", "rays per camera ray",
                                       "RMS noise", "efficiency by rays", "by time"}};
     std::vector<Noise> noises;
     for (const Case& c : cases) {
@@ -568,8 +523,8 @@ void speed(const examples::Options& options) {
     const auto matt = matt_room();
     const auto cornell = ljus::cornell_box();
     examples::Table table{.name = "path_tracing-speed",
-                          .columns = {"room", "threads", "million rays a second",
-                                      "million paths a second"}};
+                          .columns = {"room", "threads", "million rays per second",
+                                      "million paths per second"}};
     const auto measure = [&](const char* name, const auto& room, int threads) {
         const auto tracer = make_path_tracer(room.scene);
         const examples::StopWatch watch;
@@ -598,7 +553,7 @@ int main(int argc, char** argv) {
         Sizes sizes;
         line.about(
             "Chapter 19, path tracing: who finds the lamp, and where paths end.");
-        line.add("--most", sizes.most, "Most rays a pixel in the curves; 0: by quality",
+        line.add("--most", sizes.most, "Most rays per pixel in a curve; 0: by quality",
                  0, 1 << 16);
         line.add("--runs", sizes.runs, "Of a constant chance; 0: by quality", 0, 10000);
         line.add("--paths", sizes.paths, "Of a run; 0: by quality", 0, 10000000);

@@ -29,6 +29,7 @@
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
 #include "common/plot.hpp"
+#include "common/rendered.hpp"
 #include "common/terminal.hpp"
 
 using namespace ljus;
@@ -50,15 +51,10 @@ struct Sizes {
 template <typename Renderer>
 Image rendered(const std::string& name, const Renderer& renderer, const Camera& camera,
                const examples::Options& options, int rays = 0, bool wide = false) {
-    examples::ProgressBar bar(name, options.quiet);
-    const int height = wide ? std::max(1, options.height / 2) : options.height;
-    RenderSettings picture{options.width, height, rays > 0 ? rays : options.samples,
-                           options.seed};
-    picture.progress = bar;
-    picture.threads = options.threads;
-    Image image = render(renderer, camera, picture).image;
-    examples::stop_if_asked();
-    return image;
+    RenderSettings picture = examples::picture_settings(options);
+    if (wide) picture.height = std::max(1, options.height / 2);
+    if (rays > 0) picture.samples = rays;
+    return examples::rendered(name, renderer, camera, picture, options).image;
 }
 
 // --- The rooms ------------------------------------------------------------------------
@@ -317,7 +313,7 @@ void room_pictures(const examples::Options& options, const Sizes& sizes) {
             const auto view = make_light_map_view(room.scene, map);
             (void)next();
             const Image smooth = rendered("view", view, room.camera, options);
-            table.rows.push_back({analytic ? "closed forms" : "1024 rays a patch",
+            table.rows.push_back({analytic ? "closed forms" : "1024 rays per patch",
                                   std::to_string(factors->size()), factor_time,
                                   solve_time, next(), error(smooth)});
             if (!analytic) continue;
@@ -335,15 +331,12 @@ void room_pictures(const examples::Options& options, const Sizes& sizes) {
         other.threads = options.threads;
         const Image image = render(tracer, room.camera, other).image;
         const double time = examples::processor_seconds() - start;
-        table.rows.push_back({"path tracing, " + std::to_string(rays) + " a pixel", "",
-                              "", "", examples::text(time, "%.2f"), error(image)});
+        table.rows.push_back({"path tracing, " + std::to_string(rays) + " per pixel",
+                              "", "", "", examples::text(time, "%.2f"),
+                              error(image)});
     }
     save_table(options.out, table);
-    if (!options.quiet)
-        for (const auto& row : table.rows) {
-            for (const auto& cell : row) std::printf("%-18s ", cell.c_str());
-            std::printf("\n");
-        }
+    if (!options.quiet) examples::print_rows(table, 18);
 }
 
 /// The light on each quarter of each wall: by radiosity, and by paths that begin there.
@@ -486,7 +479,7 @@ void views(const examples::Options& options, const Sizes& sizes) {
             (same ? "the same picture" : "ANOTHER PICTURE"),
         loaded);
     add("path tracing, each view, " + std::to_string(options.samples) +
-            " paths a pixel",
+            " paths per pixel",
         traced);
     save_table(options.out, table);
     if (!options.quiet)

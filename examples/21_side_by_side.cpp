@@ -458,8 +458,9 @@ double effort_for(const std::vector<Rung>& rungs, double seconds) {
 void equal_time(const Study& study, const std::vector<Method>& all,
                 const examples::Options& options) {
     examples::Table table{.name = "side_by_side-" + study.name + "-time",
-                          .columns = {"", "budget, s", "taken, s", "rays a pixel",
-                                      "photons", "relMSE", "times the judge's error",
+                          .columns = {"", "budget, s", "taken, s", "rays per pixel",
+                                      "photons", "relMSE",
+                                      "times the reference's error",
                                       "of 10 x 10 blocks", "FLIP"}};
     const std::vector<double> budgets =
         options.pick<std::vector<double>>({0.1}, {1, 10}, {1, 10, 100});
@@ -642,10 +643,7 @@ void class_table(const Study& study, const examples::Options& options,
     }
     save_table(options.out, table);
     if (options.quiet) return;
-    for (const auto& row : table.rows) {
-        for (const auto& cell : row) std::printf("%-18s", cell.c_str());
-        std::printf("\n");
-    }
+    examples::print_rows(table, 18);
 }
 
 // --- One solution, many views ---------------------------------------------------------

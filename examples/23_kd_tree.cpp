@@ -224,8 +224,8 @@ void compare_structures(const examples::Options& options, int count) {
         const float radius = radius_of_50(reference, centers);
         const int calls = options.pick(1000, 10000, 100000);
         examples::Table table{.name = walls ? "kd_tree-walls" : "kd_tree-caustics",
-                              .columns = {"", "build, ns a point", "ball of 50, ns",
-                                          "50 nearest, ns", "bytes a point"},
+                              .columns = {"", "build, ns per point", "ball of 50, ns",
+                                          "50 nearest, ns", "bytes per point"},
                               .rows = {}};
         const auto add = [&](const char* name, int times, auto make) {
             const auto row = measure(centers, radius, times, make);

@@ -14,6 +14,7 @@
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
 #include "common/plot.hpp"
+#include "common/two_rooms.hpp"
 #include "ljus/inspect/census.hpp"
 #include "ljus/inspect/photon_dots.hpp"
 #include "ljus/io/png.hpp"
@@ -29,16 +30,9 @@ namespace {
 constexpr double pi = std::numbers::pi;
 using Point = glm::dvec3;
 
-void print(const examples::Table& table) {
-    for (const auto& row : table.rows) {
-        for (const auto& cell : row) std::printf("%-14s ", cell.c_str());
-        std::printf("\n");
-    }
-}
-
 void save(const examples::Options& options, const examples::Table& table) {
     examples::save_table(options.out, table);
-    if (!options.quiet) print(table);
+    if (!options.quiet) examples::print_rows(table, 14);
 }
 
 // --- Figures 5, 6 and 7 ---------------------------------------------------------------
@@ -196,37 +190,12 @@ double irradiance_from(const Quad& lamp, const Point& at) {
     return std::abs(sum) / 2;
 }
 
-using Boxes = Scene<Shapes<Quad>, Materials<Lambertian>>;
+using examples::Boxes;
 
 // --- Edges, corners, thin walls -------------------------------------------------------
 
-/// Two rooms, open in front, with a wall between them that has no thickness; a lamp in
-/// the left one.
-struct TwoRooms {
-    Boxes scene;
-    Quad lamp{.corner{-0.7f, 0.999f, 0.3f}, .edge_u{0.4f, 0, 0}, .edge_v{0, 0, 0.4f}};
-};
-
-TwoRooms two_rooms() {
-    TwoRooms rooms;
-    Boxes& scene = rooms.scene;
-    const auto white = scene.add(Lambertian{.albedo = Rgb{0.75f}});
-    const auto red = scene.add(Lambertian{.albedo = Rgb{0.75f, 0.3f, 0.2f}});
-    const auto blue = scene.add(Lambertian{.albedo = Rgb{0.2f, 0.4f, 0.75f}});
-    const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
-    const Vec3 x{2, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
-    scene.add(Quad{.corner{-1, 0, 0}, .edge_u = z, .edge_v = x}, white); // floor
-    scene.add(Quad{.corner{-1, 1, 0}, .edge_u = x, .edge_v = z}, white); // ceiling
-    scene.add(Quad{.corner{-1, 0, 0}, .edge_u = x, .edge_v = y}, white); // back
-    scene.add(Quad{.corner{-1, 0, 0}, .edge_u = y, .edge_v = z}, red);
-    scene.add(Quad{.corner{1, 0, 0}, .edge_u = z, .edge_v = y}, blue);
-    scene.add(Quad{.corner{0, 0, 0}, .edge_u = y, .edge_v = z}, white); // between
-    scene.add(rooms.lamp, black, Rgb{8});
-    return rooms;
-}
-
 void failures(const examples::Options& options) {
-    const TwoRooms rooms = two_rooms();
+    const examples::TwoRooms rooms = examples::two_rooms();
     constexpr double radius = 0.15;
     constexpr int steps = 120;
     const long long photons = options.pick(50'000LL, 400'000LL, 4'000'000LL);
@@ -363,160 +332,198 @@ Slope slope_of(const std::vector<double>& x, int seeds, Y y) {
     return {fit(-1), 2.13 * std::sqrt(squares * (seeds - 1) / seeds)};
 }
 
-void laws(const examples::Options& options) {
+/// What a map of one number of photons costs, the least of all seeds: the machine may
+/// be busy.
+struct Cost {
+    double trace = 1e30, build = 1e30; ///< In seconds.
+    double megabytes = 0, stored = 0;  ///< Of the map; its photons.
+    std::vector<double> query;         ///< Nanoseconds, for each radius.
+};
+
+/// A lamp over a floor, its light estimated with many radii in maps of many sizes.
+struct Experiment {
+    std::vector<double> numbers;  ///< Photons emitted.
+    std::vector<double> radii;    ///< Of the estimates.
+    std::vector<Estimates> found; ///< [number][radius], over the true irradiance.
+    std::vector<Cost> costs;      ///< [number].
+
+    /// The mean square error, of all runs but one; -1: of all.
+    double error2(std::size_t number, std::size_t radius, int left_out = -1) const {
+        const Parts parts = parts_of(found[number][radius], left_out);
+        return parts.variance + parts.bias2;
+    }
+    /// The radius with the least error.
+    std::size_t best_radius(std::size_t number) const {
+        std::size_t best = 0;
+        for (std::size_t r = 1; r < radii.size(); ++r)
+            if (error2(number, r) < error2(number, best)) best = r;
+        return best;
+    }
+};
+constexpr int seeds = 16;
+
+/// Adds the estimates of one map at all places, and what it costs.
+void add_map(const PhotonMap& map, const Quad& lamp, const std::vector<double>& radii,
+             Estimates& estimates, Cost& cost) {
+    std::vector<Point> places;
+    for (int i = 0; i < 49; ++i)
+        places.push_back({0.2 * (i % 7) - 0.6, 0, 0.2 * (i / 7) - 0.6});
+    cost.megabytes =
+        1e-6 * double(map.tree.bytes() +
+                      map.records.blocks().size() * sizeof(map.records.blocks()[0]));
+    for (std::size_t r = 0; r < radii.size(); ++r) {
+        const examples::StopWatch ask;
+        std::vector<double> row;
+        for (const Point& place : places)
+            row.push_back(irradiance(map, place, radii[r]));
+        cost.query[r] =
+            std::min(cost.query[r], ask.seconds() * 1e9 / double(places.size()));
+        for (std::size_t p = 0; p < places.size(); ++p)
+            row[p] /= irradiance_from(lamp, places[p]);
+        estimates[r].push_back(row);
+    }
+}
+
+Experiment run_experiment(const examples::Options& options) {
     Boxes scene;
     const auto white = scene.add(Lambertian{.albedo = Rgb{1}});
     const Quad lamp{.corner{-0.5f, 1, -0.5f}, .edge_u{1, 0, 0}, .edge_v{0, 0, 1}};
     scene.add(Quad{.corner{-9, 0, -9}, .edge_u{0, 0, 18}, .edge_v{18, 0, 0}}, white);
     scene.add(lamp, scene.add(Lambertian{.albedo = Rgb{0}}), Rgb{1});
 
-    constexpr int seeds = 16;
-    const int last = options.pick(9, 11, 12); // N = 10^(last/2)
-    std::vector<double> numbers, radii;
-    for (int i = 6; i <= last; ++i)
-        numbers.push_back(std::round(std::pow(10, i / 2.0)));
-    for (int i = 0; i < 14; ++i) radii.push_back(0.05 * std::pow(2, i / 3.0));
-    std::vector<Point> places;
-    for (int i = 0; i < 49; ++i)
-        places.push_back({0.2 * (i % 7) - 0.6, 0, 0.2 * (i / 7) - 0.6});
-
-    std::vector<Estimates> all;
-    struct Cost { // the least of all seeds: the machine may be busy
-        double trace = 1e30, build = 1e30, megabytes = 0, stored = 0;
-        std::vector<double> query; // nanoseconds, a radius
-    };
-    std::vector<Cost> costs;
-    for (const double number : numbers) {
-        Estimates estimates(radii.size());
-        Cost cost{.query = std::vector<double>(radii.size(), 1e30)};
+    Experiment all;
+    for (int i = 6; i <= options.pick(9, 11, 12); ++i)
+        all.numbers.push_back(std::round(std::pow(10, i / 2.0)));
+    for (int i = 0; i < 14; ++i) all.radii.push_back(0.05 * std::pow(2, i / 3.0));
+    for (const double number : all.numbers) {
+        Estimates estimates(all.radii.size());
+        Cost cost{.query = std::vector<double>(all.radii.size(), 1e30)};
         for (int seed = 0; seed < seeds; ++seed) {
-            examples::StopWatch watch;
+            const examples::StopWatch trace;
             const auto traced =
                 trace_photons(scene, MapType::general,
                               {.photons = static_cast<long long>(number),
                                .seed = options.seed + static_cast<std::uint64_t>(seed),
                                .shadow_photons = false,
                                .threads = options.threads});
-            cost.trace = std::min(cost.trace, watch.seconds());
+            cost.trace = std::min(cost.trace, trace.seconds());
+            cost.stored = double(traced.photons.size());
             const examples::StopWatch build;
             const PhotonMap map = make_photon_map(traced.photons, options.threads);
             cost.build = std::min(cost.build, build.seconds());
-            cost.stored = double(traced.photons.size());
-            cost.megabytes =
-                1e-6 * double(map.tree.bytes() + map.records.blocks().size() *
-                                                     sizeof(map.records.blocks()[0]));
-            for (std::size_t r = 0; r < radii.size(); ++r) {
-                const examples::StopWatch ask;
-                std::vector<double> row;
-                for (const Point& place : places)
-                    row.push_back(irradiance(map, place, radii[r]));
-                cost.query[r] = std::min(cost.query[r],
-                                         ask.seconds() * 1e9 / double(places.size()));
-                for (std::size_t p = 0; p < places.size(); ++p)
-                    row[p] /= irradiance_from(lamp, places[p]);
-                estimates[r].push_back(row);
-            }
+            add_map(map, lamp, all.radii, estimates, cost);
         }
-        all.push_back(estimates);
-        costs.push_back(cost);
+        all.found.push_back(estimates);
+        all.costs.push_back(cost);
     }
+    return all;
+}
 
-    examples::Plot by_radius{.name = "general-radius",
-                             .columns = {"radius of the estimate"},
-                             .y_label = "error of the irradiance, rms",
-                             .rows = {},
-                             .log_x = true,
-                             .log_y = true};
-    std::vector<std::size_t> shown;
-    for (std::size_t n = 0; n < numbers.size(); n += 2) {
-        shown.push_back(n);
-        by_radius.columns.push_back(examples::text(numbers[n], "%.0f") + " photons");
-    }
-    for (std::size_t r = 0; r < radii.size(); ++r) {
-        examples::Row row{radii[r]};
-        for (const std::size_t n : shown) {
-            const Parts parts = parts_of(all[n][r]);
+/// The error against the radius, for every other number of photons.
+void save_by_radius(const Experiment& all, const examples::Options& options) {
+    examples::Plot plot{.name = "general-radius",
+                        .columns = {"radius of the estimate"},
+                        .y_label = "error of the irradiance, rms",
+                        .rows = {},
+                        .log_x = true,
+                        .log_y = true};
+    for (std::size_t n = 0; n < all.numbers.size(); n += 2)
+        plot.columns.push_back(examples::text(all.numbers[n], "%.0f") + " photons");
+    for (std::size_t r = 0; r < all.radii.size(); ++r) {
+        examples::Row row{all.radii[r]};
+        for (std::size_t n = 0; n < all.numbers.size(); n += 2) {
+            const Parts parts = parts_of(all.found[n][r]);
             row.push_back(std::sqrt(parts.variance + std::max(0.0, parts.bias2)));
         }
-        by_radius.rows.push_back(row);
+        plot.rows.push_back(row);
     }
-    examples::save_plot(options.out, by_radius);
+    examples::save_plot(options.out, plot);
+}
 
-    const auto best = [&](std::size_t n, int left_out) {
-        double least = 1e30;
-        for (std::size_t r = 0; r < radii.size(); ++r) {
-            const Parts parts = parts_of(all[n][r], left_out);
-            least = std::min(least, parts.variance + parts.bias2);
-        }
-        return least;
-    };
+/// The exponents of number and radius, beside those of the theory.
+void save_slopes(const Experiment& all, const examples::Options& options) {
+    const auto& numbers = all.numbers;
+    const auto& radii = all.radii;
     const std::size_t middle = 6; // r = 0.2
     const Slope with_number =
         slope_of(numbers, seeds, [&](std::size_t n, int left_out) {
-            return parts_of(all[n][middle], left_out).variance;
+            return parts_of(all.found[n][middle], left_out).variance;
         });
     const std::vector<double> narrow(radii.begin(), radii.begin() + 8); // r <= 0.25
     const Slope with_radius = slope_of(narrow, seeds, [&](std::size_t r, int left_out) {
-        return parts_of(all[numbers.size() / 2][r], left_out).variance;
+        return parts_of(all.found[numbers.size() / 2][r], left_out).variance;
     });
     const std::vector<double> wide(radii.begin() + 7, radii.begin() + 12); // to 0.63
     const Slope of_bias = slope_of(wide, seeds, [&](std::size_t r, int left_out) {
-        return parts_of(all.back()[r + 7], left_out).bias2;
+        return parts_of(all.found.back()[r + 7], left_out).bias2;
     });
-    const Slope of_best = slope_of(numbers, seeds, best);
-    examples::Table slopes{
+    const Slope of_best = slope_of(numbers, seeds, [&](std::size_t n, int left_out) {
+        double least = 1e30;
+        for (std::size_t r = 0; r < radii.size(); ++r)
+            least = std::min(least, all.error2(n, r, left_out));
+        return least;
+    });
+    examples::Table table{
         .name = "general-slopes",
         .columns = {"what", "against", "theory", "measured", "95 % band"},
         .rows = {}};
-    const auto slope_row = [&](const char* what, const char* against,
-                               const char* theory, const Slope& slope) {
-        slopes.rows.push_back({what, against, theory,
-                               examples::text(slope.value, "%.3f"),
-                               examples::text(slope.band, "± %.3f")});
+    const auto add = [&](const char* what, const char* against, const char* theory,
+                         const Slope& slope) {
+        table.rows.push_back({what, against, theory,
+                              examples::text(slope.value, "%.3f"),
+                              examples::text(slope.band, "± %.3f")});
     };
-    slope_row("variance, r = 0.2", "N", "-1", with_number);
-    slope_row("variance, r to 0.25", "r", "-2", with_radius);
-    slope_row("bias squared, r from 0.25 to 0.63", "r", "4", of_bias);
-    slope_row("mean square error at the best r", "N", "-2/3", of_best);
-    save(options, slopes);
+    add("variance, r = 0.2", "N", "-1", with_number);
+    add("variance, r to 0.25", "r", "-2", with_radius);
+    add("bias squared, r from 0.25 to 0.63", "r", "4", of_bias);
+    add("mean square error at the best r", "N", "-2/3", of_best);
+    save(options, table);
+}
 
-    examples::Plot by_number{.name = "general-best",
-                             .columns = {"photons emitted", "at the best radius",
-                                         "N^(-2/3)", "r = 0.1", "r = 0.4"},
-                             .y_label = "mean square error of the irradiance",
-                             .rows = {},
-                             .log_x = true,
-                             .log_y = true};
-    examples::Table trade{.name = "general-trade",
+/// What a smaller error costs.
+void save_trade(const Experiment& all, const examples::Options& options) {
+    examples::Plot plot{.name = "general-best",
+                        .columns = {"photons emitted", "at the best radius", "N^(-2/3)",
+                                    "r = 0.1", "r = 0.4"},
+                        .y_label = "mean square error of the irradiance",
+                        .rows = {},
+                        .log_x = true,
+                        .log_y = true};
+    examples::Table table{.name = "general-trade",
                           .columns = {"photons", "best radius", "error, rms",
                                       "tracing, ms", "tree, ms", "a query, µs", "MB",
-                                      "bytes a photon"},
+                                      "bytes per photon"},
                           .rows = {}};
-    const double anchor =
-        best(numbers.size() / 2, -1) * std::pow(numbers[numbers.size() / 2], 2.0 / 3);
+    const auto& numbers = all.numbers;
+    const std::size_t half = numbers.size() / 2;
+    const double anchor = all.error2(half, all.best_radius(half)) *
+                          std::pow(numbers[half], 2.0 / 3); // where the law meets it
     for (std::size_t n = 0; n < numbers.size(); ++n) {
-        const auto error2 = [&](std::size_t r) {
-            const Parts parts = parts_of(all[n][r]);
-            return parts.variance + parts.bias2;
-        };
-        std::size_t at = 0;
-        for (std::size_t r = 1; r < radii.size(); ++r)
-            if (error2(r) < error2(at)) at = r;
-        by_number.rows.push_back({numbers[n], error2(at),
-                                  anchor / std::pow(numbers[n], 2.0 / 3), error2(3),
-                                  error2(9)});
-        const Cost& cost = costs[n];
-        trade.rows.push_back(
-            {examples::text(numbers[n], "%.0f"), examples::text(radii[at], "%.2f"),
-             examples::text(100 * std::sqrt(error2(at)), "%.2f %%"),
+        const std::size_t best = all.best_radius(n);
+        plot.rows.push_back({numbers[n], all.error2(n, best),
+                             anchor / std::pow(numbers[n], 2.0 / 3), all.error2(n, 3),
+                             all.error2(n, 9)});
+        const Cost& cost = all.costs[n];
+        table.rows.push_back(
+            {examples::text(numbers[n], "%.0f"),
+             examples::text(all.radii[best], "%.2f"),
+             examples::text(100 * std::sqrt(all.error2(n, best)), "%.2f %%"),
              examples::text(1e3 * cost.trace, "%.1f"),
              examples::text(1e3 * cost.build, "%.1f"),
-             examples::text(1e-3 * cost.query[at], "%.2f"),
+             examples::text(1e-3 * cost.query[best], "%.2f"),
              examples::text(cost.megabytes, "%.2f"),
              examples::text(1e6 * cost.megabytes / cost.stored, "%.1f")});
     }
-    examples::save_plot(options.out, by_number);
-    save(options, trade);
+    examples::save_plot(options.out, plot);
+    save(options, table);
+}
+
+/// How the error goes down with the number of photons, and with the radius.
+void laws(const examples::Options& options) {
+    const Experiment all = run_experiment(options);
+    save_by_radius(all, options);
+    save_slopes(all, options);
+    save_trade(all, options);
 }
 
 } // namespace

@@ -18,13 +18,17 @@
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
+#include "common/convergence.hpp"
 #include "common/plot.hpp"
+#include "common/rendered.hpp"
 #include "common/terminal.hpp"
+#include "common/window.hpp"
 
 using namespace ljus;
 
 namespace {
 
+using examples::rendered;
 constexpr double pi = std::numbers::pi;
 
 /// What the user may set besides the common options.
@@ -81,12 +85,9 @@ double irradiance(const Setup& setup, double rho) {
     }
     return sum;
 }
-using Stage = Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass, Mirror>>;
 
-void add_floor(Stage& stage, float y) {
-    stage.add(Quad{.corner{-9, y, -9}, .edge_u{0, 0, 18}, .edge_v{18, 0, 0}},
-              stage.add(Lambertian{.albedo = Rgb{1}}));
-}
+/// A floor, and what stands above it.
+using Stage = Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass, Mirror>>;
 
 /// The irradiance that an estimate reads on a floor: a white one sends E/pi.
 double read(const PhotonMap& map, const Vec3& at,
@@ -107,7 +108,7 @@ PhotonMap map_of(const Stage& stage, long long photons, std::uint64_t seed) {
 
 Stage ball_stage(const Setup& setup) {
     Stage stage;
-    add_floor(stage, float(-setup.floor));
+    examples::add_floor(stage, float(-setup.floor));
     stage.add(Sphere{.radius = float(setup.radius)},
               stage.add(Glass{.index = float(setup.index)}));
     stage.add(PointLight{.position{0, float(setup.light), 0}});
@@ -159,36 +160,10 @@ void profile(const examples::Options& options, long long photons) {
 
 // --- Error against radius, number and kernel ------------------------------------------
 
-/// A square mirror above a point light: its light on the floor has a sharp edge.
-Stage window_stage() {
-    Stage stage;
-    add_floor(stage, 0);
-    stage.add(Quad{.corner{-0.5f, 1.5f, -0.5f}, .edge_u{1, 0, 0}, .edge_v{0, 0, 1}},
-              stage.add(Mirror{.reflectance = Rgb{1}}));
-    stage.add(PointLight{.position{0, 1, 0}});
-    return stage;
-}
-
-/// The exact light: the light's image is at height 2, and the window's light ends at 2
-/// from the middle.
-double window_light(double x, double z) {
-    if (std::max(std::abs(x), std::abs(z)) > 2) return 0;
-    const double d2 = x * x + z * z + 4;
-    return 2 / (d2 * std::sqrt(d2));
-}
-
-/// Where errors are measured: around the middle, or across an edge.
-struct Strip {
-    double first = 0; ///< x of its left end.
-    double last = 0;  ///< x of its right end.
-};
-constexpr Strip middle{-0.5, 0.5};
-constexpr Strip edge{1.2, 2.8};
-
 /// The mean squared error of several ways to gather, relative to the light at the
 /// middle, over the seeds.
 std::vector<double> errors(const Stage& stage, long long photons, int seeds,
-                           const Strip& strip,
+                           const examples::Strip& strip,
                            const std::vector<DensityEstimateSettings>& ways) {
     std::vector<double> sum(ways.size());
     constexpr int places = 100;
@@ -196,10 +171,9 @@ std::vector<double> errors(const Stage& stage, long long photons, int seeds,
         const PhotonMap map =
             map_of(stage, photons, 1000 + static_cast<std::uint64_t>(seed));
         for (int place = 0; place < places; ++place) {
-            const double x =
-                strip.first + (strip.last - strip.first) * (place + 0.5) / places;
+            const double x = strip.at(place, places);
             const double z = 0.5 * std::sin(2.4 * place);
-            const double right = window_light(x, z);
+            const double right = examples::window_light(x, z);
             for (std::size_t i = 0; i < ways.size(); ++i) {
                 const double error =
                     read(map, {float(x), 0, float(z)}, ways[i]) - right;
@@ -207,7 +181,8 @@ std::vector<double> errors(const Stage& stage, long long photons, int seeds,
             }
         }
     }
-    for (double& value : sum) value /= window_light(0, 0) * window_light(0, 0);
+    const double light = examples::window_light(0, 0);
+    for (double& value : sum) value /= light * light;
     return sum;
 }
 
@@ -221,72 +196,74 @@ std::vector<DensityEstimateSettings> around(double radius,
     return ways;
 }
 
-void laws(const examples::Options& options, const Sizes& sizes) {
-    const Stage stage = window_stage();
-    examples::Plot by_radius{.name = "caustics-radius",
-                             .columns = {"radius", "middle 1000", "middle 100 000",
-                                         "edge 1000", "edge 100 000"},
-                             .y_label = "mean squared error",
-                             .log_x = true,
-                             .log_y = true};
+/// The error against the radius, for few photons and for many.
+void error_by_radius(const examples::Options& options, const Sizes& sizes) {
+    const auto stage = examples::window_scene<Stage>();
+    examples::Plot plot{.name = "caustics-radius",
+                        .columns = {"radius", "middle 1000", "middle 100 000",
+                                    "edge 1000", "edge 100 000"},
+                        .y_label = "mean squared error",
+                        .log_x = true,
+                        .log_y = true};
     std::vector<DensityEstimateSettings> ways;
     for (int i = 0; i <= 16; ++i)
         ways.push_back({.radius = float(0.05 * std::exp2(i / 3.0))});
     std::array<std::vector<double>, 4> found;
     for (const std::size_t i : {0u, 1u, 2u, 3u})
         found[i] = errors(stage, i % 2 == 0 ? 1000 : 100000, sizes.seeds,
-                          i < 2 ? middle : edge, ways);
+                          i < 2 ? examples::middle : examples::edge, ways);
     for (std::size_t i = 0; i < ways.size(); ++i)
-        by_radius.rows.push_back({double(ways[i].radius), found[0][i], found[1][i],
-                                  found[2][i], found[3][i]});
-    save_plot(options.out, by_radius);
+        plot.rows.push_back({double(ways[i].radius), found[0][i], found[1][i],
+                             found[2][i], found[3][i]});
+    save_plot(options.out, plot);
+}
 
-    examples::Plot by_number{
+/// The error at the best radius against the number of photons, and its two laws.
+void error_by_number(const examples::Options& options, const Sizes& sizes) {
+    const auto stage = examples::window_scene<Stage>();
+    examples::Plot plot{
         .name = "caustics-number",
         .columns = {"photons aimed", "middle", "edge", "N^(-2/3)", "N^(-1/3)"},
         .y_label = "mean squared error at the best radius",
         .log_x = true,
         .log_y = true};
+    std::vector<double> numbers, smooth, sharp;
     for (int i = 0; i <= options.pick(4, 6, 7); ++i) {
         const double count = std::round(300 * std::pow(10.0, i / 2.0));
-        const auto n = static_cast<long long>(count);
-        const auto best = [&](const Strip& strip, double radius) {
-            const auto all = errors(stage, n, sizes.seeds, strip, around(radius));
+        const auto best = [&](const examples::Strip& strip, double radius) {
+            const auto all = errors(stage, static_cast<long long>(count), sizes.seeds,
+                                    strip, around(radius));
             return *std::min_element(all.begin(), all.end());
         };
-        const double smooth = best(middle, 2.6 * std::pow(count, -1.0 / 6));
-        const double sharp = best(edge, 4.0 * std::pow(count, -1.0 / 3));
-        by_number.rows.push_back({count, smooth, sharp, 0, 0});
+        numbers.push_back(count);
+        smooth.push_back(best(examples::middle, 2.6 * std::pow(count, -1.0 / 6)));
+        sharp.push_back(best(examples::edge, 4.0 * std::pow(count, -1.0 / 3)));
     }
     // The laws, as straight lines below the last points.
-    const examples::Row last = by_number.rows.back();
-    for (auto& row : by_number.rows) {
-        row[3] = 0.6 * last[1] * std::pow(row[0] / last[0], -2.0 / 3);
-        row[4] = 0.6 * last[2] * std::pow(row[0] / last[0], -1.0 / 3);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const double share = numbers[i] / numbers.back();
+        plot.rows.push_back({numbers[i], smooth[i], sharp[i],
+                             0.6 * smooth.back() * std::pow(share, -2.0 / 3),
+                             0.6 * sharp.back() * std::pow(share, -1.0 / 3)});
     }
-    save_plot(options.out, by_number);
-    const auto slope = [&](std::size_t column) {
-        double xy = 0, xx = 0, mx = 0, my = 0;
-        for (const auto& row : by_number.rows) {
-            mx += std::log(row[0]) / double(by_number.rows.size());
-            my += std::log(row[column]) / double(by_number.rows.size());
-        }
-        for (const auto& row : by_number.rows) {
-            xy += (std::log(row[0]) - mx) * (std::log(row[column]) - my);
-            xx += (std::log(row[0]) - mx) * (std::log(row[0]) - mx);
-        }
-        return xy / xx;
-    };
+    save_plot(options.out, plot);
+
+    const double in_middle = examples::fit_power(numbers, smooth).slope;
+    const double at_edge = examples::fit_power(numbers, sharp).slope;
     save_table(
         options.out,
         examples::Table{.name = "caustics-slopes",
                         .columns = {"where", "law", "measured"},
-                        .rows = {{"middle", "-0.67", examples::text(slope(1), "%.2f")},
-                                 {"edge", "-0.33", examples::text(slope(2), "%.2f")}}});
+                        .rows = {{"middle", "-0.67", examples::text(in_middle, "%.2f")},
+                                 {"edge", "-0.33", examples::text(at_edge, "%.2f")}}});
     if (!options.quiet)
-        std::printf("slopes of the best error: middle %.3f, edge %.3f\n", slope(1),
-                    slope(2));
+        std::printf("slopes of the best error: middle %.3f, edge %.3f\n", in_middle,
+                    at_edge);
+}
 
+/// The error of each kernel, at one radius and at its best one.
+void error_by_kernel(const examples::Options& options, const Sizes& sizes) {
+    const auto stage = examples::window_scene<Stage>();
     examples::Table table{.name = "caustics-kernels",
                           .columns = {"kernel", "mean of w^2", "middle, r = 0.25",
                                       "middle, best r", "edge, r = 0.25",
@@ -294,17 +271,15 @@ void laws(const examples::Options& options, const Sizes& sizes) {
     constexpr std::array squares{"1", "1.5", "1.313", "1.333", "1.8"};
     for (std::size_t k = 0; k < kernels.size(); ++k) {
         std::vector<std::string> row{kernel_names[k], squares[k]};
-        for (const Strip& strip : {middle, edge}) {
+        for (const examples::Strip& strip : {examples::middle, examples::edge}) {
             auto tried = around(strip.first < 0 ? 0.6 : 0.2, kernels[k]);
             tried.push_back({.radius = 0.25f, .kernel = kernels[k]});
             const auto all = errors(stage, 10000, sizes.seeds, strip, tried);
             const auto best = std::min_element(all.begin(), all.end() - 1);
+            const auto radius = double(tried[std::size_t(best - all.begin())].radius);
             row.push_back(examples::text(std::sqrt(all.back()), "%.3f"));
-            row.push_back(
-                examples::text(std::sqrt(*best), "%.3f") + " (r = " +
-                examples::text(double(tried[std::size_t(best - all.begin())].radius),
-                               "%.2f") +
-                ")");
+            row.push_back(examples::text(std::sqrt(*best), "%.3f") +
+                          " (r = " + examples::text(radius, "%.2f") + ")");
         }
         table.rows.push_back(row);
     }
@@ -325,6 +300,7 @@ void figure_8(const examples::Options& options) {
                           {.radius = 1.2f, .brightness = 0.7f}, color);
     save_png(image, options.path("fig-8.png"));
 }
+
 // --- Figure 11 and table 2 ------------------------------------------------------------
 
 /// The caustics without a radius: each photon is joined to the pinhole, and counted in
@@ -401,18 +377,6 @@ Rgb radiance(const CausticsOf<Renderer>& part, const Ray& ray, RandomStream& str
     return log.sum;
 }
 
-template <typename Renderer>
-RenderedT<float> rendered(const std::string& name, const Renderer& renderer,
-                          const Camera& camera, RenderSettings picture,
-                          const examples::Options& options) {
-    examples::ProgressBar bar(name, options.quiet);
-    picture.progress = bar;
-    picture.threads = options.threads;
-    auto result = render(renderer, camera, picture);
-    examples::stop_if_asked();
-    return result;
-}
-
 /// The squared error of a picture in some of its pixels, mean over channels.
 double squared_error(const Image& image, const Image& truth,
                      const std::vector<bool>& region) {
@@ -445,12 +409,41 @@ bool sees_matt(const Room<S>& room, const examples::Options& options, int x, int
     return true;
 }
 
-/// Figure 11 and table 2: the report's settings, and beside the time the error of the
-/// caustics.
-void table_2(const examples::Options& options, const Sizes& sizes) {
-    const auto room = four_glass_room();
-    // The reference in two halves, which tell its own error.
-    const long long photons = options.pick(1, 10, 100) * sizes.photons;
+/// The light of the caustics as it is, and where it is to be seen.
+struct CausticTruth {
+    Image light = {};              ///< The mean of two halves.
+    std::vector<bool> region = {}; ///< Pixels with more of it than the mean.
+    double noise = 0;              ///< Its own squared error in the region.
+    double level = 0;              ///< Its mean in the region.
+    double pixels = 0;             ///< Of the region.
+};
+
+/// Pixels that see one matt surface with all of their area, and in which, with their
+/// neighbours, there is more light than the mean.
+template <typename S>
+std::vector<bool> caustic_region(const Room<S>& room, const Image& light,
+                                 const examples::Options& options) {
+    double mean = 0;
+    for (const Rgb& color : light.pixels)
+        mean += double(luminance(color)) / double(light.pixels.size());
+    std::vector<bool> region;
+    for (int y = 0; y < light.height; ++y)
+        for (int x = 0; x < light.width; ++x) {
+            double sum = 0, count = 0;
+            for (int j = std::max(0, y - 1); j <= std::min(light.height - 1, y + 1);
+                 ++j)
+                for (int i = std::max(0, x - 1); i <= std::min(light.width - 1, x + 1);
+                     ++i, ++count)
+                    sum += double(luminance(pixel(light, i, j)));
+            region.push_back(sum / count > mean && sees_matt(room, options, x, y));
+        }
+    return region;
+}
+
+/// The truth in two halves, which tell its own error.
+template <typename S>
+CausticTruth caustic_truth(const Room<S>& room, const examples::Options& options,
+                           long long photons) {
     std::array<Image, 2> halves;
     for (const std::size_t i : {0u, 1u})
         halves[i] = light_image(room,
@@ -459,31 +452,40 @@ void table_2(const examples::Options& options, const Sizes& sizes) {
                                  .seed = 1001 + i,
                                  .threads = options.threads},
                                 photons);
-    Image truth = halves[0];
-    double mean = 0;
-    for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
-        truth.pixels[i] = (halves[0].pixels[i] + halves[1].pixels[i]) / 2.0f;
-        mean += double(luminance(truth.pixels[i])) / double(truth.pixels.size());
+    CausticTruth truth{.light = halves[0]};
+    for (std::size_t i = 0; i < truth.light.pixels.size(); ++i)
+        truth.light.pixels[i] = (halves[0].pixels[i] + halves[1].pixels[i]) / 2.0f;
+    truth.region = caustic_region(room, truth.light, options);
+    truth.noise = squared_error(halves[0], truth.light, truth.region);
+    for (std::size_t i = 0; i < truth.region.size(); ++i) {
+        if (!truth.region[i]) continue;
+        truth.level += double(luminance(truth.light.pixels[i]));
+        truth.pixels += 1;
     }
-    // The caustic region: pixels that see one matt surface with all of their area, and
-    // in it, with their neighbours, more than the mean of the caustics' light.
-    std::vector<bool> region;
-    for (int y = 0; y < truth.height; ++y)
-        for (int x = 0; x < truth.width; ++x) {
-            double sum = 0, count = 0;
-            for (int j = std::max(0, y - 1); j <= std::min(truth.height - 1, y + 1);
-                 ++j)
-                for (int i = std::max(0, x - 1); i <= std::min(truth.width - 1, x + 1);
-                     ++i, ++count)
-                    sum += double(luminance(pixel(truth, i, j)));
-            region.push_back(sum / count > mean && sees_matt(room, options, x, y));
-        }
-    const double noise = squared_error(halves[0], truth, region);
-    double level = 0, pixels = 0;
-    for (std::size_t i = 0; i < region.size(); ++i)
-        if (region[i]) level += double(luminance(truth.pixels[i])), pixels += 1;
-    level /= std::max(pixels, 1.0);
+    truth.level /= std::max(truth.pixels, 1.0);
+    return truth;
+}
 
+/// Pictures of one size side by side.
+Image in_a_row(const std::vector<Image>& pictures) {
+    const int width = pictures[0].width, height = pictures[0].height;
+    const int gap = std::max(1, width / 50);
+    const int count = static_cast<int>(pictures.size());
+    Image all = make_image(count * width + (count - 1) * gap, height, Rgb{1});
+    for (int i = 0; i < count; ++i)
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                pixel(all, i * (width + gap) + x, y) =
+                    pixel(pictures[static_cast<std::size_t>(i)], x, y);
+    return all;
+}
+
+/// Figure 11 and table 2: the report's settings, and beside the time the error of the
+/// caustics.
+void table_2(const examples::Options& options, const Sizes& sizes) {
+    const auto room = four_glass_room();
+    const CausticTruth truth =
+        caustic_truth(room, options, options.pick(1, 10, 100) * sizes.photons);
     examples::Table table{.name = "table-2",
                           .columns = {"photons", "the report's time", "photons, s",
                                       "picture, s", "RMSE of the caustics", "of all",
@@ -518,18 +520,17 @@ void table_2(const examples::Options& options, const Sizes& sizes) {
             rendered(name + " caustics", CausticsOf<decltype(direct)>{direct},
                      room.camera, picture, options)
                 .image;
-        const double error =
-            std::sqrt(std::max(0.0, squared_error(part, truth, region) - noise));
+        const double error = std::sqrt(std::max(
+            0.0, squared_error(part, truth.light, truth.region) - truth.noise));
         if (i == 0) none = error; // all of the caustics' light is missing
+        const double queries = double(result.counts.map_queries);
         table.rows.push_back(
             {std::to_string(counts[i]), report[i], examples::text(first_pass, "%.2f"),
              examples::text(second_pass, "%.2f"), examples::text(error, "%.3f"),
              examples::text(100 * error / none, "%.1f %%"),
              std::to_string(maps.caustics.records.size()),
-             examples::text(result.counts.map_queries == 0
-                                ? 0
-                                : double(result.counts.map_photons) /
-                                      double(result.counts.map_queries),
+             examples::text(queries == 0 ? 0
+                                         : double(result.counts.map_photons) / queries,
                             "%.1f")});
         strip.columns.push_back(std::to_string(counts[i]));
         errors_row.push_back(examples::text(error, "%.3f"));
@@ -538,25 +539,11 @@ void table_2(const examples::Options& options, const Sizes& sizes) {
     strip.rows = {errors_row, relative_row};
     save_table(options.out, table);
     save_table(options.out, strip);
-
-    // The strip: the pictures side by side.
-    const int gap = std::max(1, options.width / 50);
-    const int count = static_cast<int>(pictures.size());
-    Image all =
-        make_image(count * options.width + (count - 1) * gap, options.height, Rgb{1});
-    for (int i = 0; i < count; ++i)
-        for (int y = 0; y < options.height; ++y)
-            for (int x = 0; x < options.width; ++x)
-                pixel(all, i * (options.width + gap) + x, y) =
-                    pixel(pictures[static_cast<std::size_t>(i)], x, y);
-    save_png(all, options.path("fig-11.png"));
+    save_png(in_a_row(pictures), options.path("fig-11.png"));
     if (!options.quiet) {
         std::printf("reference: noise %.3f of a level of %.3f, %.0f pixels\n",
-                    std::sqrt(noise), level, pixels);
-        for (const auto& cells : table.rows) {
-            for (const auto& cell : cells) std::printf("%-10s ", cell.c_str());
-            std::printf("\n");
-        }
+                    std::sqrt(truth.noise), truth.level, truth.pixels);
+        examples::print_rows(table, 10);
     }
 }
 
@@ -580,7 +567,9 @@ int main(int argc, char** argv) {
         if (!line.given("--photons")) sizes.photons = 1000000;
         if (!line.given("--seeds")) sizes.seeds = options.pick(4, 16, 64);
         profile(options, options.pick(sizes.photons / 5, sizes.photons, sizes.photons));
-        laws(options, sizes);
+        error_by_radius(options, sizes);
+        error_by_number(options, sizes);
+        error_by_kernel(options, sizes);
         figure_8(options);
         table_2(options, sizes);
     });

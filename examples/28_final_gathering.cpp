@@ -18,6 +18,7 @@
 #include "common/command_line.hpp"
 #include "common/drawing.hpp"
 #include "common/oracle.hpp"
+#include "common/rendered.hpp"
 #include "common/terminal.hpp"
 
 using namespace ljus;
@@ -173,10 +174,7 @@ void borders(const examples::Options& options) {
 
 void print(const examples::Table& table, const examples::Options& options) {
     if (options.quiet) return;
-    for (const auto& row : table.rows) {
-        for (const auto& cell : row) std::printf("%-10s ", cell.c_str());
-        std::printf("\n");
-    }
+    examples::print_rows(table, 10);
 }
 
 /// By how many percent the points of one map are too bright under an even light.
@@ -362,17 +360,10 @@ Image photographed(const Room& room, const PhotonMappingSettings& settings, int 
                    std::uint64_t seed, const examples::Options& options) {
     const auto maps = make_photon_maps(room.scene, settings);
     const auto mapper = make_photon_mapper(room.scene, maps, settings);
-    examples::ProgressBar bar("picture", options.quiet);
-    Image image = render(mapper, room.camera,
-                         {.width = options.width,
-                          .height = options.height,
-                          .samples = samples,
-                          .seed = seed,
-                          .threads = options.threads,
-                          .progress = bar})
-                      .image;
-    examples::stop_if_asked();
-    return image;
+    auto picture = examples::picture_settings(options);
+    picture.samples = samples;
+    picture.seed = seed;
+    return examples::rendered("picture", mapper, room.camera, picture, options).image;
 }
 
 /// The box by each of the ways, and what gather rays see of it.

@@ -48,10 +48,7 @@ void show(const examples::Options& options, const examples::Table& table) {
     save_table(options.out, table);
     if (options.quiet) return;
     std::printf("%s\n", table.name.c_str());
-    for (const auto& row : table.rows) {
-        for (const auto& cell : row) std::printf("%-12s ", cell.c_str());
-        std::printf("\n");
-    }
+    examples::print_rows(table, 12);
 }
 
 // --- The idea ------------------------------------------------------------------------
@@ -415,7 +412,7 @@ void knobs(const examples::Options& options, const Sizes& sizes) {
         row[knob] = std::max(split.bias_squared + split.variance, 1e-9);
         plot.rows.push_back(row);
     };
-    const GatherSettings usual = settings.gather;
+    const GatherSettings usual;
     measure("tile 3, 25 rays, 6 nearest, reach 1", usual, 0, true);
     for (const int tile : {2, 3, 4, 6}) {
         auto gather = usual;
@@ -502,7 +499,7 @@ Image by_photons(const Box& room, const PhotonMappingSettings& settings,
                            {.first = picture.samples,
                             .more = more,
                             .batches = 1,
-                            .disagreement = 0.22})
+                            .disagreement = PresetRays{}.disagreement})
         .image;
     // [by_photons]
 }

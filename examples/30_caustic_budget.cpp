@@ -241,9 +241,7 @@ void two_rooms(const std::vector<Known>& rooms, const Grid& grid, float radius,
                                   examples::text(found.relative.bias_squared, "%.3g"),
                                   examples::text(found.flip, "%.4f")});
             if (!options.quiet) {
-                for (const auto& cell : table.rows.back())
-                    std::printf("%-11s ", cell.c_str());
-                std::printf("\n");
+                examples::print_row(table.rows.back(), 11);
             }
         }
     save_table(options.out, table);

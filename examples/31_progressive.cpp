@@ -23,6 +23,7 @@
 #include "common/drawing.hpp"
 #include "common/progressive_picture.hpp"
 #include "common/terminal.hpp"
+#include "common/window.hpp"
 
 #if __has_include(<sys/resource.h>)
 #include <sys/resource.h>
@@ -53,36 +54,14 @@ double peak_megabytes() {
 
 // --- The laws, where light is known --------------------------------------------------
 
-/// A point light under a square mirror: its light on the floor ends at 2.
+using examples::Strip;
 using Stage = Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Mirror>>;
-Stage window_stage() {
-    Stage stage;
-    stage.add(Quad{.corner{-9, 0, -9}, .edge_u{0, 0, 18}, .edge_v{18, 0, 0}},
-              stage.add(Lambertian{.albedo = Rgb{1}}));
-    stage.add(Quad{.corner{-0.5f, 1.5f, -0.5f}, .edge_u{1, 0, 0}, .edge_v{0, 0, 1}},
-              stage.add(Mirror{.reflectance = Rgb{1}}));
-    stage.add(PointLight{.position{0, 1, 0}});
-    return stage;
-}
 
-/// The exact light, relative to that in the middle.
-double window_light(double x, double z) {
-    if (std::max(std::abs(x), std::abs(z)) > 2) return 0;
-    const double d2 = x * x + z * z + 4;
-    return 8 / (d2 * std::sqrt(d2));
-}
-
-/// Places on the floor: around the middle, or across an edge.
-struct Strip {
-    const char* name;
-    double first, last;
-};
-constexpr std::array strips{Strip{"middle", -0.5, 0.5}, Strip{"edge", 1.2, 2.8}};
+constexpr std::array strips{examples::middle, examples::edge};
 constexpr int places = 48;
 
 Vec3 place(const Strip& strip, int i) {
-    return {float(strip.first + (strip.last - strip.first) * (i + 0.5) / places), 0,
-            0.5f * std::sin(2.4f * float(i))};
+    return {float(strip.at(i, places)), 0, 0.5f * std::sin(2.4f * float(i))};
 }
 
 /// A picture one row high: what an estimate reads at the places, relative to the light
@@ -103,11 +82,13 @@ Image read_strip(const PhotonMap& map, const Strip& strip, double radius) {
     return row;
 }
 
+/// The same, exactly.
 Image exact_strip(const Strip& strip) {
     Image row = make_image(places, 1);
     for (int i = 0; i < places; ++i) {
         const Vec3 at = place(strip, i);
-        pixel(row, i, 0) = Rgb{float(window_light(double(at.x), double(at.z)))};
+        pixel(row, i, 0) =
+            Rgb{float(4 * examples::window_light(double(at.x), double(at.z)))};
     }
     return row;
 }
@@ -146,7 +127,7 @@ std::vector<long long> milestones(long long passes) {
 /// Runs all series on the same photons, seed by seed.
 void run_series(std::vector<Series>& all, long long photons,
                 const std::vector<long long>& stops, int seeds) {
-    const Stage stage = window_stage();
+    const auto stage = examples::window_scene<Stage>();
     for (Series& series : all) {
         series.images.assign(stops.size(), {});
         series.estimates.assign(stops.size(), 0);
@@ -262,7 +243,7 @@ void one_map(const examples::Options& options, const Sizes& sizes) {
             all.push_back({strip, strip.first < 0 ? 2.0 / 3 : 1.0 / 3,
                            (strip.first < 0 ? 0.9 : 0.7) * std::exp2(step / 4.0)});
     run_series(all, photons, stops, seeds);
-    const Stage stage = window_stage();
+    const auto stage = examples::window_scene<Stage>();
     for (const Strip& strip : strips) {
         const bool middle = strip.first < 0;
         for (std::size_t s = 0; s < stops.size(); ++s) {
@@ -307,7 +288,7 @@ void one_map(const examples::Options& options, const Sizes& sizes) {
 /// Three passes at a place near the edge of the light: photons of their own, and discs
 /// that shrink.
 void draw_discs(const examples::Options& options) {
-    const Stage stage = window_stage();
+    const auto stage = examples::window_scene<Stage>();
     examples::Drawing figure{.name = "progressive-discs",
                              .description = "Three passes: the photons are others each "
                                             "time, and the disc is smaller",
@@ -349,21 +330,31 @@ void draw_discs(const examples::Options& options) {
 
 // --- The picture ---------------------------------------------------------------------
 
-using CornellScene = decltype(cornell_box().scene);
+/// The Cornell box with its index, for all passes.
+using Box = IndexedScene<decltype(cornell_box().scene)>;
 
 /// How the box is rendered in one pass.
-PhotonMappingSettings pass_settings(const examples::Options& options) {
+PhotonMappingSettings pass_settings(const examples::Options& options,
+                                    std::uint64_t seed) {
     PhotonMappingSettings settings{.split_glass = true,
                                    .indirect = IndirectLight::photons};
-    settings.caustics = {
-        .photons = 1000, .seed = options.seed, .threads = options.threads};
+    settings.caustics = {.photons = 1000, .seed = seed, .threads = options.threads};
     settings.general = {.photons = 5000,
-                        .seed = options.seed,
+                        .seed = seed,
                         .shadow_photons = false,
                         .threads = options.threads};
     settings.caustics_estimate.radius = 0.12f;
     settings.general_estimate.radius = 0.3f;
     return settings;
+}
+
+RenderSettings picture_settings(const examples::Options& options, int samples,
+                                std::uint64_t seed) {
+    return {.width = options.width,
+            .height = options.height,
+            .samples = samples,
+            .seed = seed,
+            .threads = options.threads};
 }
 
 /// A picture alone, as a program makes it: it shows itself while it runs, and can be
@@ -373,14 +364,10 @@ void one_picture(const examples::Options& options, const Sizes& sizes) {
     examples::require_pass_files(sizes.how, sizes.picture);
     const auto room = cornell_box();
     auto stopped = [](long long, long long) { return examples::stop_signal() == 0; };
-    auto settings = pass_settings(options);
+    auto settings = pass_settings(options, options.seed);
     settings.caustics.progress = settings.general.progress = stopped;
-    const RenderSettings picture{.width = options.width,
-                                 .height = options.height,
-                                 .samples = options.samples,
-                                 .seed = options.seed,
-                                 .threads = options.threads,
-                                 .progress = stopped};
+    auto picture = picture_settings(options, options.samples, options.seed);
+    picture.progress = stopped;
     const auto pass = [&](long long i, double scale) {
         return photon_mapping_pass(room.scene, room.camera, settings, picture, i,
                                    scale);
@@ -390,103 +377,113 @@ void one_picture(const examples::Options& options, const Sizes& sizes) {
     if (!options.quiet) examples::print_passes(state);
 }
 
-/// The box after ever more passes, and beside one map of as many photons.
-void pictures(const examples::Options& options, const Sizes& sizes) {
-    const auto room = cornell_box();
-    const auto scene = index_scene(room.scene);
-    const int width = options.width, height = options.height;
+/// The box as it is, by many paths.
+struct Reference {
+    Image image = {};          ///< The mean of two halves.
+    ImageT<double> exact = {}; ///< The same in double.
+    double noise = 0;          ///< Its variance, as the relMSE that it makes.
+};
+
+/// Two halves: what their errors do not share is their own noise.
+template <typename Room>
+Reference reference_of(const Room& room, const examples::Options& options) {
     const auto tracer = make_path_tracer(room.scene);
-    // Two references: what their errors do not share is their own noise.
     const int rays = options.pick(256, 4096, 65536);
     std::array<Image, 2> halves;
     for (const std::size_t i : {0u, 1u}) {
         examples::ProgressBar bar("reference", options.quiet);
-        halves[i] = render(tracer, room.camera,
-                           {.width = width,
-                            .height = height,
-                            .samples = rays,
-                            .seed = 77 + i,
-                            .threads = options.threads,
-                            .progress = bar})
-                        .image;
+        auto picture = picture_settings(options, rays, 77 + i);
+        picture.progress = bar;
+        halves[i] = render(tracer, room.camera, picture).image;
         examples::stop_if_asked();
     }
-    Image truth = halves[0];
-    for (std::size_t p = 0; p < truth.pixels.size(); ++p)
-        truth.pixels[p] = 0.5f * (halves[0].pixels[p] + halves[1].pixels[p]);
-    const ImageT<double> exact = block_means(truth, 1);
-    double its_noise = 0; // of the mean of both, as relMSE
-    for (std::size_t p = 0; p < truth.pixels.size(); ++p) {
+    Reference truth{.image = halves[0]};
+    for (std::size_t p = 0; p < truth.image.pixels.size(); ++p)
+        truth.image.pixels[p] = 0.5f * (halves[0].pixels[p] + halves[1].pixels[p]);
+    truth.exact = block_means(truth.image, 1);
+    for (std::size_t p = 0; p < truth.image.pixels.size(); ++p) {
         const RgbT<double> d = 0.5 * (RgbT<double>(halves[0].pixels[p]) -
                                       RgbT<double>(halves[1].pixels[p]));
-        const RgbT<double> r = exact.pixels[p];
+        const RgbT<double> r = truth.exact.pixels[p];
         const RgbT<double> e = d * d / (r * r + default_epsilon);
-        its_noise += (e.x + e.y + e.z) / 3 / double(truth.pixels.size());
+        truth.noise += (e.x + e.y + e.z) / 3 / double(truth.image.pixels.size());
     }
+    return truth;
+}
 
-    // The first seed goes to the end; the others as far as bias and variance are asked.
-    const auto stops = milestones(sizes.passes);
-    const long long split_at = options.pick(4, 64, 256);
-    std::vector<std::vector<Image>> runs(stops.size());
-    std::vector<double> seconds(stops.size()), memory(stops.size()),
-        estimates(stops.size()), shrinks(stops.size());
-    for (int seed = 1; seed <= sizes.seeds; ++seed) {
-        auto settings = pass_settings(options);
-        settings.caustics.seed = settings.general.seed = std::uint64_t(seed);
-        const RenderSettings picture{.width = width,
-                                     .height = height,
-                                     .samples = 1,
-                                     .seed = std::uint64_t(seed),
-                                     .threads = options.threads};
+/// The box after some passes.
+struct Milestone {
+    long long passes = 0;
+    std::vector<Image> runs = {}; ///< One a seed that came so far.
+    double seconds = 0;           ///< Of the first seed.
+    double megabytes = 0;         ///< The most that it took up to here.
+    double estimate = 0;          ///< Of its error.
+    double radius = 0;            ///< As a share of the first radius.
+    double faster = 0;            ///< relMSE with the exponent that edges like better.
+};
+
+/// Runs passes up to the last milestone within a limit, and calls at(milestone, state)
+/// at each.
+template <typename Pass, typename At>
+void run_to(std::vector<Milestone>& milestones, long long limit, ProgressiveState state,
+            Pass pass, examples::ProgressBar bar, At at) {
+    for (Milestone& milestone : milestones) {
+        if (milestone.passes > limit) break;
+        (void)run_progressive(state, milestone.passes, pass, [&](const auto& now) {
+            return bar(now.passes, milestones.back().passes);
+        });
+        examples::stop_if_asked();
+        at(milestone, state);
+    }
+}
+
+/// The first seed goes to the end; the others as far as bias and variance are asked.
+void run_seeds(std::vector<Milestone>& milestones, const Box& box, const Camera& camera,
+               const examples::Options& options, int seeds, long long split_at) {
+    for (int seed = 1; seed <= seeds; ++seed) {
+        const auto number = std::uint64_t(seed);
         const auto pass = [&](long long i, double scale) {
-            return photon_mapping_pass(scene, room.camera, settings, picture, i, scale);
+            return photon_mapping_pass(box, camera, pass_settings(options, number),
+                                       picture_settings(options, 1, number), i, scale);
         };
-        ProgressiveState state;
         const double begin = examples::processor_seconds();
-        examples::ProgressBar bar("seed " + std::to_string(seed), options.quiet);
-        for (std::size_t s = 0; s < stops.size(); ++s) {
-            if (seed > 1 && stops[s] > std::max(split_at, 1LL)) break;
-            (void)run_progressive(state, stops[s], pass, [&](const auto& now) {
-                return bar(now.passes, stops.back());
-            });
-            examples::stop_if_asked();
-            runs[s].push_back(mean_image(state));
-            if (seed > 1) continue;
-            seconds[s] = examples::processor_seconds() - begin;
-            memory[s] = peak_megabytes();
-            estimates[s] = estimate_error(state).pixels;
-            shrinks[s] = std::sqrt(state.shrink);
+        const auto keep = [&](Milestone& at, const ProgressiveState& state) {
+            at.runs.push_back(mean_image(state));
+            if (seed > 1) return;
+            at.seconds = examples::processor_seconds() - begin;
+            at.megabytes = peak_megabytes();
+            at.estimate = estimate_error(state).pixels;
+            at.radius = std::sqrt(state.shrink);
             for (const long long shown : {1LL, 10LL, 100LL, 1000LL})
-                if (stops[s] == shown)
-                    save_png(runs[s][0], options.path("progressive-" +
+                if (at.passes == shown)
+                    save_png(at.runs[0], options.path("progressive-" +
                                                       std::to_string(shown) + ".png"));
-        }
-    }
-    // The same with the exponent that edges like better.
-    std::vector<double> faster(stops.size());
-    {
-        const auto pass = [&](long long i, double scale) {
-            return photon_mapping_pass(scene, room.camera, pass_settings(options),
-                                       {.width = width,
-                                        .height = height,
-                                        .samples = 1,
-                                        .seed = options.seed,
-                                        .threads = options.threads},
-                                       i, scale);
         };
-        ProgressiveState state{.alpha = 1.0 / 3};
-        examples::ProgressBar bar("alpha 1/3", options.quiet);
-        for (std::size_t s = 0; s < stops.size(); ++s) {
-            (void)run_progressive(state, stops[s], pass, [&](const auto& now) {
-                return bar(now.passes, stops.back());
-            });
-            examples::stop_if_asked();
-            faster[s] = rel_mse(mean_image(state), truth) - its_noise;
-        }
+        run_to(milestones, seed == 1 ? milestones.back().passes : split_at, {}, pass,
+               examples::ProgressBar("seed " + std::to_string(seed), options.quiet),
+               keep);
     }
-    save_png(runs.back()[0], options.path("progressive-last.png"));
-    save_png(truth, options.path("progressive-reference.png"));
+}
 
+/// The same passes with the exponent that edges like better.
+void run_faster(std::vector<Milestone>& milestones, const Box& box,
+                const Camera& camera, const examples::Options& options,
+                const Reference& truth) {
+    const auto pass = [&](long long i, double scale) {
+        return photon_mapping_pass(box, camera, pass_settings(options, options.seed),
+                                   picture_settings(options, 1, options.seed), i,
+                                   scale);
+    };
+    run_to(milestones, milestones.back().passes, {.alpha = 1.0 / 3}, pass,
+           examples::ProgressBar("alpha 1/3", options.quiet),
+           [&](Milestone& at, const ProgressiveState& state) {
+               at.faster = rel_mse(mean_image(state), truth.image) - truth.noise;
+           });
+}
+
+/// The error of the box against the number of passes.
+void save_errors(const std::vector<Milestone>& milestones, const Reference& truth,
+                 const examples::Options& options) {
     examples::Plot plot{
         .name = "progressive-picture",
         .columns = {"passes", "alpha = 2/3", "alpha = 1/3", "n^(-2/3)", "n^(-1/3)"},
@@ -497,109 +494,110 @@ void pictures(const examples::Options& options, const Sizes& sizes) {
                           .columns = {"passes", "processor s", "radius", "relMSE",
                                       "squared bias", "variance", "FLIP",
                                       "estimated error of a pixel", "peak memory, MB"}};
-    std::vector<double> n, mse;
-    for (std::size_t s = 0; s < stops.size(); ++s) {
-        const auto split = runs[s].size() > 1
-                               ? examples::relative_split(runs[s], exact, its_noise)
-                               : BiasVariance{std::nan(""), std::nan("")};
-        const double error = rel_mse(runs[s][0], truth) - its_noise;
-        n.push_back(double(stops[s]));
-        mse.push_back(error);
-        plot.rows.push_back({n.back(), error, faster[s],
-                             mse[0] * std::pow(n.back(), -2.0 / 3),
-                             mse[0] * std::pow(n.back(), -1.0 / 3)});
+    double first = 0;
+    for (const Milestone& at : milestones) {
+        const auto split =
+            at.runs.size() > 1
+                ? examples::relative_split(at.runs, truth.exact, truth.noise)
+                : BiasVariance{std::nan(""), std::nan("")};
+        const double error = rel_mse(at.runs[0], truth.image) - truth.noise;
+        const auto n = double(at.passes);
+        if (plot.rows.empty()) first = error;
+        plot.rows.push_back({n, error, at.faster, first * std::pow(n, -2.0 / 3),
+                             first * std::pow(n, -1.0 / 3)});
         table.rows.push_back(
-            {std::to_string(stops[s]), examples::text(seconds[s], "%.2f"),
-             examples::text(shrinks[s], "%.2f"), examples::text(error, "%.2g"),
+            {std::to_string(at.passes), examples::text(at.seconds, "%.2f"),
+             examples::text(at.radius, "%.2f"), examples::text(error, "%.2g"),
              examples::text(split.bias_squared, "%.2g"),
              examples::text(split.variance, "%.2g"),
-             examples::text(flip(runs[s][0], truth), "%.3f"),
-             stops[s] > 1 ? examples::text(estimates[s], "%.2g") : "",
-             examples::text(memory[s], "%.0f")});
-        if (!options.quiet) {
-            for (const auto& cell : table.rows.back())
-                std::printf("%-10s ", cell.c_str());
-            std::printf("\n");
-        }
+             examples::text(flip(at.runs[0], truth.image), "%.3f"),
+             at.passes > 1 ? examples::text(at.estimate, "%.2g") : "",
+             examples::text(at.megabytes, "%.0f")});
+        if (!options.quiet) examples::print_row(table.rows.back(), 10);
     }
     save_plot(options.out, plot);
     save_table(options.out, table);
+}
 
-    // As many photons and rays at once, with radii that one must choose.
-    examples::Table beside{.name = "progressive-beside",
-                           .columns = {"how", "processor s", "relMSE", "squared bias",
-                                       "variance", "FLIP"}};
-    std::size_t at = 0;
-    while (at + 1 < stops.size() && stops[at + 1] <= split_at) ++at;
-    const auto add = [&](const std::string& how, double time,
-                         const std::vector<Image>& r) {
-        const auto split = examples::relative_split(r, exact, its_noise);
-        double seen = 0;
-        for (const Image& run : r) seen += flip(run, truth) / double(r.size());
-        beside.rows.push_back(
+/// As many photons and rays at once, with radii that one must choose.
+void beside_one_map(const Box& box, const Camera& camera, long long passes,
+                    const Reference& truth, const examples::Options& options,
+                    int seeds) {
+    examples::Table table{.name = "progressive-beside",
+                          .columns = {"how", "processor s", "relMSE", "squared bias",
+                                      "variance", "FLIP"}};
+    // All seeds of one way, and the time of the first.
+    const auto try_way = [&](const std::string& how, auto make) {
+        std::vector<Image> runs;
+        double time = 0, seen = 0;
+        for (int seed = 1; seed <= seeds; ++seed) {
+            const double begin = examples::processor_seconds();
+            runs.push_back(make(std::uint64_t(seed)));
+            if (seed == 1) time = examples::processor_seconds() - begin;
+            examples::stop_if_asked();
+        }
+        const auto split = examples::relative_split(runs, truth.exact, truth.noise);
+        for (const Image& run : runs)
+            seen += flip(run, truth.image) / double(runs.size());
+        table.rows.push_back(
             {how, examples::text(time, "%.2f"),
              examples::text(split.bias_squared + split.variance, "%.2g"),
              examples::text(split.bias_squared, "%.2g"),
              examples::text(split.variance, "%.2g"), examples::text(seen, "%.3f")});
-        if (!options.quiet) {
-            for (const auto& cell : beside.rows.back())
-                std::printf("%-10s ", cell.c_str());
-            std::printf("\n");
-        }
-    };
-    // All seeds of one way, and the time of the first.
-    const auto try_way = [&](const std::string& how, auto make) {
-        std::vector<Image> images;
-        double time = 0;
-        for (int seed = 1; seed <= sizes.seeds; ++seed) {
-            const double begin = examples::processor_seconds();
-            images.push_back(make(std::uint64_t(seed)));
-            if (seed == 1) time = examples::processor_seconds() - begin;
-            examples::stop_if_asked();
-        }
-        add(how, time, images);
+        if (!options.quiet) examples::print_row(table.rows.back(), 10);
     };
     const auto settings_of = [&](double scale, long long times, std::uint64_t seed) {
-        auto settings = pass_settings(options);
+        auto settings = pass_settings(options, seed);
         settings.caustics.photons *= times;
         settings.general.photons *= times;
-        settings.caustics.seed = settings.general.seed = seed;
         settings.caustics_estimate.radius *= float(scale);
         settings.general_estimate.radius *= float(scale);
         return settings;
     };
-    const auto picture_of = [&](long long samples, std::uint64_t seed) {
-        return RenderSettings{.width = width,
-                              .height = height,
-                              .samples = int(samples),
-                              .seed = seed,
-                              .threads = options.threads};
-    };
-    const std::string count = std::to_string(stops[at]) + " passes, first radius ";
+    const std::string count = std::to_string(passes) + " passes, first radius ";
     for (const double scale : {1.0, 0.5, 0.35})
         try_way(count + examples::text(scale, "%.2f"), [&](std::uint64_t seed) {
-            return mean_image([&] {
-                ProgressiveState state;
-                const auto pass = [&](long long i, double shrunk) {
-                    return photon_mapping_pass(scene, room.camera,
-                                               settings_of(scale, 1, seed),
-                                               picture_of(1, seed), i, shrunk);
-                };
-                (void)run_progressive(state, stops[at], pass,
-                                      [](const auto&) { return true; });
-                return state;
-            }());
+            ProgressiveState state;
+            const auto pass = [&](long long i, double shrunk) {
+                return photon_mapping_pass(box, camera, settings_of(scale, 1, seed),
+                                           picture_settings(options, 1, seed), i,
+                                           shrunk);
+            };
+            (void)run_progressive(state, passes, pass,
+                                  [](const auto&) { return true; });
+            return mean_image(state);
         });
     for (const double scale : {1.0, 0.5, 0.35, 0.25})
-        try_way(
-            "one map, radius " + examples::text(scale, "%.2f"),
-            [&](std::uint64_t seed) {
-                const auto settings = settings_of(scale, stops[at], seed);
-                const auto maps = make_photon_maps(scene, settings);
-                const auto mapper = make_photon_mapper(scene, maps, settings);
-                return render(mapper, room.camera, picture_of(stops[at], seed)).image;
-            });
-    save_table(options.out, beside);
+        try_way("one map, radius " + examples::text(scale, "%.2f"),
+                [&](std::uint64_t seed) {
+                    const auto settings = settings_of(scale, passes, seed);
+                    const auto maps = make_photon_maps(box, settings);
+                    const auto mapper = make_photon_mapper(box, maps, settings);
+                    return render(mapper, camera,
+                                  picture_settings(options, int(passes), seed))
+                        .image;
+                });
+    save_table(options.out, table);
+}
+
+/// The box after ever more passes, and beside one map of as many photons.
+void pictures(const examples::Options& options, const Sizes& sizes) {
+    const auto room = cornell_box();
+    const Box box = index_scene(room.scene);
+    const Reference truth = reference_of(room, options);
+    const long long split_at = options.pick(4, 64, 256);
+    std::vector<Milestone> all;
+    for (const long long passes : milestones(sizes.passes)) all.push_back({passes});
+    run_seeds(all, box, room.camera, options, sizes.seeds, split_at);
+    run_faster(all, box, room.camera, options, truth);
+    save_png(all.back().runs[0], options.path("progressive-last.png"));
+    save_png(truth.image, options.path("progressive-reference.png"));
+    save_errors(all, truth, options);
+
+    long long compared = all.front().passes; // the last milestone of all seeds
+    for (const Milestone& at : all)
+        if (at.passes <= split_at) compared = at.passes;
+    beside_one_map(box, room.camera, compared, truth, options, sizes.seeds);
 }
 
 } // namespace

@@ -1,15 +1,16 @@
-// smoke: --quality draft --seeds 2 --only radius
+// smoke: --quality draft --seeds 3 --only radius
 /// \file 35_trades.cpp
 /// \brief Chapter 35: every knob of the photon mapper, turned. Error against time and
 /// memory, what half of the time costs, and the settings that no other beats.
 ///
-/// Each setting that is done is a line of trades-notebook.json; what is there is not done
-/// again, so that a run can be stopped and gone on with. ./scripts/trades builds and runs
-/// it.
+/// Each setting that is done is a line of trades-notebook.json; what is there is not
+/// done again, so that a run can be stopped and gone on with. ./scripts/trades builds
+/// and runs it.
 
-#include <array>
 #include <cstdio>
-#include <set>
+#include <limits>
+#include <map>
+#include <optional>
 
 #include <ljus/ljus.hpp>
 #include <ljus/scenes/cornell_box.hpp>
@@ -28,12 +29,6 @@ using examples::Setting;
 using examples::text;
 
 // --- The rooms -----------------------------------------------------------------------
-
-/// The Cornell box with a mirror ball and a glass ball.
-template <std::floating_point T>
-auto make_cornell() {
-    return cornell_box<T>();
-}
 
 /// A ball of glass in a closed grey room, below a small lamp: most of what is bright is
 /// one caustic.
@@ -61,12 +56,6 @@ auto make_caustic() {
                                    .up{T(0), T(1), T(0)},
                                    .vfov_degrees = T(36)});
     return room;
-}
-
-/// The report's room of figures 11 and 13.
-template <std::floating_point T>
-auto make_report() {
-    return four_glass_room<T>();
 }
 
 // --- The knobs -----------------------------------------------------------------------
@@ -113,7 +102,6 @@ std::vector<Setting> settings_of(const std::string& knob, float unit, int size,
     };
     const auto cached = [&] { // what gathers needs precomputed irradiance
         middle.recipe = examples::recipes(size, size)[1];
-        middle.recipe.more = 0;
         s.general.photons = full ? 60000 : 20000;
     };
     if (knob == "preset") {
@@ -224,21 +212,49 @@ struct Request {
     bool check = false;       ///< Fail if a claim of the book does not hold.
 };
 
+/// A sweep of all rooms. It goes over them twice: first it only counts what is not in
+/// the notebook yet, so that the bar can tell when all of it will be done.
+struct Sweep {
+    const examples::Options& options;
+    const Request& request;
+    examples::Notebook notebook;
+    std::optional<examples::ProgressBar> bar{}; ///< None: it counts.
+    double done = 0, all = 0;                   ///< As examples::cost_of() has it.
+    std::map<std::string, std::string> stamps{};
+    std::vector<examples::Claim> claims{}; ///< Of promises.
+    examples::Table references{.name = "trades-references",
+                               .columns = {"room", "rays a pixel", "its own relMSE",
+                                           "of blocks", "least relMSE measured",
+                                           "its standard error is"}};
+    examples::Table promises{.name = "trades-promises",
+                             .columns = {"room", "promised", "chosen", "pictures",
+                                         "took, s", "noise", "bias", "its estimate",
+                                         "measured relMSE"}};
+
+    /// Some work is done, or when counting, there is some.
+    void add(double cost) {
+        (bar ? done : all) += cost;
+        if (bar) (void)(*bar)(static_cast<long long>(1000 * done / all), 1000);
+    }
+};
+
 // --- Promises, and equal time --------------------------------------------------------
 
 /// Promises some seconds, and two errors, three times each: were they kept?
+/// \return The smallest error that was measured.
 template <typename Room>
-void promises(const std::string& name, const Room& room, const examples::Oracle& oracle,
-              const examples::Options& options, examples::Table& table,
-              std::vector<examples::Claim>& claims) {
+double promises(Sweep& sweep, const std::string& name, const Room& room,
+                const examples::Oracle& oracle) {
     constexpr int runs = 3;
+    const examples::Options& options = sweep.options;
     const double seconds = options.pick(0.6, 3.0, 10.0);
+    double least = std::numeric_limits<double>::infinity();
     for (const examples::Promise& promise :
          {examples::Promise{.seconds = seconds}, {.error = 0.03}, {.error = 0.01}}) {
         const bool timed = promise.seconds > 0;
-        double took = 0, noise = 0, estimate = 0, error = 0;
+        double took = 0, noise = 0, bias = 0, unsure = 0, error = 0;
         std::string chosen, pictures;
-        for (int run = 0; run < runs; ++run) {
+        for (int run = 0; run < runs && sweep.bar; ++run) {
             const double begin = examples::processor_seconds();
             const auto kept = keep(
                 room.scene, room.camera,
@@ -247,31 +263,41 @@ void promises(const std::string& name, const Room& room, const examples::Oracle&
                  .seed = options.seed + std::uint64_t(run),
                  .threads = options.threads},
                 promise, [begin] { return examples::processor_seconds() - begin; },
-                options.quiet, [](const auto&) {});
+                true, [](const auto&) {});
             chosen += (run > 0 ? " / " : "") + kept.recipe.name;
             pictures += (run > 0 ? " / " : "") + std::to_string(kept.pictures);
             took += kept.seconds / runs;
             noise += kept.noise / runs;
-            estimate += kept.error() / runs;
+            bias += kept.forecast().bias / runs;
+            unsure += kept.forecast().unsure / runs;
             error += (rel_mse(kept.rendered.image, oracle.truth) - oracle.noise) / runs;
         }
-        table.rows.push_back({name, timed ? text(seconds) + " s" : text(promise.error),
-                              chosen, pictures, text(took, "%.2f"), text(noise, "%.2g"),
-                              text(estimate, "%.2g"), text(error, "%.2g")});
-        claims.push_back(
+        sweep.add(timed ? runs * seconds : 2.0 * runs);
+        if (!sweep.bar) continue;
+        least = std::min(least, error);
+        sweep.promises.rows.push_back(
+            {name, timed ? text(seconds) + " s" : text(promise.error), chosen, pictures,
+             text(took, "%.2f"), text(noise, "%.2g"),
+             text(bias, "%.2g") + " ± " + text(unsure, "%.1g"),
+             text(noise + bias, "%.2g"), text(error, "%.2g")});
+        sweep.claims.push_back(
             {timed ? "the seconds are kept: their part of those promised"
                    : "the error " + text(promise.error) + " is kept: its part of it",
              name, timed ? took / seconds : error / promise.error, timed ? 0.8 : 0,
              1.2});
     }
+    return least;
 }
 
 /// The same room after the same seconds, by whole ways to make a picture.
 template <typename Room>
-void panels(const Room& room, float unit, const examples::Options& options) {
+void panels(Sweep& sweep, const Room& room, float unit) {
+    const examples::Options& options = sweep.options;
     const int size = options.pick(60, 200, 300);
     const double seconds = options.pick(0.5, 5.0, 20.0);
     for (const Setting& way : settings_of("preset", unit, size, true)) {
+        sweep.add(seconds);
+        if (!sweep.bar) continue;
         ProgressiveState state{.alpha = 1};
         const double begin = examples::processor_seconds();
         double took = 0;
@@ -293,56 +319,98 @@ void panels(const Room& room, float unit, const examples::Options& options) {
     }
 }
 
-/// What comes out besides the notebook.
-struct Findings {
-    examples::Table references{
-        .name = "trades-references",
-        .columns = {"room", "rays a pixel", "its own relMSE", "of blocks"}};
-    examples::Table promises{.name = "trades-promises",
-                             .columns = {"room", "promised", "chosen", "pictures",
-                                         "took, s", "noise", "its estimate",
-                                         "measured relMSE"}};
-    std::vector<examples::Claim> claims{}; ///< Of promises.
-};
+/// Tries the promises of a room, and tells how good its reference is: its standard
+/// error beside the root of the smallest error that was measured by it.
+template <typename Room>
+void try_promises(Sweep& sweep, const std::string& name, const Room& room,
+                  const examples::Oracle& oracle) {
+    double least = promises(sweep, name, room, oracle);
+    if (!sweep.bar) return;
+    for (const auto& line : sweep.notebook.lines)
+        if (line.scene == name) least = std::min(least, line.error());
+    sweep.references.rows.push_back(
+        {name, std::to_string(oracle.rays), text(oracle.noise, "%.2g"),
+         text(oracle.block_noise, "%.2g"), text(least, "%.2g"),
+         text(100 * std::sqrt(oracle.noise / least), "%.0f") + " % of its root"});
+}
 
-/// Measures all settings of one room.
+/// Makes the reference of a room, if references are what is asked for.
+/// \return Whether they are.
+template <typename Room>
+bool makes_reference(const Sweep& sweep, const std::string& name, const Room& room) {
+    const Request& request = sweep.request;
+    if (!request.references || !sweep.bar) return request.references;
+    const auto oracle =
+        examples::find_oracle(name, room, request.size, request.truth, sweep.options);
+    save_reference(sweep.options.path(""), name, oracle, sweep.notebook.conditions);
+    return true;
+}
+
+/// The reference of a room, if there is one.
+std::optional<examples::Oracle> reference_of(const Sweep& sweep,
+                                             const std::string& name) {
+    return examples::find_reference(
+        name, sweep.request.size,
+        {sweep.options.out, LJUS_SOURCE_FOLDER "/examples/data"});
+}
+
+/// Goes over one room of which only promises are asked.
+template <typename Room>
+void go_over(Sweep& sweep, const std::string& name, const Room& room) {
+    if (makes_reference(sweep, name, room) || sweep.request.only != "all") return;
+    const auto oracle = reference_of(sweep, name);
+    if (oracle)
+        try_promises(sweep, name, room, *oracle);
+    else if (sweep.bar)
+        std::fprintf(stderr,
+                     "no promise is tried in the room %s: --references makes the "
+                     "reference that it has not\n",
+                     name.c_str());
+}
+
+/// Goes over all settings of one room, and its promises.
 /// \param make  Makes the room, in float and in double.
+/// \param unit  Half of its width.
 template <typename Make>
-void sweep(const std::string& name, const Make& make, float unit,
-           const examples::Options& options, const Request& request,
-           examples::Notebook& notebook, Findings& findings) {
+void go_over(Sweep& sweep, const std::string& name, const Make& make, float unit) {
+    const examples::Options& options = sweep.options;
+    const Request& request = sweep.request;
     const auto room = make(float{});
-    if (request.references) {
-        const auto oracle =
-            examples::find_oracle(name, room, request.size, request.truth, options);
-        save_reference(options.path(""), name, oracle, notebook.conditions);
-        return;
-    }
     const auto room_in_double = make(double{});
-    const auto oracle = examples::find_reference(
-        name, request.size, {options.out, LJUS_SOURCE_FOLDER "/examples/data"});
-    const examples::Measuring how{request.size, request.seeds, options.threads};
-    std::vector<Setting> all;
-    for (const std::string& knob : knobs)
-        if (request.only == "all" || request.only == knob)
-            for (auto& setting :
-                 settings_of(knob, unit, request.size,
-                             options.quality != examples::Quality::draft))
-                all.push_back(setting);
-    examples::ProgressBar bar(name, options.quiet);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        (void)bar(static_cast<long long>(i), static_cast<long long>(all.size()));
-        if (all[i].in_double)
-            measure(name, room_in_double, all[i], oracle, how, notebook);
-        else
-            measure(name, room, all[i], oracle, how, notebook);
+    if (makes_reference(sweep, name, room)) return;
+    const auto oracle = reference_of(sweep, name);
+    if (!oracle)
+        throw std::runtime_error("there is no reference of the room " + name +
+                                 ": make it by --references with that --size.");
+    for (const std::string& knob : knobs) {
+        if (request.only != "all" && request.only != knob) continue;
+        for (const Setting& setting :
+             settings_of(knob, unit, request.size,
+                         options.quality != examples::Quality::draft)) {
+            // The curves of whole methods end at their bias: in report quality it must
+            // not drown in noise.
+            examples::Measuring how{request.size, request.seeds, options.threads};
+            if (knob == "preset") how.seeds *= options.pick(1, 16, 16);
+            const auto either = [&](const auto& work) {
+                setting.in_double ? work(room_in_double) : work(room);
+            };
+            std::string& stamp = sweep.stamps[name + " " + knob + " " + setting.value];
+            if (stamp.empty())
+                either(
+                    [&](const auto& r) { stamp = stamp_of(r, setting, *oracle, how); });
+            examples::Measured line{name, knob, setting.value, setting.x};
+            line.stamp = stamp;
+            if (sweep.notebook.find(line)) continue;
+            if (sweep.bar)
+                either([&](const auto& r) {
+                    measure(line, r, setting, *oracle, how, sweep.notebook);
+                });
+            sweep.add(cost_of(setting, how));
+        }
     }
     if (request.only != "all") return;
-    findings.references.rows.push_back({name, std::to_string(oracle.rays),
-                                        text(oracle.noise, "%.2g"),
-                                        text(oracle.block_noise, "%.2g")});
-    promises(name, room, oracle, options, findings.promises, findings.claims);
-    if (name == "cornell") panels(room, unit, options);
+    if (name == "cornell") panels(sweep, room, unit);
+    try_promises(sweep, name, room, *oracle);
 }
 
 } // namespace
@@ -356,40 +424,46 @@ int main(int argc, char** argv) {
         words.insert(words.end(), knobs.begin(), knobs.end());
         line.add("--only", request.only, "Nothing but this knob", words);
         line.add("--size", request.size, "Side of the pictures in pixels", 4, 1000);
-        line.add("--seeds", request.seeds, "Pictures by each setting", 2, 1000);
+        line.add("--seeds", request.seeds, "Pictures by each setting", 3, 1000);
         line.add("--truth", request.truth, "Rays a pixel of the references", 8,
                  100000000);
         line.add("--references", request.references, "Make the references only");
         line.add("--check", request.check, "Fail where a claim of the book does");
         const examples::Options options = line.parse();
         if (!line.given("--seeds")) request.seeds = options.pick(3, 5, 16);
-        if (!line.given("--truth")) request.truth = options.pick(4096, 65536, 262144);
-        auto notebook = examples::open_notebook(
-            options.path("trades-notebook.json"),
-            examples::conditions(options, std::to_string(request.seeds) +
-                                              " seeds from 1 on, pictures of " +
-                                              std::to_string(request.size) + " x " +
-                                              std::to_string(request.size)));
-        Findings findings;
-        const auto room = [&](const char* name, const auto& make, float unit) {
-            sweep(name, make, unit, options, request, notebook, findings);
-        };
-        findings.promises.notes = {notebook.conditions};
-        room(
-            "cornell", [](auto t) { return make_cornell<decltype(t)>(); }, 1);
-        room(
-            "caustic", [](auto t) { return make_caustic<decltype(t)>(); }, 1);
-        room(
-            "report", [](auto t) { return make_report<decltype(t)>(); }, 5);
+        if (!line.given("--truth")) request.truth = options.pick(4096, 262144, 262144);
+        const std::string conditions = examples::conditions(
+            options, std::to_string(request.seeds) + " seeds from 1 on, pictures of " +
+                         std::to_string(request.size) + " x " +
+                         std::to_string(request.size));
+        Sweep sweep{
+            options, request,
+            examples::open_notebook(options.path("trades-notebook.json"), conditions)};
+        sweep.promises.notes = {conditions};
+        for (const bool measures : {false, true}) {
+            if (measures) sweep.bar.emplace("the sweep", options.quiet);
+            go_over(
+                sweep, "cornell", [](auto t) { return cornell_box<decltype(t)>(); }, 1);
+            go_over(
+                sweep, "caustic", [](auto t) { return make_caustic<decltype(t)>(); },
+                1);
+            go_over(
+                sweep, "report", [](auto t) { return four_glass_room<decltype(t)>(); },
+                5);
+            go_over(sweep, "matt", matt_cornell_box());
+            go_over(sweep, "final", final_room());
+            go_over(sweep, "materials", all_materials_room());
+        }
+        sweep.bar.reset(); // it wipes its line
         if (request.references) return;
-        save_trades(options.path(""), notebook, {"cornell", "caustic", "report"},
+        save_trades(options.path(""), sweep.notebook, {"cornell", "caustic", "report"},
                     knobs);
         if (request.only != "all") return;
-        save_table(options.path(""), findings.promises);
-        save_table(options.path(""), findings.references);
-        auto claims = examples::judge(notebook);
-        claims.insert(claims.end(), findings.claims.begin(), findings.claims.end());
-        save_claims(options.path(""), claims, notebook.conditions);
+        save_table(options.path(""), sweep.promises);
+        save_table(options.path(""), sweep.references);
+        auto claims = examples::judge(sweep.notebook);
+        claims.insert(claims.end(), sweep.claims.begin(), sweep.claims.end());
+        save_claims(options.path(""), claims, conditions);
         for (const auto& claim : claims) {
             if (claim.holds()) continue;
             std::fprintf(stderr, "%s\n", claim.sentence().c_str());

@@ -265,7 +265,7 @@ void table_of_mutants(const examples::Options& options) {
                 table.rows.push_back(cells);
         }
     } else {
-        table.columns = {"floor", "made", "killed", "equivalent", "share"};
+        table.columns = {"floor", "made", "equivalent", "killed now", "share now"};
         notes = " Not measured yet: ./scripts/test --mutate -- --csv "
                 "chapters/measured/mutation.csv does it.";
     }

@@ -101,7 +101,7 @@ struct Request {
     double radius = 0.1;
     double general_radius = 0.3;
     double gather_reach = 1;
-    double disagreement = 0.22;
+    double disagreement = PresetRays{}.disagreement;
     double exposure = 0.0;
     bool split_glass = false;
     bool plan = false;
@@ -470,20 +470,23 @@ RenderedT<T> render_promised(const LoadedSceneT<T>& loaded, RenderSettings& pict
         tell);
     settings = kept.recipe.settings;
     picture.samples = kept.recipe.rays;
-    request.more_rays = kept.recipe.more;
+    request.more_rays = 0;
     request.preset = kept.recipe.name;
-    const double bias = kept.found[kept.choice.recipe].bias;
+    const examples::Forecast& found = kept.forecast();
     if (promise.seconds > 0) request.kept["seconds"] = promise.seconds;
     if (promise.error > 0) request.kept["error"] = promise.error;
     request.kept["pictures"] = kept.pictures;
     request.kept["took"] = kept.seconds;
-    request.kept["estimate"] = {
-        {"relMSE", kept.error()}, {"noise", kept.noise}, {"bias", bias}};
+    request.kept["estimate"] = {{"relMSE", kept.error()},
+                                {"noise", kept.noise},
+                                {"bias", found.bias},
+                                {"error_of_bias", found.unsure}};
     if (quiet) return kept.rendered;
     print(kept.rendered.counts, kept.seconds);
-    std::printf("  %-16s %10s  relMSE %.3g, by estimate: noise %.3g, bias about %.1g; "
-                "mean of %lld pictures\n",
-                "error", "", kept.error(), kept.noise, bias, kept.pictures);
+    std::printf("  %-16s %10s  relMSE %.3g, by estimate: noise %.3g, bias %s; mean of "
+                "%lld pictures\n",
+                "error", "", kept.error(), kept.noise, bias_text(found).c_str(),
+                kept.pictures);
     return kept.rendered;
 }
 

@@ -11,8 +11,10 @@
 #include "ljus/render/adaptive.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "support/rooms.hpp"
+#include "support/seed.hpp"
 
 using namespace ljus;
+using ljus_test::test_seed;
 
 namespace {
 
@@ -71,7 +73,7 @@ bool near(double x, double right, double part) {
 }
 
 RenderSettings square(int size, int samples, std::uint64_t seed = 1) {
-    return {.width = size, .height = size, .samples = samples, .seed = seed};
+    return {.width = size, .height = size, .samples = samples, .seed = test_seed(seed)};
 }
 
 } // namespace

@@ -1,3 +1,6 @@
+// Direct light of all lights at once: closed forms, and three ways with one mean.
+// Its statistical cases were run with 20 further seeds (`./scripts/test --seeds 20`):
+// none failed.
 #include <doctest/doctest.h>
 
 #include <numbers>
@@ -8,6 +11,7 @@
 #include "ljus/path/all_lights.hpp"
 #include "ljus/scenes/furnaces.hpp"
 #include "support/mean.hpp"
+#include "support/seed.hpp"
 
 using namespace ljus;
 using namespace ljus_test;
@@ -32,7 +36,8 @@ Mean direct(const S& scene, const Vertex& vertex, const M& material, DirectLight
     Mean mean;
     Counts counts;
     for (int i = 0; i < samples; ++i) {
-        auto stream = random_stream(seed, Pass::user, 0, std::uint64_t(i));
+        auto stream =
+            random_stream(ljus_test::test_seed(seed), Pass::user, 0, std::uint64_t(i));
         start_bounce(stream, 1);
         mean.add(double(detail::sample_all_lights(scene, vertex, material, how, rays,
                                                   stream, counts)
@@ -177,7 +182,8 @@ TEST_CASE("all lights: in a fog and in colours, from both sides") {
                 for (const int rays : {1, 4}) {
                     Mean mean[3];
                     for (std::uint64_t path = 0; path < 4000; ++path) {
-                        auto stream = random_stream(3, Pass::user, 0, path);
+                        auto stream =
+                            random_stream(ljus_test::test_seed(3), Pass::user, 0, path);
                         start_bounce(stream, 1);
                         Counts counts;
                         const D3 seen = detail::sample_all_lights(
@@ -194,7 +200,7 @@ TEST_CASE("all lights: in a fog and in colours, from both sides") {
                 }
             // The closed form, and of what is lost in the fog an estimate of 64 rays
             // that lie evenly: some parts in a thousand.
-            auto stream = random_stream(3, Pass::user, 0, 0);
+            auto stream = random_stream(ljus_test::test_seed(3), Pass::user, 0, 0);
             Counts counts;
             const D3 seen = detail::sample_all_lights(
                 scene, vertex, matt, DirectLight::analytic, 64, stream, counts);
@@ -221,7 +227,7 @@ TEST_CASE("all lights: a verdict for each light, by its number") {
     const Vertex at = below(scene, {9, 0.1f, 3});
     const auto light_of = [&](const std::vector<Verdict>& known, int rays,
                               DirectLight how, Counts& counts) {
-        auto stream = random_stream(1, Pass::user, 0, 0);
+        auto stream = random_stream(ljus_test::test_seed(1), Pass::user, 0, 0);
         return detail::sample_all_lights(
             scene, at, white, how, rays, stream, counts,
             [&](std::size_t number) { return known[number]; });
@@ -245,7 +251,7 @@ TEST_CASE("all lights: a verdict for each light, by its number") {
     Lit hidden = lit_floor(true);
     const Vertex shaded = below(hidden, {-3, 0.1f, 0});
     for (const Verdict known : {lit, ask}) {
-        auto stream = random_stream(1, Pass::user, 0, 0);
+        auto stream = random_stream(ljus_test::test_seed(1), Pass::user, 0, 0);
         Counts counts;
         const Rgb seen = detail::sample_all_lights(
             hidden, shaded, white, DirectLight::analytic, 2, stream, counts,
@@ -262,7 +268,7 @@ TEST_CASE("all lights: who goes by which way, number by number") {
     const Lambertian white{.albedo = Rgb{0.5f}};
     const Glossy gloss{.reflectance = Rgb{0.9f}, .roughness = 0.3f};
     const auto once = [&](const auto& material, DirectLight how, const auto& of) {
-        auto stream = random_stream(4, Pass::user, 0, 7);
+        auto stream = random_stream(ljus_test::test_seed(4), Pass::user, 0, 7);
         Counts counts;
         return detail::sample_all_lights(of, at, material, how, 3, stream, counts);
     };
@@ -283,7 +289,7 @@ TEST_CASE("all lights: who goes by which way, number by number") {
          {DirectLight::sampled, DirectLight::mis, DirectLight::analytic})
         CHECK(double(once(white, how, lamp).x) == doctest::Approx(right).epsilon(1e-4));
     // A material without such a lobe sends no ray.
-    auto stream = random_stream(4, Pass::user, 0, 7);
+    auto stream = random_stream(ljus_test::test_seed(4), Pass::user, 0, 7);
     Counts counts;
     CHECK(detail::found_light(scene, at, Mirror{}, 1, stream, counts) == Rgb{0});
     CHECK(counts.shadow_rays == 0);
@@ -327,7 +333,8 @@ TEST_CASE("all lights: a narrow gloss sees a lamp by its own ray") {
     const Glossy gloss{.reflectance = Rgb{0.9f}, .roughness = 0.02f};
     const Mean both = direct(scene, at, gloss, DirectLight::mis, 1, 20000);
     const Mean rays = direct(scene, at, gloss, DirectLight::sampled, 1, 400000);
-    CHECK(std::abs(both.mean - rays.mean) < 4 * (both.error() + rays.error()));
+    // Straight up all of the narrow lobe meets the lamp.
+    CHECK(std::abs(both.mean - 0.9 * 3) < 4 * both.error() + 0.005);
     CHECK(both.error() * std::sqrt(20000.0) < 0.2 * rays.error() * std::sqrt(400000.0));
 }
 

@@ -7,22 +7,13 @@
 #include <vector>
 
 #include "ljus/inspect/block_statistics.hpp"
+#include "support/numbers.hpp"
 
 namespace {
 
 using ljus::block_statistics;
 using ImageD = ljus::ImageT<double>;
 using RgbD = ljus::RgbT<double>;
-
-/// Uniform noise of mean 0 and variance 1.
-struct Noise {
-    std::uint64_t state;
-    double operator()() {
-        state = state * 6364136223846793005u + 1442695040888963407u;
-        const double u = std::ldexp(static_cast<double>(state >> 11), -53);
-        return std::sqrt(3.0) * (2.0 * u - 1.0);
-    }
-};
 
 } // namespace
 
@@ -47,10 +38,10 @@ TEST_CASE("block_statistics: noise of a known size, in blocks of 25 pixels") {
     // test errs once in 400 000 sets of runs.
     std::vector<ImageD> runs;
     for (std::uint64_t seed = 1; seed <= 16; ++seed) {
-        Noise noise{seed * 7919};
+        ljus_test::Numbers numbers{seed * 7919};
         runs.push_back(ljus::make_image<double>(100, 100));
         for (RgbD& c : runs.back().pixels)
-            for (int k = 0; k < 3; ++k) c[k] = 2.0 + 0.3 * noise();
+            for (int k = 0; k < 3; ++k) c[k] = 2.0 + 0.3 * numbers.noise();
     }
     const auto found = block_statistics(runs, 5);
     REQUIRE(found.mean.width == 20);

@@ -90,7 +90,7 @@ TEST_CASE("wide bvh: the same answers as asking everything") {
 }
 
 TEST_CASE("wide bvh: the triangles are kept as they were given") {
-    Numbers n(7);
+    Numbers n{7};
     const Triangles triangles = soup(n, 500, 1, 0.1, Vec3(1e3f, 0, -0.0f));
     const TriangleBvh tree(500, [&](std::uint32_t i) { return triangles[i]; });
     int kept = 0;
@@ -121,15 +121,7 @@ TEST_CASE("wide bvh: rays from the surfaces themselves") {
 TEST_CASE("wide bvh: huge and tiny, flat and equal things") {
     Numbers n;
     for (const double scale : {1e-15, 1e-6, 1.0, 1e6, 1e15}) {
-        Triangles triangles = soup(n, 100, 5 * scale, scale, Vec3{0});
-        for (int i = 0; i < 64; ++i) triangles.push_back(triangles[7]); // equal ones
-        for (int i = 0; i < 20; ++i) { // in the plane x = 0
-            Triangle flat = triangles[std::size_t(i)];
-            flat.v1.x = flat.v2.x = flat.v3.x = 0;
-            triangles.push_back(flat);
-            flat.v3 = flat.v1; // without an area
-            triangles.push_back(flat);
-        }
+        const Triangles triangles = hard_soup(n, scale);
         const Trees trees(triangles);
         for (int i = 0; i < 1000; ++i) {
             Ray ray = some_ray(n, 5 * scale, Vec3{0});
@@ -241,7 +233,7 @@ TEST_CASE("wide bvh: few nodes, for most of their places are taken") {
 TEST_CASE("wide bvh: of all ways to collapse a tree the one of least surface") {
     // By trying them all: what lies below a wide node is any row of at most eight nodes
     // that covers its leaves, and the surfaces of all wide nodes are added up.
-    Numbers n(6);
+    Numbers n{6};
     int wide_nodes = 0, better = 0;
     for (int round = 0; round < 60; ++round) {
         std::vector<Box> boxes;
@@ -299,7 +291,7 @@ TEST_CASE("wide bvh: of all ways to collapse a tree the one of least surface") {
 }
 
 TEST_CASE("wide bvh: where its middle is, its bytes, and leaves of sixteen") {
-    Numbers n(9);
+    Numbers n{9};
     const Triangles triangles = soup(n, 300, 5, 0.5, Vec3{100, -50, 7});
     const auto boxes = boxes_of(triangles);
     Box all;

@@ -78,15 +78,7 @@ TEST_CASE("bvh: the same answers as asking everything") {
 TEST_CASE("bvh: huge and tiny, flat and equal things") {
     Numbers n;
     for (const double scale : {1e-15, 1e-6, 1.0, 1e6, 1e15}) {
-        Triangles triangles = soup(n, 100, 5 * scale, scale, Vec3{0});
-        for (int i = 0; i < 50; ++i) triangles.push_back(triangles[7]); // equal ones
-        for (int i = 0; i < 20; ++i) { // in the plane x = 0
-            Triangle flat = triangles[std::size_t(i)];
-            flat.v1.x = flat.v2.x = flat.v3.x = 0;
-            triangles.push_back(flat);
-            flat.v3 = flat.v1; // without an area
-            triangles.push_back(flat);
-        }
+        const Triangles triangles = hard_soup(n, scale);
         const auto boxes = boxes_of(triangles);
         const Bvh tree(boxes);
         check_sound(tree, boxes);
@@ -179,12 +171,38 @@ TEST_CASE("bvh: the nearer child first, so that little is visited") {
                 if (const auto hit = intersect<double>(rest, triangles[number]))
                     nearest.offer(*hit, number, rest);
             },
-            [&] { ++nodes; });
+            [&](std::uint32_t) { ++nodes; });
     }
     MESSAGE("a ray visits " << nodes / rays << " nodes of " << tree.nodes().size()
                             << " and asks " << tests / rays << " of 20000 triangles");
     CHECK(nodes / rays < 120);
     CHECK(tests / rays < 80);
+}
+
+TEST_CASE("bvh: a search tells which nodes it visits") {
+    Numbers n;
+    const Triangles triangles = soup(n, 300, 5, 0.6, Vec3{0});
+    const Bvh tree(boxes_of(triangles));
+    const auto& nodes = tree.nodes();
+    for (int i = 0; i < 200; ++i) {
+        const Vec3 origin = 9.0f * Vec3(n.direction());
+        std::vector<int> may_come(nodes.size(), 0); // the root, then children
+        may_come[0] = 1;
+        std::uint32_t last = 0;
+        tree.closest(
+            {.origin = origin, .direction = Vec3(n.point(4)) - origin},
+            [&](std::uint32_t slot, Ray&) {
+                CHECK(slot >= nodes[last].first);
+                CHECK(slot < nodes[last].first + nodes[last].count);
+            },
+            [&](std::uint32_t node) {
+                last = node;
+                CHECK(may_come[node] == 1);
+                may_come[node] = 2; // and not twice
+                if (nodes[node].count == 0)
+                    may_come[nodes[node].first] = may_come[nodes[node].first + 1] = 1;
+            });
+    }
 }
 
 // --- The surface area heuristic, by adding everything up -----------------------------
@@ -245,7 +263,7 @@ std::vector<Box> some_boxes(Numbers& n, int count, const Vec3& stretch) {
 } // namespace
 
 TEST_CASE("bvh: the split is the cheapest of all between 16 slots on three axes") {
-    Numbers n(4);
+    Numbers n{4};
     int axes[3] = {};
     for (int round = 0; round < 300; ++round) {
         const Vec3 stretch{round % 3 == 0 ? 3 : 0.3f, round % 3 == 1 ? 3 : 0.3f,
@@ -300,7 +318,7 @@ TEST_CASE("bvh: the split is the cheapest of all between 16 slots on three axes"
 }
 
 TEST_CASE("bvh: each range is split where that is cheaper, and nowhere else") {
-    Numbers n(5);
+    Numbers n{5};
     int leaves = 0, chosen = 0;
     for (const BvhSettings& how :
          {BvhSettings{.leaf_size = 4}, BvhSettings{.leaf_size = 16, .node_cost = 4},
@@ -382,7 +400,7 @@ TEST_CASE("bvh: in double as in float") {
 }
 
 TEST_CASE("bvh: its box and its bytes") {
-    Numbers n(8);
+    Numbers n{8};
     const auto boxes = some_boxes(n, 50, Vec3{1});
     const Bvh tree(boxes);
     Box all;

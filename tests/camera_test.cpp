@@ -12,6 +12,7 @@
 #include <string>
 
 #include "support/numbers.hpp"
+#include "support/refusal.hpp"
 
 using namespace ljus;
 using ljus_test::Numbers;
@@ -43,12 +44,7 @@ double missed_by(const ViewT<T>& view, const glm::dvec2& pixel, int size,
 }
 
 std::string refusal(const View& view) {
-    try {
-        (void)look_at(view);
-    } catch (const std::invalid_argument& error) {
-        return error.what();
-    }
-    return "";
+    return ljus_test::refusal([&] { (void)look_at(view); });
 }
 
 } // namespace

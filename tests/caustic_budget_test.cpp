@@ -256,7 +256,7 @@ TEST_CASE("caustic_budget: the pilot measures flux, area and scatter") {
     CHECK(pilots[0].absolute == doctest::Approx(flux).epsilon(0.05));
     CHECK(pilots[0].relative == doctest::Approx(pilots[0].area).epsilon(0.05));
     // Even light of E photons around: the scatter of the flux over E.
-    const auto lit_by = [&](double e) {
+    const auto lit_by = [&](double e, float wide = 0.5f) {
         std::vector<Photon> light;
         for (int i = 0; i < 100; ++i)
             for (int j = 0; j < 100; ++j)
@@ -265,8 +265,12 @@ TEST_CASE("caustic_budget: the pilot measures flux, area and scatter") {
                      .direction{0, -1, 0},
                      .flux = Rgb{float(0.01 * e)},
                      .normal = small_normal(Vec3{0, 1, 0})});
-        return pilot_caustics(room, pass, 0.1f, light, 0.5f)[0].visible;
+        return pilot_caustics(room, pass, 0.1f, light, wide)[0].visible;
     };
+    // All 100 e W in a disc of radius 50, or so many as are asked by default.
+    CHECK(lit_by(100, 50) ==
+          doctest::Approx(flux / (1.1 * 1e4 / (pi * 2500) + 0.058)).epsilon(0.05));
+    CHECK(lit_by(100, 0) == doctest::Approx(flux / 110).epsilon(0.05));
     // A tenth of the mean is added, and the caustic's own 1/16 W/m^2.
     CHECK(lit_by(100) == doctest::Approx(flux / 110).epsilon(0.05));
     CHECK(lit_by(1) == doctest::Approx(flux / (1.1 + 0.058)).epsilon(0.05));

@@ -21,8 +21,9 @@
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/scene/scene.hpp"
 #include "support/ball_caustic.hpp"
+#include "support/draws.hpp"
+#include "support/integrate.hpp"
 #include "support/mean.hpp"
-#include "support/photon_samples.hpp"
 #include "support/within.hpp"
 
 using namespace ljus;
@@ -153,7 +154,7 @@ TEST_CASE("caustics: the estimate is the kernel's mean of the closed form") {
             const double s =
                 std::sqrt((radius * radius - near2) / (4 * rho * places[i]));
             const double arc = s >= 1 ? pi : 2 * std::asin(s);
-            const double mean = photon_test::integrate(0, arc, 2, [&](double phi) {
+            const double mean = ljus_test::integrate(0, arc, 2, [&](double phi) {
                 const double half = std::sin(phi / 2);
                 const double d2 = near2 + 4 * rho * places[i] * half * half;
                 return 2 * (1 - d2 / (radius * radius));
@@ -479,8 +480,8 @@ TEST_CASE("caustics: 0, 1, k - 1 and k photons, and a radius larger than the roo
 TEST_CASE("caustics: k nearest is unbiased for every k from 2 to 50") {
     // Of 49 x 2 means the largest lies beyond 4.6 standard errors once in 2000 runs; of
     // k = 2 the variance is infinite, and of 3 the box's is: they are only near.
-    photon_test::Numbers numbers{24};
-    std::array<std::array<photon_test::Mean, 51>, 2> found{};
+    ljus_test::Draws numbers{24};
+    std::array<std::array<ljus_test::Mean, 51>, 2> found{};
     for (int i = 0; i < 2000; ++i) {
         std::vector<Photon> photons(300);
         for (Photon& photon : photons)
@@ -640,4 +641,25 @@ TEST_CASE("caustics: both ways at the first glass are one way in the mean") {
     CAPTURE(means[1].mean);
     CHECK(std::abs(apart(means[0], means[1])) < 3);
     CHECK(means[1].error() < means[0].error());
+}
+
+TEST_CASE(
+    "caustics: a radius of 0 is that of 32 photons, and of 64 of the general map") {
+    double flux = 0;
+    const Room room =
+        library_room(OwnRoom{{{{0, 0, 0}, 0.5, 1.5}}, -1, {0, 2, 0}, 0.8}, flux);
+    PhotonMappingSettings settings{.indirect = IndirectLight::map};
+    settings.caustics = {.photons = 5000, .threads = 1};
+    settings.general = {.photons = 5000, .threads = 1};
+    const auto maps = make_photon_maps(room, settings);
+    for (const float radius : {0.0f, 0.125f}) {
+        settings.caustics_estimate.radius = settings.general_estimate.radius = radius;
+        const auto mapper = make_photon_mapper(room, maps, settings);
+        CHECK(mapper.settings.caustics_estimate.radius ==
+              (radius > 0 ? radius : float(typical_radius(maps.caustics, 32))));
+        CHECK(mapper.settings.general_estimate.radius ==
+              (radius > 0 ? radius : float(typical_radius(maps.general, 64))));
+    }
+    CHECK(typical_radius(maps.caustics, 32) > 0);
+    CHECK(typical_radius(maps.caustics, 32) < typical_radius(maps.caustics, 33));
 }

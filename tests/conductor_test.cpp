@@ -95,6 +95,19 @@ TEST_CASE("conductor: what is known of metals") {
         CHECK(ljus::fresnel_conductor(0.0, ljus::gold<double>)[channel] == 1);
 }
 
+TEST_CASE("conductor: the indices of the three metals, typed a second time") {
+    // R at normal incidence by another program, from the measured n and k.
+    const auto check = [](const ljus::ConductorIndexT<double>& metal,
+                          const glm::dvec3& right) {
+        const auto found = ljus::fresnel_conductor(1.0, metal);
+        for (int i = 0; i < 3; ++i) CHECK(std::abs(found[i] - right[i]) < 6e-7);
+    };
+    check(ljus::gold<double>, {0.953026, 0.807158, 0.356061});
+    check(ljus::copper<double>, {0.970051, 0.599719, 0.551778});
+    check(ljus::silver<double>, {0.989580, 0.984384, 0.976234});
+    CHECK(ljus::gold<float>.n == ljus::Rgb{ljus::gold<double>.n});
+}
+
 TEST_CASE("conductor: the light that iron reflects falls before it rises") {
     // The pseudo-Brewster angle: a minimum, above 0 and beyond 45 degrees.
     double least = 1, at = 1;
@@ -110,6 +123,21 @@ TEST_CASE("conductor: the light that iron reflects falls before it rises") {
     CHECK(at > 0.1);
     CHECK(least > 0.4);
     CHECK(least < ljus::fresnel_conductor(1.0, 2.9, 3.4));
+}
+
+TEST_CASE_TEMPLATE("conductor: a share for every index and angle, 0 among them", T,
+                   float, double) {
+    const T least = std::numeric_limits<T>::denorm_min();
+    int wrong = 0;
+    for (const T n : {T(0), least, T(0.5), T(1), T(3), T(1000)})
+        for (const T k : {T(0), least, T(1e-20), T(1), T(1000)})
+            for (const T c : {T(0), least, T(1e-20), T(1e-4), T(0.6), T(1)}) {
+                const T r = ljus::fresnel_conductor(c, n, k);
+                wrong += !(r >= T(0) && r <= T(1) + T(1e-6));
+            }
+    CHECK(wrong == 0);
+    CHECK(ljus::fresnel_conductor(T(0), T(1), T(0)) == T(1)); // 0/0, found from outside
+    CHECK(ljus::fresnel_conductor(T(1), T(0), T(0)) == T(1));
 }
 
 TEST_CASE("conductor: an index below 0 or of NaN is refused by name") {

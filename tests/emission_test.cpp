@@ -3,7 +3,9 @@
 /// paper.
 ///
 /// Counts are held against chi-square, which gives a false alarm once in a million; means
-/// within 4.5 standard errors, once in 150 000.
+/// within 4.5 standard errors, once in 150 000. All statistical cases but one, whose
+/// seeds are fixed, were run with 20 further seeds (`./scripts/test --seeds 20`): none
+/// failed.
 
 #include "ljus/photons/aiming.hpp"
 
@@ -20,12 +22,14 @@
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
 #include "ljus/scene/query.hpp"
-#include "support/photon_samples.hpp"
+#include "support/integrate.hpp"
+#include "support/seed.hpp"
+#include "support/statistics.hpp"
 #include "support/within.hpp"
 
 using namespace ljus;
-using photon_test::integrate;
-using photon_test::Mean;
+using ljus_test::integrate;
+using ljus_test::Mean;
 using D3 = glm::dvec3; ///< What the closed forms are computed with.
 
 namespace {
@@ -42,7 +46,8 @@ struct Stage {
 };
 
 RandomStream stream_of(long long path, std::uint64_t seed = 1) {
-    return random_stream(seed, Pass::user, 0, static_cast<std::uint64_t>(path));
+    return random_stream(ljus_test::test_seed(seed), Pass::user, 0,
+                         static_cast<std::uint64_t>(path));
 }
 
 /// A rectangle of light above the floor z = 0, tilted; it shines down.
@@ -101,7 +106,7 @@ void compare_with_irradiance(const TestScene& scene, double flux,
             elsewhere -= cell;
         }
     expected.back() = elsewhere;
-    const auto result = photon_test::chi_square(counts, expected);
+    const auto result = ljus_test::chi_square(counts, expected);
     CAPTURE(result.sum);
     CHECK(result.cells == cells * cells + 1);
     CHECK(result.sum < result.limit());
@@ -252,7 +257,7 @@ TEST_CASE("emission: directions go with the cosine, wherever on the lamp they st
     }
     std::fill(expected.begin(), expected.end(),
               double(photons) / double(counts.size()));
-    const auto result = photon_test::chi_square(counts, expected);
+    const auto result = ljus_test::chi_square(counts, expected);
     CAPTURE(result.sum);
     CHECK(result.sum < result.limit());
 }
@@ -273,7 +278,7 @@ TEST_CASE("emission: a point light emits alike in all directions") {
         ++counts[std::size_t(z * 20 + phi)];
     }
     const std::vector<double> expected(400, photons / 400.0);
-    const auto result = photon_test::chi_square(counts, expected);
+    const auto result = ljus_test::chi_square(counts, expected);
     CHECK(result.sum < result.limit());
 }
 
@@ -321,7 +326,7 @@ TEST_CASE("emission: lights are chosen by their power, and keep their colours") 
         for (int c = 0; c < 3; ++c)
             REQUIRE(double(flight.flux[c]) == doctest::Approx(f[c]).epsilon(1e-5));
     }
-    const auto result = photon_test::chi_square(counts, expected);
+    const auto result = ljus_test::chi_square(counts, expected);
     CHECK(result.sum < result.limit());
     const D3 total = flux[0] + flux[1] + flux[2];
     for (int c = 0; c < 3; ++c)
@@ -336,7 +341,7 @@ TEST_CASE("emission: aimed at one ball, the plain way and the general one agree"
     const auto targets = specular_objects(stage.scene);
     const auto choice = light_choice(stage.scene.lights);
     for (std::uint64_t path = 0; path < 1000; ++path) {
-        auto stream = random_stream(4, Pass::user, 0, path);
+        auto stream = random_stream(ljus_test::test_seed(4), Pass::user, 0, path);
         auto again = stream;
         const auto aimed = aim(stage.scene, choice, targets, stream);
         REQUIRE(aimed);
@@ -756,7 +761,7 @@ TEST_CASE("emission: a spot light's directions go with its intensity, in cones o
                 expected[std::size_t(ring * slices + slice)] =
                     photons * part / ((wi + wo) / 2) / slices;
         }
-        const auto result = photon_test::chi_square(counts, expected);
+        const auto result = ljus_test::chi_square(counts, expected);
         CAPTURE(inner);
         CAPTURE(outer);
         CAPTURE(result.sum);
@@ -793,7 +798,7 @@ TEST_CASE(
             std::clamp(int((std::atan2(p.y, p.x) / (2 * pi) + 0.5) * 12), 0, 11);
         ++counts[std::size_t(ring * 12 + slice)];
     }
-    const auto result = photon_test::chi_square(counts, expected);
+    const auto result = ljus_test::chi_square(counts, expected);
     CAPTURE(result.sum);
     CHECK(result.sum < result.limit());
 }
@@ -855,8 +860,8 @@ TEST_CASE(
     "emission: where things move, a photon has a time and a lamp its place then") {
     Scene<Shapes<Moving<Quad>, Sphere>, Materials<Lambertian, Mirror>> scene;
     const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
-    const Quad lamp{.corner{0, 0, 0}, .edge_u{1, 0, 0}, .edge_v{0, 1, 0}};
-    scene.add(Moving<Quad>{lamp, {100, 0, 0}}, black, Rgb{1});
+    const Quad square{.corner{0, 0, 0}, .edge_u{1, 0, 0}, .edge_v{0, 1, 0}};
+    scene.add(Moving<Quad>{square, {100, 0, 0}}, black, Rgb{1});
     scene.add(PointLight{.position{0, 0, 5}, .intensity = Rgb{1}});
     const LightChoice choice = light_choice(scene.lights);
     double times = 0;
@@ -881,8 +886,8 @@ TEST_CASE(
     "emission: aimed photons, too, know when they fly and where the lamp is then") {
     Scene<Shapes<Moving<Quad>, Sphere>, Materials<Lambertian, Mirror>> scene;
     const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
-    const Quad lamp{.corner{0, 0, 0}, .edge_u{1, 0, 0}, .edge_v{0, 1, 0}};
-    scene.add(Moving<Quad>{lamp, {100, 0, 0}}, black, Rgb{1});
+    const Quad square{.corner{0, 0, 0}, .edge_u{1, 0, 0}, .edge_v{0, 1, 0}};
+    scene.add(Moving<Quad>{square, {100, 0, 0}}, black, Rgb{1});
     scene.add(Sphere{.center{50, 0, 30}, .radius = 5}, scene.add(Mirror{}));
     scene.add(SunLight{.direction{0, 0, -1}, .irradiance = Rgb{0.001f}});
     const LightChoice choice = light_choice(scene.lights);
@@ -943,4 +948,39 @@ TEST_CASE("emission: how a light aims at each kind of object, and how often") {
         CHECK(double(spot.cone.one_minus_cos) == ljus_test::within(narrow, 1e-2));
         CHECK(spot.cone.axis == Vec3{0, 0, 1});
     }
+}
+
+TEST_CASE("emission: a sun's photons start beside the scene, wherever they are aimed") {
+    Scene<Shapes<Sphere>, Materials<Lambertian>> scene;
+    const auto grey = scene.add(Lambertian{});
+    for (const Vec3& center : {Vec3{-5, 0, 0}, Vec3{5, 1, 2}, Vec3{0, -7, 3}})
+        scene.add(Sphere{.center = center}, grey);
+    scene.add(SunLight{.direction{0.6f, -0.8f, 0}});
+    const Light& sun = scene.lights.back();
+    for (const Vec3& center : {Vec3{-5, 0, 0}, Vec3{5, 1, 2}, Vec3{0, -7, 3}})
+        for (const Vec2& u : {Vec2{0.5f, 0.5f}, Vec2{0.1f, 0.9f}, Vec2{0.8f, 0.3f}}) {
+            const Ray ray = detail::sun_ray(sun, center, 0.5f, u);
+            CHECK(ray.direction == sun.direction);
+            CHECK(double(glm::dot(ray.origin - sun.position, sun.direction)) ==
+                  doctest::Approx(-double(sun.radius)).epsilon(1e-5));
+            const Vec3 beside = glm::cross(ray.origin - center, sun.direction);
+            CHECK(glm::length(beside) < 0.5f); // towards the disc around the centre
+        }
+}
+
+TEST_CASE("emission: what has no size is no target, first or last") {
+    const std::vector<ObjectId> targets{{0, 0}, {0, 1}, {0, 2}, {0, 3}};
+    const double sizes[] = {0, 3, 1, 0};
+    const auto size_of = [&](ObjectId id) { return sizes[id.index]; };
+    int second = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const auto chosen = detail::choose_target<double>(targets, size_of, i / 1000.0);
+        REQUIRE(chosen);
+        CHECK(chosen->sum == 4);
+        CHECK((chosen->target.index == 1 || chosen->target.index == 2));
+        second += chosen->target.index == 1;
+    }
+    CHECK(second == doctest::Approx(750).epsilon(2e-3));
+    const auto none = [](ObjectId) { return 0.0; };
+    CHECK_FALSE(detail::choose_target<double>(targets, none, 0.5));
 }

@@ -1,6 +1,9 @@
 // concept: oren_nayar
 /// \file eon_test.cpp
 /// \brief EON keeps its energy, and is sampled by its density.
+///
+/// Its statistical cases were run with 20 further seeds (`./scripts/test --seeds 20`):
+/// none failed.
 
 #include "ljus/materials/eon.hpp"
 
@@ -12,6 +15,7 @@
 #include <numbers>
 
 #include "support/bsdf_checks.hpp"
+#include "support/seed.hpp"
 
 using ljus::Eon, ljus::EonT, ljus::Vec3T;
 using namespace ljus_test;
@@ -60,7 +64,7 @@ L printed(L rho, L r, const Vec3T<T>& wo, const Vec3T<T>& wi) {
 TEST_CASE_TEMPLATE("eon: within 64 roundoffs of the printed formula", T, float,
                    double) {
     const L u = std::numeric_limits<T>::epsilon() / 2;
-    Draws draws;
+    Draws draws{ljus_test::test_seed(1)};
     L worst = 0;
     for (int i = 0; i < 50000; ++i) {
         // Long double loses the printed form's differences below.
@@ -152,7 +156,7 @@ TEST_CASE("eon: directions agree with their density over 100 seeds") {
                 expected[cell(d)] += pdf(m, wo, d) * 2 * std::numbers::pi * count /
                                      (rows * fine * columns * fine);
             }
-        Draws draws{seed + 77};
+        Draws draws{ljus_test::test_seed(seed + 77)};
         for (int i = 0; i < count; ++i) {
             const auto s =
                 sample(m, wo, draws.cube<double>(), ljus::Transport::radiance);
@@ -169,7 +173,7 @@ TEST_CASE(
     "eon: its lobe scatters less than cosine-weighted directions where it is rough") {
     const EonT<double> m{ljus::RgbT<double>{0.8}, 1.0};
     const auto wo = at_degrees<double>(75);
-    Draws draws{12};
+    Draws draws{ljus_test::test_seed(12)};
     double lobe = 0, lobe2 = 0, cosine = 0, cosine2 = 0;
     constexpr int count = 20000;
     for (int i = 0; i < count; ++i) {
@@ -202,7 +206,7 @@ TEST_CASE("eon: what is no albedo and no roughness is refused") {
 }
 
 TEST_CASE("eon: the back is the front's mirror image, in value, density and sample") {
-    Draws draws;
+    Draws draws{ljus_test::test_seed(1)};
     for (int i = 0; i < 4000; ++i) {
         const EonT<double> surface{.albedo{0.9, 0.5, 0.1},
                                    .roughness = draws.between(0.0, 1.0)};

@@ -54,9 +54,8 @@ double largest_error(const Renderer& renderer, const ljus::RgbT<T>& reflectance)
 
 } // namespace
 
-TEST_CASE_TEMPLATE(
-    "facing_mirrors: n reflections leave R^n in both renderers", T, float,
-    double) {
+TEST_CASE_TEMPLATE("facing_mirrors: n reflections leave R^n in both renderers", T,
+                   float, double) {
     const ljus::RgbT<T> reflectance{T(0.95), T(0.9), T(0.8)};
     const auto scene = hall(reflectance);
     const double most = 45 * double(std::numeric_limits<T>::epsilon());

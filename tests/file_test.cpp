@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -8,12 +9,27 @@
 #include "scratch_folder.hpp"
 
 #if __has_include(<sys/resource.h>)
+#include <cerrno>
 #include <csignal>
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#endif
+
+#ifdef __linux__
+namespace {
+int sync_error = 0; ///< What fsync() shall report.
+}
+
+/// In place of the library's: what no disk that works will say. Nothing is asked of the
+/// disk, which is slow.
+extern "C" int fsync(int) {
+    if (sync_error == 0) return 0;
+    errno = sync_error;
+    return -1;
+}
 #endif
 
 namespace {
@@ -147,6 +163,61 @@ TEST_CASE("file: who may read it stays the same, and what nobody may write stays
     CHECK(folder.count() == 1);
 }
 
+#ifdef __linux__
+TEST_CASE("file: what the disk refuses is told, and what it cannot do is not asked") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("a");
+    ScratchFolder::write(path, "older");
+    for (const int error : {EIO, ENOSPC}) {
+        sync_error = error;
+        CHECK(message_of_save(path, bytes_of("newer")) ==
+              "cannot write '" + path + "': " + std::strerror(error) + ".");
+        CHECK(ScratchFolder::read(path) == "older");
+        CHECK(folder.count() == 1);
+    }
+    for (const int error : {EINVAL, ENOTSUP}) { // a file system without it
+        sync_error = error;
+        CHECK(message_of_save(path, bytes_of(std::strerror(error))) == "saved");
+        CHECK(ScratchFolder::read(path) == std::strerror(error));
+    }
+    sync_error = 0;
+}
+#endif
+
+TEST_CASE("file: where no file can be without a name it has one from the beginning") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("a");
+    ScratchFolder::write(path, "older");
+    ScratchFolder::write(folder.file("a.part0"), "someone's");
+    {
+        ljus::detail::FileBeside file(path, false);
+        CHECK(std::filesystem::exists(folder.path / "a.part1"));
+        file.write(bytes_of("newer"));
+        file.close();
+        CHECK(ScratchFolder::read(folder.file("a.part1")) == "newer");
+        CHECK(ScratchFolder::read(path) == "older");
+        file.rename_to_path();
+    }
+    CHECK(ScratchFolder::read(path) == "newer");
+    CHECK(folder.count() == 2);
+    { // given up before it is whole, and after
+        const ljus::detail::FileBeside file(path, false);
+        CHECK(folder.count() == 3);
+    }
+    {
+        ljus::detail::FileBeside file(path, false);
+        file.close();
+    }
+    CHECK(folder.count() == 2);
+    CHECK(ScratchFolder::read(folder.file("a.part0")) == "someone's");
+    // One that cannot be is refused at once, not when all has been written.
+    const std::string long_name = folder.file(std::string(250, 'x'));
+    for (const bool nameless : {true, false})
+        CHECK_THROWS_WITH(
+            ljus::detail::FileBeside(long_name, nameless),
+            ("cannot write '" + long_name + "': File name too long.").c_str());
+}
+
 TEST_CASE("file: what others have left beside it does not block a save") {
     const ScratchFolder folder;
     for (int i = 0; i < 150; ++i)
@@ -160,7 +231,7 @@ TEST_CASE("file: a program that is killed while it saves leaves the older file, 
           "nothing where files can be without a name") {
     const ScratchFolder folder;
     const std::string path = folder.file("a");
-    const ljus::Bytes first(300'000, 'a'), second(300'000, 'b');
+    const ljus::Bytes first(6'000'000, 'a'), second(6'000'000, 'b');
     ljus::save_file(path, first);
     for (int round = 0; round < 40; ++round) {
         const ::pid_t child = ::fork();
@@ -171,7 +242,7 @@ TEST_CASE("file: a program that is killed while it saves leaves the older file, 
         REQUIRE(::kill(child, SIGKILL) == 0);
         int status = 0;
         REQUIRE(::waitpid(child, &status, 0) == child);
-        const ljus::Bytes found = ljus::load_file(path, 1'000'000);
+        const ljus::Bytes found = ljus::load_file(path, 10'000'000);
         REQUIRE((found == first || found == second));
     }
     CHECK(message_of_save(path, first) == "saved");

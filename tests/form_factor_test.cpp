@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "support/form_factor_facing.hpp"
+#include "support/numbers.hpp"
 
 using ljus::Facet;
+using ljus_test::Numbers;
 
 namespace {
 
@@ -18,19 +20,6 @@ using V = glm::dvec3;
 Facet rectangle(const V& corner, const V& u, const V& v) {
     return {{corner, corner + u, corner + u + v, corner + v}, 4};
 }
-
-/// Numbers of its own: uniform in [-1, 1).
-struct Numbers {
-    std::uint64_t state = 1;
-    double next() {
-        state = state * 6364136223846793005u + 1442695040888963407u;
-        return double(state >> 11) / 4503599627370496.0 - 1;
-    }
-    V point() {
-        const double x = next(), y = next();
-        return {x, y, next()};
-    }
-};
 
 /// The definition: cos cos / (pi r^2) over both areas, by Gauss's rule of 5 points in
 /// each of the four coordinates, on n x n pieces of each rectangle.
@@ -115,12 +104,12 @@ TEST_CASE("exchange_area: rectangles that face each other or stand on each other
 TEST_CASE("exchange_area: quads anywhere, by the definition") {
     Numbers numbers;
     for (int i = 0; i < 60; ++i) {
-        const V u = numbers.point(), v = numbers.point();
-        const V s = numbers.point(), t = numbers.point();
+        const V u = numbers.point(1), v = numbers.point(1);
+        const V s = numbers.point(1), t = numbers.point(1);
         const Facet a = rectangle(-(u + v) / 2.0, u, v);
         const V up = glm::normalize(ljus::detail::area_vector(a));
         // So far up that all of it is in front; turned so that it faces downwards.
-        Facet b = rectangle(4.0 * up + 0.3 * numbers.point() - (s + t) / 2.0, s, t);
+        Facet b = rectangle(4.0 * up + 0.3 * numbers.point(1) - (s + t) / 2.0, s, t);
         if (glm::dot(ljus::detail::area_vector(b), up) > 0) b = ljus::detail::turned(b);
         if (glm::dot(glm::normalize(ljus::detail::area_vector(b)), up) > -0.8) continue;
         const double right = quadrature(a, b, 2);
@@ -136,9 +125,9 @@ TEST_CASE("exchange_area: reciprocity, however two triangles lie") {
     double worst = 0;
     int seen = 0;
     for (int i = 0; i < 400; ++i) {
-        const V p = numbers.point(), q = numbers.point();
-        const Facet a{{p, p + numbers.point(), p + numbers.point()}, 3};
-        Facet b{{q, q + numbers.point(), q + numbers.point()}, 3};
+        const V p = numbers.point(1), q = numbers.point(1);
+        const Facet a{{p, p + numbers.point(1), p + numbers.point(1)}, 3};
+        Facet b{{q, q + numbers.point(1), q + numbers.point(1)}, 3};
         if (i % 4 == 1) b.corners[0] = a.corners[0];                 // a common corner
         if (i % 4 == 2) b.corners = {a.corners[1], a.corners[0], q}; // a common edge
         if (i % 4 == 3) b.corners[0] = (a.corners[0] + 2.0 * a.corners[1]) / 3.0;
@@ -156,8 +145,8 @@ TEST_CASE("exchange_area: reciprocity, however two triangles lie") {
     CHECK(seen > 200);
     // Along the axes: 1e-12 of the smaller one's area, at any place.
     for (int i = 0; i < 200; ++i) {
-        const V p = 3.0 * numbers.point();
-        const double w = 1 + numbers.next(), h = 1 + numbers.next();
+        const V p = 3.0 * numbers.point(1);
+        const double w = 1 + numbers.between(-1, 1), h = 1 + numbers.between(-1, 1);
         const Facet a = rectangle({}, {1, 0, 0}, {0, 1, 0});
         const Facet b = i % 2 == 0 ? rectangle(p, {0, w, 0}, {h, 0, 0})
                                    : rectangle(p, {0, w, 0}, {0, 0, h});
@@ -170,7 +159,7 @@ TEST_CASE("exchange_area: in a closed room all light arrives somewhere") {
     Numbers numbers;
     for (int i = 0; i < 12; ++i) {
         const auto sides = tetrahedron(
-            {numbers.point(), numbers.point(), numbers.point(), numbers.point()});
+            {numbers.point(1), numbers.point(1), numbers.point(1), numbers.point(1)});
         for (const Facet& from : sides) {
             double sum = 0;
             for (const Facet& to : sides)
@@ -245,8 +234,8 @@ TEST_CASE("form_factor: from a point, by Lambert") {
     };
     Numbers numbers;
     for (int i = 0; i < 100; ++i) {
-        const V point = 0.99 * numbers.point();
-        const V normal = glm::normalize(numbers.point());
+        const V point = 0.99 * numbers.point(1);
+        const V normal = glm::normalize(numbers.point(1));
         double sum = 0;
         for (const Facet& side : cube) sum += form_factor_at(point, normal, side);
         CHECK(sum == doctest::Approx(1).epsilon(1e-12));

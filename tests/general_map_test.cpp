@@ -6,6 +6,7 @@
 // of their lamps: of 54 families with other seeds two failed.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -16,8 +17,8 @@
 #include "ljus/inspect/survey.hpp"
 #include "ljus/photons/density_estimate.hpp"
 #include "ljus/render/photon_mapping.hpp"
+#include "support/draws.hpp"
 #include "support/mean.hpp"
-#include "support/photon_samples.hpp"
 #include "support/rooms.hpp"
 #include "support/within.hpp"
 
@@ -176,9 +177,11 @@ TEST_CASE("general map: direct and indirect photons of a box are its radiosity")
         const RoomT<float> scene = box_scene(turned);
         std::array<Mean, 24> direct_seen, indirect_seen, total_seen;
         for (int seed = 1; seed <= seeds; ++seed) {
-            const auto traced = trace_photons(
-                scene, MapType::general,
-                {.photons = 10000, .seed = std::uint64_t(100 + seed), .threads = 1});
+            const auto traced =
+                trace_photons(scene, MapType::general,
+                              {.photons = 10000,
+                               .seed = test_seed(std::uint64_t(100 + seed)),
+                               .threads = 1});
             std::array<double, 24> d{}, i{};
             int shadows = 0; // nothing hides anything, but by rounding along an edge
             for (const Photon& photon : traced.photons) {
@@ -310,9 +313,11 @@ TEST_CASE("general map: direct + shadow = the light that nothing hides, for each
 
         std::vector<std::array<std::array<Mean, 3>, 3>> seen(cells.size());
         for (int seed = 1; seed <= seeds; ++seed) {
-            const auto traced = trace_photons(
-                scene, MapType::general,
-                {.photons = 10000, .seed = std::uint64_t(100 + seed), .threads = 1});
+            const auto traced =
+                trace_photons(scene, MapType::general,
+                              {.photons = 10000,
+                               .seed = test_seed(std::uint64_t(100 + seed)),
+                               .threads = 1});
             std::vector<std::array<Arriving, 3>> sums(cells.size());
             for (const Photon& photon : traced.photons) {
                 if (photon.kind == PhotonKind::indirect) continue;
@@ -500,13 +505,14 @@ TEST_CASE("general map: variance falls with 1/(N r^2), bias^2 grows with r^4, an
         std::vector<std::vector<Mean>> seen(radii.size(),
                                             std::vector<Mean>(places.size()));
         for (int seed = 1; seed <= 16; ++seed) {
-            const auto map = make_photon_map(trace_photons(scene, MapType::general,
-                                                           {.photons = number,
-                                                            .seed = std::uint64_t(seed),
-                                                            .max_bounces = 1,
-                                                            .shadow_photons = false,
-                                                            .threads = 1})
-                                                 .photons);
+            const auto map =
+                make_photon_map(trace_photons(scene, MapType::general,
+                                              {.photons = number,
+                                               .seed = test_seed(std::uint64_t(seed)),
+                                               .max_bounces = 1,
+                                               .shadow_photons = false,
+                                               .threads = 1})
+                                    .photons);
             for (std::size_t r = 0; r < radii.size(); ++r)
                 for (std::size_t p = 0; p < places.size(); ++p)
                     seen[r][p].add(irradiance(map, Vec3(places[p]), {0, 0, 1}, radii[r],
@@ -549,7 +555,7 @@ namespace {
 /// x above a limit; each brings 1/n^2, so that the irradiance is 1.
 PhotonMap even_floor(int n, double from_x) {
     std::vector<Photon> photons;
-    photon_test::Numbers numbers;
+    ljus_test::Draws numbers;
     for (int i = 0; i < n * n; ++i) {
         const double x = (i % n + numbers.unit()) / n, y = (i / n + numbers.unit()) / n;
         if (x > from_x)
@@ -693,13 +699,13 @@ TEST_CASE("general map: what the presets ask for") {
     CHECK(draft.gather.rays == 16);
     CHECK(draft.gather.tile == 5);
     const auto fast = preset_settings(Preset::fast, 400, 300);
-    CHECK(fast.general.photons == 120000); // as many as pixels
-    CHECK(fast.caustics.photons == 60000);
+    CHECK(fast.general.photons == 84000); // seven tenths of the pixels
+    CHECK(fast.caustics.photons == 84000);
     CHECK(fast.shadow_rays == 4);
     CHECK(fast.direct == DirectLight::analytic);
     CHECK(fast.indirect == IndirectLight::cache);
-    CHECK(fast.gather.rays == GatherSettings{}.rays);
-    CHECK(fast.gather.tile == GatherSettings{}.tile);
+    CHECK(fast.gather.rays == 36);
+    CHECK(fast.gather.tile == 4);
     const auto exact = preset_settings(Preset::exact, 400, 300);
     CHECK(exact.caustics.photons == 2000000);
     CHECK(exact.direct == DirectLight::mis);
@@ -715,8 +721,9 @@ TEST_CASE("general map: what the presets ask for") {
     for (const Preset preset : {Preset::draft, Preset::fast}) {
         CHECK(preset_settings(preset, 10, 10).general.photons == 10000);
         CHECK(preset_settings(preset, 20000, 20000).general.photons == 1000000);
-        CHECK(preset_settings(preset, 20000, 20000).caustics.photons == 500000);
     }
+    CHECK(preset_settings(Preset::draft, 20000, 20000).caustics.photons == 500000);
+    CHECK(preset_settings(Preset::fast, 20000, 20000).caustics.photons == 1000000);
     CHECK(detail::gathers(IndirectLight::map));
     CHECK(detail::gathers(IndirectLight::gather));
     CHECK(detail::gathers(IndirectLight::cache));
@@ -798,6 +805,15 @@ TEST_CASE("general map: which maps are made for what, and which photons they kee
     CHECK(both.verdicts.dark_known);
     CHECK(kinds(both.general) == (direct | indirect));
     CHECK(both.general_audit.cut.x == 0);
+    // What the verdicts alone asked for goes again, and no caustic with it.
+    const auto fewer = make([](auto& s) {
+        s.skip.rule = SkipRule::any;
+        s.indirect = IndirectLight::gather;
+    });
+    CHECK_FALSE(fewer.verdicts.empty());
+    CHECK(kinds(fewer.general) == indirect);
+    CHECK(kinds(fewer.caustics) == caustic);
+    CHECK(fewer.caustics.records.size() == rays.caustics.records.size());
     // A cache is made if it is asked for, and not else.
     const Camera camera = room_camera<float>();
     const RenderSettings picture{.width = 12, .height = 12, .samples = 1, .threads = 1};
@@ -815,8 +831,14 @@ TEST_CASE("general map: which maps are made for what, and which photons they kee
     add_walls(far);
     add_lamps(far, Lamp::quad, 1);
     far.add(Sphere{.center{4e5f, 0, 0}, .radius = 0.01f}, far.add(Glass{}));
-    const auto said = maps_of([](auto& s) { s.caustics.give_up = 100; }, far).remarks;
+    const auto in_vain = [](auto& s) {
+        s.caustics.photons = 100000;
+        s.caustics.give_up = 3000;
+    };
+    const auto said = maps_of(in_vain, far).remarks;
     CHECK(said.find("float keeps") != std::string::npos);
+    CHECK(said.find("\ngave up after") != std::string::npos);
+    CHECK(std::count(said.begin(), said.end(), '\n') == 2);
     CHECK(said.ends_with("\n"));
     // Whoever stops a pass has maps that are not complete.
     const auto stop = [](long long, long long) { return false; };
@@ -887,7 +909,7 @@ TEST_CASE("general map: a mapper's radii, and the maps that it asks") {
         how.keep_general_map = true;
         how.caustics.photons = with_caustics ? 2000 : 0;
         const auto made = make_photon_maps(room, how);
-        auto stream = random_stream(1, Pass::user, 0, 0);
+        auto stream = random_stream(test_seed(1), Pass::user, 0, 0);
         Counts counts;
         (void)radiance(make_photon_mapper(room, made, how),
                        Ray{.origin{0, 0.6f, 0.5f}, .direction{-1, 0, 0}}, stream,

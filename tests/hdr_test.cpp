@@ -8,6 +8,7 @@
 
 #include "ljus/io/hdr.hpp"
 #include "scratch_folder.hpp"
+#include "support/refusal.hpp"
 
 // A second opinion: the reader and the writer of the stb collection.
 #if (__has_include(<stb/stb_image.h>) && __has_include(<stb/stb_image_write.h>)) || \
@@ -68,15 +69,7 @@ double largest_error(const ljus::Image& a, const ljus::Image& b) {
 }
 
 std::string message_of_load(const std::string& path) {
-    try {
-        (void)ljus::load_hdr(path);
-    } catch (const std::runtime_error& error) {
-        const std::string text = error.what();
-        const std::string start = "cannot read '" + path + "': ";
-        CHECK(text.starts_with(start));
-        return text.substr(start.size());
-    }
-    return "loaded";
+    return ljus_test::why_not_read(path, [&] { (void)ljus::load_hdr(path); });
 }
 
 } // namespace
@@ -155,6 +148,27 @@ TEST_CASE("hdr: another reader sees the same image") {
         CHECK(wrong == 0);
         stbi_image_free(other);
     }
+}
+
+TEST_CASE("hdr: the ends of what the format holds, and a pixel beyond them by place") {
+    // Below 2^-128 there is no exponent left: black, and not the largest one.
+    for (int e = -126; e >= -140; --e) {
+        const auto rgbe = ljus::detail::to_rgbe({std::ldexp(0.75, e), 0, 0});
+        CHECK(int(rgbe[3]) == (e >= -127 ? e + 128 : 0));
+        CHECK(int(rgbe[0]) == (e >= -127 ? 192 : 0));
+    }
+    const ScratchFolder folder;
+    auto image = ljus::make_image<double>(3, 2);
+    pixel(image, 2, 1) = {0, 1.68e38, 0};
+    CHECK_NOTHROW(ljus::save_hdr(image, folder.file("a.hdr")));
+    pixel(image, 2, 1) = {0, 2e38, 0};
+    CHECK_THROWS_WITH_AS(ljus::save_hdr(image, folder.file("b.hdr")),
+                         doctest::Contains("Pixel (2, 1) has a channel of 19999"),
+                         std::invalid_argument);
+    pixel(image, 2, 1) = {0, 0, -0.5};
+    CHECK_THROWS_WITH_AS(ljus::save_hdr(image, folder.file("b.hdr")),
+                         doctest::Contains("Pixel (2, 1) has a channel of -0.5"),
+                         std::invalid_argument);
 }
 
 TEST_CASE("hdr: the run-length coded file of another writer is read") {

@@ -124,3 +124,106 @@ TEST_CASE(
     CHECK(indexed.size() > detail::flat_loop_limit);
     CHECK(indexed.ids.size() == indexed.size());
 }
+
+namespace {
+
+/// A point of a shape: one of its border where there is one, as often as not.
+template <typename T>
+Vec3T<T> place_on(Numbers& n, const QuadT<T>& quad) {
+    const T u = n.below(2) ? T(n.below(2)) : T(n.next());
+    const T v = n.below(2) ? T(n.below(2)) : T(n.next());
+    return quad.corner + u * quad.edge_u + v * quad.edge_v;
+}
+template <typename T>
+Vec3T<T> place_on(Numbers& n, const TriangleT<T>& triangle) {
+    const T u = n.below(2) ? T(n.below(2)) : T(n.next());
+    return triangle.v1 + u * (triangle.v2 - triangle.v1) +
+           (n.below(2) ? T(0) : (T(1) - u) * T(n.next())) *
+               (triangle.v3 - triangle.v1);
+}
+template <typename T>
+Vec3T<T> place_on(Numbers& n, const SphereT<T>& ball) {
+    return ball.center + ball.radius * Vec3T<T>(n.direction());
+}
+
+/// As a ray that leaves a shape has it, or one that meets its border or its outline.
+template <typename S>
+Ray hard_ray(Numbers& n, const S& scene) {
+    const auto any = [&] {
+        auto i = std::size_t(n.below(int(scene.size())));
+        std::optional<Vec3> place;
+        std::apply(
+            [&](const auto&... lists) {
+                const auto take = [&](const auto& list) {
+                    if (!place && i < list.size()) place = place_on(n, list[i]);
+                    i -= list.size();
+                };
+                (take(lists), ...);
+            },
+            scene.shapes);
+        return *place;
+    };
+    const Vec3 from = any(), to = any();
+    const SurfacePoint here{from, Vec3{2e-7f} * detail::sizes(from),
+                            Vec3(n.direction())};
+    if (n.below(2)) return spawn_ray(here, Vec3(n.direction()));
+    const SurfacePoint there{to, Vec3{2e-7f} * detail::sizes(to), Vec3(n.direction())};
+    if (n.below(2)) return spawn_ray_to(here, there);
+    // Along the outline of a ball: at right angles to the way to its middle.
+    const auto& balls = std::get<0>(scene.shapes);
+    if (balls.empty()) return {.origin = from, .direction = to - from};
+    const Sphere& ball = balls[std::size_t(n.below(int(balls.size())))];
+    const Vec3 way = glm::normalize(from - ball.center);
+    const Vec3 out = glm::normalize(glm::cross(way, Vec3(n.direction())));
+    const Vec3 edge = ball.center + ball.radius * (out + 1e-4f * way);
+    return {.origin = from, .direction = edge - from};
+}
+
+} // namespace
+
+TEST_CASE("few shapes: the loop's answers where rounding decides") {
+    Numbers n;
+    int hits = 0;
+    for (const int count : {3, 9, 20, 32})
+        for (const double room : {1.0, 30.0, 1e4})
+            for (const double size : {0.01, 1.0, 30.0})
+                for (int i = 0; i < 6; ++i) {
+                    const auto scene = crowd<float>(n, count, room, size);
+                    const auto indexed = index_scene(scene);
+                    for (int k = 0; k < 500; ++k)
+                        hits += same(scene, indexed, hard_ray(n, scene));
+                }
+    CHECK(hits > 10000);
+}
+
+TEST_CASE("few shapes: which scenes a tree is made for") {
+    Numbers n;
+    const auto few = [](const auto& scene) {
+        const auto indexed = index_scene(scene);
+        CHECK(indexed.few.empty() == !indexed.tree.primitive_ids().empty());
+        CHECK(indexed.ids.size() == scene.size());
+        return !indexed.few.empty();
+    };
+    CHECK(few(crowd<float>(n, 32, 5, 1)));
+    CHECK_FALSE(few(crowd<float>(n, 33, 5, 1)));
+    CHECK_FALSE(few(crowd<double>(n, 12, 5, 1)));
+    CrowdT<float> scene = crowd<float>(n, 12, 5, 1);
+    CHECK(index_scene<double>(scene).few.empty());
+    CHECK(index_scene(scene, false).few.empty());
+    CHECK_FALSE(index_scene(scene, false).tree.primitive_ids().empty());
+    const auto grey = scene.add(Lambertian{});
+    scene.add(Quad{{0, 0, 0}, {1, 0, 0}, {1, 1e-7f, 0}}, grey); // a sliver
+    CHECK_FALSE(few(scene));
+    scene = crowd<float>(n, 12, 5, 1);
+    scene.add(Sphere{{1e9f, 0, 0}, 1}, scene.add(Lambertian{}));
+    CHECK_FALSE(few(scene));
+    // Rays from so far away that the bounds do not hold ask every shape.
+    scene = crowd<float>(n, 12, 5, 1);
+    const auto indexed = index_scene(scene);
+    for (const float far : {1e9f, 1e12f})
+        for (int i = 0; i < 1000; ++i) {
+            const Vec3 origin = far * Vec3(n.direction());
+            same(scene, indexed,
+                 Ray{.origin = origin, .direction = Vec3(n.point(5)) - origin});
+        }
+}

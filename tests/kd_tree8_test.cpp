@@ -17,61 +17,61 @@ using ljus::KdTree8;
 using ljus::KdTree8T;
 using ljus::Neighbor;
 using ljus::Vec3;
-using photon_test::brute_force;
-using photon_test::compare_with_brute_force;
-using photon_test::Numbers;
-using photon_test::point_sets;
+using ljus_test::brute_force;
+using ljus_test::compare_with_brute_force;
+using ljus_test::Draws;
+using ljus_test::point_sets;
 
 TEST_CASE("kd_tree8: every search is what asking all points gives") {
-    photon_test::every_search<KdTree8T>();
+    ljus_test::every_search<KdTree8T>();
 }
 
 TEST_CASE("kd_tree8: also in double, and far from the origin") {
-    photon_test::in_double<KdTree8T>();
+    ljus_test::in_double<KdTree8T>();
 }
 
 TEST_CASE("kd_tree8: ten thousand points at once") {
-    photon_test::ten_thousand<KdTree8T>();
+    ljus_test::ten_thousand<KdTree8T>();
 }
 
 TEST_CASE("kd_tree8: the ball is closed, exactly, and it is no cube") {
-    photon_test::closed_ball<KdTree8T>();
+    ljus_test::closed_ball<KdTree8T>();
 }
 
 TEST_CASE("kd_tree8: a ball without an inside finds nothing, NaN finds nothing") {
-    photon_test::no_inside<KdTree8T>();
+    ljus_test::no_inside<KdTree8T>();
 }
 
 TEST_CASE("kd_tree8: a point that is not finite is refused with a sentence") {
-    photon_test::not_finite<KdTree8T>();
+    ljus_test::not_finite<KdTree8T>();
 }
 
 TEST_CASE("kd_tree8: the largest numbers of a float do not overflow") {
-    photon_test::largest_numbers<KdTree8T>();
+    ljus_test::largest_numbers<KdTree8T>();
 }
 
 TEST_CASE("kd_tree8: point_ids() tells where each point came from") {
-    photon_test::order_of_points<KdTree8T>();
+    ljus_test::order_of_points<KdTree8T>();
 }
 
 TEST_CASE("kd_tree8: trees are values") {
-    photon_test::values<KdTree8T>();
+    ljus_test::values<KdTree8T>();
 }
 
 TEST_CASE("kd_tree8: searches on many threads find the same") {
-    photon_test::many_threads<KdTree8T>();
+    ljus_test::many_threads<KdTree8T>();
 }
 
 TEST_CASE("kd_tree8: the smallest numbers of a float are told apart") {
     // Their squares are no floats any more.
-    Numbers numbers{16};
+    Draws numbers{16};
     for (const double size : {1e-25, 1e-22, 1e-20, 1e20, 1e25})
         for (const auto& set : point_sets<float>(300, size, 0))
             compare_with_brute_force<KdTree8>(set, numbers);
 }
 
 TEST_CASE("kd_tree8: more neighbours than are counted go through a heap") {
-    Numbers numbers{17};
+    Draws numbers{17};
     for (const auto& set : point_sets<float>(3000, 1, 0)) {
         const KdTree8 tree{std::span<const Vec3>(set.points)};
         for (const std::size_t k : {511u, 512u, 513u, 700u, 2999u}) {
@@ -126,7 +126,7 @@ TEST_CASE("kd_tree8: the same tree from any number of threads") {
 }
 
 TEST_CASE("kd_tree8: the plain tree finds the same points") {
-    Numbers numbers{18};
+    Draws numbers{18};
     for (const auto& set : point_sets<float>(3000, 1, 0)) {
         const ljus::KdTree plain{std::span<const Vec3>(set.points)};
         const KdTree8 wide{std::span<const Vec3>(set.points)};
@@ -149,7 +149,7 @@ TEST_CASE("kd_tree8: the plain tree finds the same points") {
 
 TEST_CASE("kd_tree8: a million points take 17 bytes each") {
     std::vector<Vec3> points(1'000'000);
-    Numbers numbers{19};
+    Draws numbers{19};
     for (Vec3& point : points) point = numbers.point<float>(1);
     const KdTree8 tree{std::span<const Vec3>(points)};
     CHECK(double(tree.bytes()) / 1e6 < 17.5);
@@ -157,11 +157,11 @@ TEST_CASE("kd_tree8: a million points take 17 bytes each") {
 
 TEST_CASE("kd_tree8: the bytes that it takes are those of its parts") {
     // 17 blocks' worth of points: at least their coordinates and their numbers.
-    const auto set = photon_test::point_sets<float>(1000, 1, 0)[0];
+    const auto set = ljus_test::point_sets<float>(1000, 1, 0)[0];
     const ljus::KdTree8T<float> tree{std::span<const ljus::Vec3>(set.points)};
     CHECK(tree.bytes() >= 1000 * (12 + 4) + 500); // and the boxes of nodes
     CHECK(tree.bytes() <= 1000 * (12 + 4) * 2);
-    const auto more = photon_test::point_sets<float>(8000, 1, 0)[0];
+    const auto more = ljus_test::point_sets<float>(8000, 1, 0)[0];
     const ljus::KdTree8T<float> large{std::span<const ljus::Vec3>(more.points)};
     CHECK(double(large.bytes()) / double(tree.bytes()) ==
           doctest::Approx(8).epsilon(0.2));

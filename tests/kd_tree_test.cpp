@@ -15,8 +15,8 @@ using ljus::KdTreeT;
 using ljus::Neighbor;
 using ljus::Vec3;
 using ljus::Vec3T;
-using photon_test::Numbers;
-using photon_test::point_sets;
+using ljus_test::Draws;
+using ljus_test::point_sets;
 
 namespace {
 
@@ -55,39 +55,39 @@ std::size_t steps_nearest(const KdTreeT<T>& tree, const Vec3T<T>& center,
 } // namespace
 
 TEST_CASE("kd_tree: every search is what asking all points gives") {
-    photon_test::every_search<KdTreeT>();
+    ljus_test::every_search<KdTreeT>();
 }
 
 TEST_CASE("kd_tree: also in double, and far from the origin") {
-    photon_test::in_double<KdTreeT>();
+    ljus_test::in_double<KdTreeT>();
 }
 
 TEST_CASE("kd_tree: ten thousand points at once") {
-    photon_test::ten_thousand<KdTreeT>();
+    ljus_test::ten_thousand<KdTreeT>();
 }
 
 TEST_CASE("kd_tree: the ball is closed, exactly, and it is no cube") {
-    photon_test::closed_ball<KdTreeT>();
+    ljus_test::closed_ball<KdTreeT>();
 }
 
 TEST_CASE("kd_tree: a ball without an inside finds nothing, NaN finds nothing") {
-    photon_test::no_inside<KdTreeT>();
+    ljus_test::no_inside<KdTreeT>();
 }
 
 TEST_CASE("kd_tree: a point that is not finite is refused with a sentence") {
-    photon_test::not_finite<KdTreeT>();
+    ljus_test::not_finite<KdTreeT>();
 }
 
 TEST_CASE("kd_tree: the largest numbers of a float do not overflow") {
-    photon_test::largest_numbers<KdTreeT>();
+    ljus_test::largest_numbers<KdTreeT>();
 }
 
 TEST_CASE("kd_tree: point_ids() tells where each point came from") {
-    photon_test::order_of_points<KdTreeT>();
+    ljus_test::order_of_points<KdTreeT>();
 }
 
 TEST_CASE("kd_tree: trees are values") {
-    photon_test::values<KdTreeT>();
+    ljus_test::values<KdTreeT>();
 }
 
 TEST_CASE("kd_tree: each range is split in the middle, by one of the axes") {
@@ -119,7 +119,7 @@ TEST_CASE("kd_tree: each range is split in the middle, by one of the axes") {
 
 TEST_CASE("kd_tree: no set of points makes a search slow") {
     constexpr std::size_t n = 100000;
-    Numbers numbers{9};
+    Draws numbers{9};
     for (const auto& set : point_sets<float>(n, 1, 0)) {
         CAPTURE(set.name);
         const KdTree tree{std::span<const Vec3>(set.points)};
@@ -160,5 +160,5 @@ TEST_CASE("kd_tree: a search far from all points ends at once") {
 }
 
 TEST_CASE("kd_tree: searches on many threads find the same") {
-    photon_test::many_threads<KdTreeT>();
+    ljus_test::many_threads<KdTreeT>();
 }

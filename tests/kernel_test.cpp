@@ -5,9 +5,8 @@
 
 #include <doctest/doctest.h>
 
+#include "support/integrate.hpp"
 #include <array>
-
-#include "support/photon_samples.hpp"
 
 using ljus::Kernel;
 using ljus::kernel_weight;
@@ -19,7 +18,7 @@ constexpr std::array kernels{Kernel::box, Kernel::cone, Kernel::gaussian,
 
 /// The mean over the unit disc of a power of a kernel, in polar coordinates.
 double mean_over_disc(Kernel kernel, int power) {
-    return photon_test::integrate(0, 1, 16, [&](double r) {
+    return ljus_test::integrate(0, 1, 16, [&](double r) {
         return 2 * r * std::pow(kernel_weight(kernel, r * r), power);
     });
 }

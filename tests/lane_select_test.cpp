@@ -5,11 +5,10 @@
 
 #include <doctest/doctest.h>
 
+#include "support/draws.hpp"
 #include <algorithm>
 #include <cmath>
 #include <vector>
-
-#include "support/photon_samples.hpp"
 
 namespace {
 
@@ -17,7 +16,7 @@ template <typename T>
 void compare_with_sorting() {
     constexpr T infinity = std::numeric_limits<T>::infinity();
     constexpr T most = std::numeric_limits<T>::max();
-    photon_test::Numbers numbers{3};
+    ljus_test::Draws numbers{3};
     for (int repeat = 0; repeat < 20000; ++repeat) {
         const auto n = std::size_t(1 + numbers.below(200));
         const int mode = numbers.below(8);

@@ -2,6 +2,8 @@
 /// \brief What arrives from a sampled light, against closed forms.
 ///
 /// A test of a mean gives a false alarm once in 1.7 million.
+/// Its statistical cases were run with 20 further seeds (`./scripts/test --seeds 20`):
+/// none failed.
 
 #include "ljus/scene/light.hpp"
 
@@ -13,6 +15,8 @@
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/scene/make_scene.hpp"
 #include "support/numbers.hpp"
+#include "support/seed.hpp"
+#include "support/statistics.hpp"
 
 /// A light of a user's own, all that there is of it: a bulb as a shop describes it.
 namespace shop {
@@ -54,7 +58,7 @@ constexpr double pi = std::numbers::pi;
 /// Irradiance at a point with a normal, by one light of a scene: no shadows.
 template <typename Scene>
 Mean irradiance(const Scene& scene, const Vec3& at, const Vec3& up, int count) {
-    Numbers n;
+    Numbers n{ljus_test::test_seed(1)};
     Mean mean;
     for (int i = 0; i < count; ++i) {
         const auto sample =
@@ -86,6 +90,25 @@ static_assert(LightSource<PointLight> && LightSource<SpotLight> &&
 static_assert(LightSource<shop::Bulb> && LightSource<shop::BulbT<double>>);
 static_assert(!LightSource<shop::Unchecked> && !LightSource<Sphere> &&
               !LightSource<Lambertian> && !LightSource<Light>);
+
+TEST_CASE("light: what add() has worked out is what the shape says") {
+    const auto scene =
+        make_scene(placed(Quad{.corner{-1, 2, -1}, .edge_u{2, 0, 0}, .edge_v{0, 0, 1}},
+                          Lambertian{}, Rgb{3}));
+    auto anew = scene.lights.at(0);
+    CHECK(anew.area == 2);
+    anew.area = 0; // not worked out
+    for (const float u : {0.125f, 0.5f, 0.75f}) {
+        const auto a = sample_light(scene, scene.lights[0], Vec3{0}, Vec2{u, 0.25f});
+        const auto b = sample_light(scene, anew, Vec3{0}, Vec2{u, 0.25f});
+        REQUIRE(a);
+        REQUIRE(b);
+        CHECK(a->wi == b->wi);
+        CHECK(double(a->pdf) == doctest::Approx(double(b->pdf)).epsilon(1e-5));
+        CHECK(double(a->weight.x) ==
+              doctest::Approx(double(b->weight.x)).epsilon(1e-5));
+    }
+}
 
 TEST_CASE("light: a light of a user's own takes two functions") {
     const Vec3 at{0, 2, 0};
@@ -139,10 +162,10 @@ TEST_CASE("light: a room made of a lamp gives pi L everywhere in it") {
         CHECK(irradiance(scene, at, glm::normalize(Vec3{1, 2, 1}), 100000)
                   .agrees_with(2 * pi));
     // From outside it is dark.
-    CHECK(irradiance(scene, Vec3{0, -9, 0}, Vec3{0, 1, 0}, 100).value() == 0);
+    CHECK(irradiance(scene, Vec3{0, -9, 0}, Vec3{0, 1, 0}, 100).mean == 0);
     // And a lamp that is not inside out is dark within.
     const auto lamp = make_scene(placed(Sphere{.radius = 5}, Lambertian{}, Rgb{2}));
-    CHECK(irradiance(lamp, Vec3{0, 1, 0}, Vec3{0, 1, 0}, 100).value() == 0);
+    CHECK(irradiance(lamp, Vec3{0, 1, 0}, Vec3{0, 1, 0}, 100).mean == 0);
 }
 
 TEST_CASE("light: a square lamp above, by the form factor to a small element") {
@@ -161,8 +184,7 @@ TEST_CASE("light: a square lamp above, by the form factor to a small element") {
         CHECK(irradiance(scene, Vec3{0}, Vec3{0, 1, 0}, 200000)
                   .agrees_with(4 * pi * corner(1, 1, double(height))));
         // Its back is dark.
-        CHECK(irradiance(scene, Vec3{0, height + 1, 0}, Vec3{0, -1, 0}, 100).value() ==
-              0);
+        CHECK(irradiance(scene, Vec3{0, height + 1, 0}, Vec3{0, -1, 0}, 100).mean == 0);
     }
 }
 
@@ -175,7 +197,7 @@ TEST_CASE("light: two triangles shine as their quad does") {
     const Mean e1 = irradiance(low, at, up, 100000),
                e2 = irradiance(high, at, up, 100000);
     const Mean e = irradiance(quad, at, up, 100000);
-    CHECK(std::abs(e1.value() + e2.value() - e.value()) <
+    CHECK(std::abs(e1.mean + e2.mean - e.mean) <
           5 * (e1.error() + e2.error() + e.error()));
 }
 
@@ -399,4 +421,18 @@ TEST_CASE("light: what no picture can be made with is refused, and a sample face
     const auto seen = sample_light(room, room.lights.back(), Vec3{0}, Vec2{0.5f, 0.5f});
     REQUIRE(seen);
     CHECK(glm::distance(seen->point.normal, Vec3{0, -0.6f, -0.8f}) < 1e-6f);
+    // At the border of a cone that does not fade it is not dark.
+    CHECK(detail::spot_share(Light{.direction{0, -1, 0}, .inner = 1, .outer = 1},
+                             Vec3{1, 0, 0}) == 1);
+    room.add(SunLight{.direction{0, -0.6f, -0.8f}});
+    const auto sun = sample_light(room, room.lights.back(), Vec3{0}, Vec2{0.5f, 0.5f});
+    REQUIRE(sun);
+    CHECK(glm::distance(sun->point.normal, Vec3{0, -0.6f, -0.8f}) < 1e-6f);
+    // So small and far that its density is beyond all numbers: no light, and no 0 / 0.
+    using Lamps = Scene<Shapes<Quad>, Materials<Lambertian>>;
+    Lamps far;
+    far.add(Quad{.edge_u{1e-15f, 0, 0}, .edge_v{0, 1e-15f, 0}}, far.add(Lambertian{}),
+            Rgb{1e12f});
+    CHECK_FALSE(sample_light(far, far.lights[0], Vec3{0, 0, 1e6f}, Vec2{0.5f, 0.5f}));
+    CHECK(sample_light(far, far.lights[0], Vec3{0, 0, 1}, Vec2{0.5f, 0.5f}));
 }

@@ -16,6 +16,7 @@
 #include "ljus/scenes/cornell_box.hpp"
 #include "ljus/scenes/furnaces.hpp"
 #include "support/numbers.hpp"
+#include "support/refusal.hpp"
 #include "support/within.hpp"
 
 using namespace ljus;
@@ -99,13 +100,8 @@ TEST_CASE("light_transport: classes of paths, 120 random ones beside std::regex"
 }
 
 TEST_CASE("light_transport: an expression that is none is refused with its place") {
-    const auto refusal = [](const char* words) -> std::string {
-        try {
-            (void)light_path_expression(words);
-        } catch (const std::invalid_argument& error) {
-            return error.what();
-        }
-        return "";
+    const auto refusal = [](const char* words) {
+        return ljus_test::refusal([&] { (void)light_path_expression(words); });
     };
     CHECK(refusal("ES*L") == "");
     CHECK(refusal("EXL") ==
@@ -196,6 +192,10 @@ TEST_CASE("light_transport: g is 1/r^2 where points see each other, and else 0")
     CHECK(seen == Approx(share).epsilon(1e-4));
     CHECK(half == Approx(below_half).epsilon(1e-12));
     CHECK(transport_factor(open, floor, floor) == 0);
+    const auto at = [](double right, double up, double back) {
+        return SurfacePointT<double>{.position{right, up, back}, .normal{0, 0, 1}};
+    };
+    CHECK(transport_factor(open, at(7, 8, -9), at(8, 6, -7)) == Approx(1.0 / 9));
 }
 
 TEST_CASE("light_transport: in a furnace each bounce has its power of the albedo") {

@@ -392,6 +392,8 @@ TEST_CASE("load_json: textures by a plane, a globe and the shape's own coordinat
     CHECK(color(R"(, "map": "uv")", here, {0.25f, 0.25f}) == 1);
     CHECK(color(R"(, "map": "uv")", here, {0.25f, 0.625f}) == 0);
     CHECK(color(R"(, "map": "uv", "scale": [1, 2])", here, {0.25f, 0.625f}) == 1);
+    CHECK(color(R"(, "map": "uv", "scale": [2, 1])", here, {0.625f, 0.25f}) !=
+          color(R"(, "map": "uv")", here, {0.625f, 0.25f}));
     CHECK(color(R"(, "map": "uv", "rows": 4)", here, {0.25f, 0.625f}) == 1);
     CHECK(color(R"(, "map": "globe", "center": [0, 0, 0])", {1, 1, -0.1f}, {}) == 0);
     CHECK(color(R"(, "map": "globe", "center": [0, 0, 0])", {1, -1, -0.1f}, {}) == 1);
@@ -567,6 +569,25 @@ TEST_CASE("load_json: broken JSON is refused with line and column") {
           std::string::npos);
 }
 
+TEST_CASE("load_json: a name is not endless, materials have names") {
+    const LoadedScene loaded = read_json_scene(
+        changed("\"four things\"", "\"" + std::string(250, 'x') + "\""), "a.json");
+    CHECK(loaded.name == std::string(200, 'x') + "...");
+    std::string list = good;
+    const std::size_t begin = list.find("\"materials\": {") + 13;
+    list.replace(begin, list.find("\"objects\"") - begin, "[], ");
+    CHECK(refusal(list) == "a.json: materials is []; it must be an object.");
+}
+
+TEST_CASE("load_json: a mesh is refused where nobody reads its file") {
+    for (const char* const normals : {"", R"(, "normals": "smooth")"}) {
+        std::string mesh = R"("objects": [{"type": "mesh", "file": "m.obj", )";
+        mesh.append(R"("material": "matt")").append(normals).append("}, ");
+        CHECK(refusal("\"objects\": [", mesh)
+                  .starts_with("m.obj: meshes are not read here; "));
+    }
+}
+
 TEST_CASE("load_json: files") {
     const ScratchFolder folder;
     ScratchFolder::write(folder.file("scene.json"), good);
@@ -595,6 +616,14 @@ TEST_CASE("load_json: so many values that memory would end are refused") {
     CHECK(refusal(many(1'100'000, "[]")) == sentence);
     CHECK(refusal(many(700'000, R"({"a":1})")) == sentence);
     CHECK(refusal(many(100'000, "[1,2,3]")) != sentence);
+    // To the last one: 4 for the list, 4 for each list or object and member in it.
+    constexpr std::size_t room = 4'194'304 - 4;
+    CHECK(refusal(many(room / 4, "[]")) != sentence);
+    CHECK(refusal(many(room / 4 + 1, "[]")) == sentence);
+    CHECK(refusal(many(room / 9, R"({"a":1})")) != sentence);
+    CHECK(refusal(many(room / 9 + 1, R"({"a":1})")) == sentence);
+    CHECK(refusal(many(room, "1")) != sentence);
+    CHECK(refusal(many(room + 1, "1")) == sentence);
 }
 
 TEST_CASE("load_json: hundreds of soap films are refused before all are made") {

@@ -198,6 +198,29 @@ TEST_CASE("load_obj: random polygons are cut into triangles that all turn one wa
     }
 }
 
+TEST_CASE("load_obj: the corners beside an ear are asked again when it is cut off") {
+    // Here the one before it is an ear no longer.
+    const std::vector<glm::dvec3> corners{{7, 8, 0}, {6, 6, 0}, {6, 3, 0},
+                                          {1, 2, 0}, {7, 0, 0}, {6, 2, 0}};
+    const auto triangles = detail::cut_polygon(corners);
+    REQUIRE(triangles.size() == 4);
+    for (const auto& t : triangles)
+        CHECK(
+            glm::cross(corners[t[1]] - corners[t[0]], corners[t[2]] - corners[t[0]]).z >
+            0);
+}
+
+TEST_CASE("load_obj: a plus sign, and a normal that is none") {
+    const auto loaded = read_obj("v +0 0 0\nv +1.5 0 0\nv 0 +1 0\nvn 0 0 0\nvn 0 0 +2\n"
+                                 "f 1//1 2//2 3//2\n",
+                                 "x");
+    const MeshData& data = loaded.parts.at(0).mesh.data();
+    CHECK(data.positions[1] == Vec3{1.5f, 0, 0});
+    CHECK(data.normals.empty()); // the face is flat
+    CHECK(loaded.report[ObjTrouble::bad_normal].count == 1);
+    CHECK(loaded.report[ObjTrouble::bad_number].count == 0);
+}
+
 TEST_CASE("load_obj: many corners, in and out, are cut in no time") {
     // Stars: every second corner is hollow. A second or two in n^2, not in n^3.
     constexpr int count = 1000;
@@ -488,13 +511,14 @@ TEST_CASE("load_obj: which words of a material file make a mirror or glass") {
     use("pale", "Kd 7 8 9\nKs -7 -8 -9\nKe -1 2e12 2e12\n");
     use("bright", "Kd 0.25 0.5 1.5\nKs -1 0.5 2\nKe 7 nan -1\nNi 2000\n");
     use("dark", "Kd nan 0 1\nKe 2e12 1e12 1\nNi 0\nd -1\n");
+    use("long", "Ni 1.25e4294967295\n"); // -1 in 32 bits
     ScratchFolder::write(folder.file("a.mtl"), library);
     // Of a name that stands in both the first counts; others come from the second.
     ScratchFolder::write(folder.file("b.mtl"),
                          "newmtl thin\nKd 0 0 0\nnewmtl late\nKd 1 0 0\n");
     text.append("usemtl late\nf 1 2 3\n");
     const auto loaded = read_obj(text, folder.file("x.obj"));
-    REQUIRE(loaded.parts.size() == 17);
+    REQUIRE(loaded.parts.size() == 18);
     const auto is = [&](std::size_t i) { return loaded.parts[i].material; };
     for (std::size_t i = 0; i <= 10; ++i) {
         CAPTURE(i);
@@ -516,12 +540,13 @@ TEST_CASE("load_obj: which words of a material file make a mirror or glass") {
     CHECK(is(15).emission.x == doctest::Approx(1e12));
     CHECK(is(15).index == 0.001);
     CHECK(is(15).dissolve == 0);
-    CHECK(is(16).diffuse == glm::dvec3{1, 0, 0});
-    CHECK(is(16).name == "late");
+    CHECK(is(16).index == 1.25); // an exponent of ten digits ends the number
+    CHECK(is(17).diffuse == glm::dvec3{1, 0, 0});
+    CHECK(is(17).name == "late");
     // What a scene makes of it, and of another material for all.
     Scene<Shapes<Mesh>, Materials<Lambertian, Glass, Mirror>> scene;
     add_obj(scene, loaded);
-    for (std::uint32_t i = 0; i < 17; ++i)
+    for (std::uint32_t i = 0; i < 18; ++i)
         CHECK(scene.object({0, i}).material.type == (is(i).is_glass()    ? 1u
                                                      : is(i).is_mirror() ? 2u
                                                                          : 0u));
@@ -531,12 +556,12 @@ TEST_CASE("load_obj: which words of a material file make a mirror or glass") {
     Scene<Shapes<Mesh>, Materials<Lambertian>> painted;
     const auto white = painted.add(Lambertian{.albedo = Rgb{0.75f}});
     add_obj(painted, loaded, white, Rgb{1, 2, 3});
-    CHECK(painted.size() == 17);
-    CHECK(painted.lights.size() == 17);
+    CHECK(painted.size() == 18);
+    CHECK(painted.lights.size() == 18);
     CHECK(painted.object({0, 3}).emission == Rgb{1, 2, 3});
     CHECK(painted.object({0, 3}).material == white);
     add_obj(painted, loaded, white);
-    CHECK(painted.lights.size() == 17);
+    CHECK(painted.lights.size() == 18);
     // A file of meshes for a scene in JSON, with the normals that it asks for.
     ScratchFolder::write(folder.file("cube.obj"), cube);
     std::string report;

@@ -9,26 +9,12 @@
 #include "ljus/scene/make_scene.hpp"
 #include "ljus/scenes/mesh_formulas.hpp"
 #include "support/mesh_rooms.hpp"
+#include "support/numbers.hpp"
 
 using namespace ljus;
 using namespace ljus_test;
 
 namespace {
-
-/// Numbers for a test.
-struct Numbers {
-    RandomStream stream;
-    explicit Numbers(std::uint64_t seed)
-        : stream(random_stream(seed, Pass::camera, 0, 0)) {}
-    double next() { return next_1d<double>(stream); }
-    double power(double low, double high) { // 10^x
-        return std::pow(10.0, low + (high - low) * next());
-    }
-    glm::dvec3 point(double size) {
-        return size * (2.0 * next_3d<double>(stream) - 1.0);
-    }
-    glm::dvec3 direction() { return sample_uniform_sphere(next_2d<double>(stream)); }
-};
 
 const Sphere unit_ball{.center{0, 0, 0}, .radius = 1};
 
@@ -203,6 +189,11 @@ TEST_CASE("mesh: smooth_normals() finds the normals of a sphere and of a ring") 
                     .triangles{{0, 4, 1}, {0, 2, 4}, {0, 1, 3}, {0, 3, 2}}};
     smooth_normals(corner);
     CHECK(glm::length(corner.normals[0] + Vec3{std::sqrt(1.0f / 3.0f)}) < 1e-6f);
+    // However narrow a corner is, it has a normal.
+    MeshData thin{.positions{{0, 0, 0}, {1, 0, 0}, {1, 1e-3f, 0}},
+                  .triangles{{0, 1, 2}}};
+    smooth_normals(thin);
+    for (const Vec3& normal : thin.normals) CHECK(normal == Vec3{0, 0, 1});
 }
 
 TEST_CASE("mesh: points are uniform over its area") {
@@ -561,6 +552,10 @@ TEST_CASE("mesh: texture coordinates are those of its vertices, interpolated") {
     MeshData bare = data;
     bare.uv = {};
     CHECK(mesh.bytes() == Mesh(bare, 1).bytes() + 900 * sizeof(Vec2));
+    MeshData round = bare;
+    round.normals.assign(900, Vec3{0, 0, 1});
+    bare.normals = {};
+    CHECK(Mesh(round, 1).bytes() == Mesh(bare, 1).bytes() + 900 * sizeof(Vec3));
 }
 
 TEST_CASE("mesh: triangles that collapse to a line are never what a ray meets") {
@@ -585,7 +580,7 @@ TEST_CASE("mesh: triangles that collapse to a line are never what a ray meets") 
             data.triangles.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
         }
     const Mesh globe(data);
-    Numbers n(71);
+    Numbers n{71};
     for (int i = 0; i < 20000; ++i) {
         // At the sides of the collapsed triangles, from outside and from within.
         const Triangle t = globe.triangle(static_cast<std::uint32_t>(2 * (i % 8) + 1));

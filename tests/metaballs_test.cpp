@@ -384,6 +384,130 @@ TEST_CASE("isosurface: Blinn's blobs, which no formula solves, by both solvers")
     CHECK(hits > 200);
 }
 
+TEST_CASE(
+    "metaballs: a start on the surface itself is inside, and the way out counts") {
+    // 1 - t^2 is 3/4 at both ends, without rounding.
+    const MetaballsT<double> ball{.blobs{{.center{0, 0, 0}}}, .level = 0.5625};
+    const RayT<double> in{.origin{-0.5, 0, 0}, .direction{1, 0, 0}};
+    REQUIRE(field(ball, Point{-0.5, 0, 0}) == 0);
+    CHECK(intersect(in, ball, QuarticPieces{}).value_or(-1) == doctest::Approx(1));
+    const RayT<double> out{.origin{0.5, 0, 0}, .direction{1, 0, 0}};
+    CHECK(intersect(out, ball, QuarticPieces{}).value_or(0) < 1e-12);
+}
+
+TEST_CASE("metaballs: a blob without weight widens no bounding sphere") {
+    Metaballs balls = peanut();
+    const Sphere tight = bounding_sphere(balls);
+    balls.blobs.push_back({.center{0, 0, -4}, .radius = 1, .weight = 0});
+    CHECK(bounding_sphere(balls).radius == tight.radius);
+    CHECK(bounding_sphere(balls).center == tight.center);
+}
+
+TEST_CASE("metaballs: on a ray, bounds of value and slope hold and close in") {
+    Numbers n{21};
+    const double eps = std::numeric_limits<double>::epsilon();
+    for (int i = 0; i < 2000; ++i) {
+        detail::StrandsT<double> strands;
+        double weights = 0;
+        for (int k = n.below(4); k >= 0; --k) {
+            const detail::StrandT<double> b{.middle = n.between(-1, 1),
+                                            .height = n.between(0.1, 1),
+                                            .bend = n.between(0.5, 4),
+                                            .weight = n.between(-1, 2)};
+            strands.add(b);
+            weights += std::abs(b.weight);
+        }
+        const double level = n.between(0.1, 0.5);
+        const auto line = detail::line_of(strands, level);
+        CHECK(line.rounding() == doctest::Approx(8 * eps * (level + weights)));
+        // At one place both are the value and the slope themselves.
+        const double t = n.between(-1.5, 1.5), h = 1e-6;
+        const double slope = (line.value(t + h) - line.value(t - h)) / (2 * h);
+        const auto value_at = line.range(t, t), slope_at = line.slope(t, t);
+        CHECK(std::abs(value_at.low - line.value(t)) < 1e-13);
+        CHECK(std::abs(value_at.high - line.value(t)) < 1e-13);
+        CHECK(value_at.low <= line.value(t));
+        CHECK(value_at.high >= line.value(t));
+        CHECK(std::abs(slope_at.low - slope) < 1e-4);
+        CHECK(std::abs(slope_at.high - slope) < 1e-4);
+        // Over a part they hold for each place, and the mean value theorem for both.
+        const double a = n.between(-1.5, 1.5), b = a + n.power(-3, 0);
+        const auto range = line.range(a, b), slopes = line.slope(a, b);
+        double steepest = 0;
+        for (int k = 0; k <= 20; ++k) {
+            const double x = a + (b - a) * k / 20;
+            CHECK(range.low <= line.value(x));
+            CHECK(line.value(x) <= range.high);
+            const double y = a + (b - a) * (k + 1) / 21;
+            const double rise = line.value(y) - line.value(a);
+            CHECK(rise <= slopes.high * (y - a) + 1e-13);
+            CHECK(rise >= slopes.low * (y - a) - 1e-13);
+            steepest = std::max(steepest, std::abs(rise) / (y - a));
+        }
+        CHECK(steepest <= line.steepest() + 1e-9);
+    }
+}
+
+namespace {
+
+/// A straight field, t - zero, with bounds as loose as a test wants them.
+struct Straight {
+    double zero = 2;
+    double loose = 0;
+    double enter = 0, leave = 100;
+    double value(double t) const { return t - zero; }
+    double steepest() const { return 1; }
+    double rounding() const { return 0; }
+    detail::IntervalT<double> range(double a, double b) const {
+        return {value(a) - loose, value(b) + loose};
+    }
+    detail::IntervalT<double> slope(double, double) const { return {1, 1 + loose}; }
+};
+
+} // namespace
+
+TEST_CASE("solvers: a crossing at an end of the range counts, none behind it") {
+    for (const double loose : {0.0, 10.0}) {
+        const Straight line{.loose = loose};
+        const auto by = [&](const auto& solver, double t_min, double t_max) {
+            return detail::first_meeting(solver, line, t_min, t_max);
+        };
+        CHECK(by(Bisection{}, 0, 1) == std::nullopt);
+        CHECK(by(Bisection{}, 0, 2) == 2.0);
+        CHECK(by(Bisection{}, 0, 9) == 2.0);
+        CHECK(by(Bisection{}, 3, 9) == std::nullopt);
+        CHECK(by(SphereTracing{}, 0, 1) == std::nullopt);
+        CHECK(by(SphereTracing{}, 0, 2) == 2.0);
+        CHECK(by(SphereTracing{}, 0, 9) == 2.0);
+        CHECK(by(SphereTracing{}, 3, 9) == std::nullopt);
+        CHECK(by(SphereTracing{}, 2, 2) == 2.0);
+    }
+}
+
+TEST_CASE("isosurface: a hit is put back no farther than its t can have been wrong") {
+    // The plane x = 1, and a ray along x whose t is off by so much.
+    const auto value = [](const Point& x) { return 1 - x.x; };
+    const auto gradient = [](const Point&) { return Point{-1, 0, 0}; };
+    const RayT<double> ray{.origin{-3, 0, 4}, .direction{0.5, 0, 0}};
+    const double unit = std::numeric_limits<double>::epsilon() / 2;
+    const double doubt = 8 * unit * (5 + 8 * 0.5); // |O| = 5, t = 8, |D| = 1/2
+    const auto at = [&](double off) {
+        return detail::refined<double>(value, gradient, ray, 8 + 2 * off, 0.0);
+    };
+    const Vec3T<double> own =
+        detail::rounding_bound<double>(2) * glm::abs(Point{1, 0, 4});
+    const auto near = at(0.5 * doubt), far = at(1e-9);
+    CHECK(near.position == Point{1, 0, 4});
+    CHECK(near.error == own);
+    CHECK(near.normal == Point{1, 0, 0});
+    CHECK(far.position.x == doctest::Approx(1 + 1e-9).epsilon(1e-14));
+    CHECK(far.error.y == doctest::Approx(doubt).epsilon(1e-8));
+    CHECK(far.error.z == doctest::Approx(doubt + own.z).epsilon(1e-8));
+    // What the values may be wrong by is added, if it is the smaller of the two.
+    const auto rough = detail::refined<double>(value, gradient, ray, 8.0, doubt / 4);
+    CHECK(rough.error.y == doctest::Approx(doubt / 4));
+}
+
 TEST_CASE("solvers: both give up where their limits say") {
     const Metaballs balls{.blobs{{.center{0, 0, -4}}}};
     CHECK(intersect(Ray{}, balls, SphereTracing{.max_steps = 200}));

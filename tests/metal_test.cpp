@@ -26,6 +26,11 @@ TEST_CASE_TEMPLATE("metal: the mirror direction with the reflectance of its angl
         const auto back = sample(m, s->wi, draws.cube<T>(), Transport::flux);
         REQUIRE(back->weight == s->weight);
     }
+    // A cosine that rounding has made larger than 1.
+    const auto above =
+        sample(m, ljus::Vec3T<T>{0, 0, T(1.5)}, draws.cube<T>(), Transport::radiance);
+    REQUIRE(above);
+    CHECK(above->weight == ljus::fresnel_conductor(T(1), m.index));
     check_extremes(m, 1);
     check_sampling(m, at_degrees<T>(40));
 }

@@ -8,6 +8,7 @@
 
 #include "ljus/inspect/bias_variance.hpp"
 #include "ljus/inspect/metrics.hpp"
+#include "support/numbers.hpp"
 #include "support/within.hpp"
 
 namespace {
@@ -16,21 +17,11 @@ using doctest::Approx;
 using ImageD = ljus::ImageT<double>;
 using RgbD = ljus::RgbT<double>;
 
-struct Noise {
-    std::uint64_t state;
-    // Uniform in [-sqrt(3), sqrt(3)): mean 0, variance 1.
-    double operator()() {
-        state = state * 6364136223846793005u + 1442695040888963407u;
-        const double u = std::ldexp(static_cast<double>(state >> 11), -53);
-        return std::sqrt(3.0) * (2.0 * u - 1.0);
-    }
-};
-
 ImageD noisy(int width, int height, double mean, double deviation, std::uint64_t seed) {
     ImageD image = ljus::make_image<double>(width, height);
-    Noise noise{seed * 7919 + 1};
+    ljus_test::Numbers numbers{seed * 7919 + 1};
     for (RgbD& c : image.pixels)
-        for (int k = 0; k < 3; ++k) c[k] = mean + deviation * noise();
+        for (int k = 0; k < 3; ++k) c[k] = mean + deviation * numbers.noise();
     return image;
 }
 

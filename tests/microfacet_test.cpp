@@ -2,6 +2,9 @@
 // concept: glossy
 /// \file microfacet_test.cpp
 /// \brief Facets against 50 digits, and their integrals against 1.
+///
+/// Its statistical cases were run with 20 further seeds (`./scripts/test --seeds 20`):
+/// none failed.
 
 #include "ljus/optics/microfacet.hpp"
 
@@ -17,6 +20,7 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include "support/draws.hpp"
+#include "support/seed.hpp"
 #include "support/statistics.hpp"
 
 using ljus::Vec3T;
@@ -64,7 +68,7 @@ double over_normals(double alpha, int n, G g) {
 } // namespace
 
 TEST_CASE_TEMPLATE("microfacet: as many facets as 50 digits count", T, float, double) {
-    Draws draws;
+    Draws draws{ljus_test::test_seed(1)};
     const double u = std::numeric_limits<T>::epsilon() / 2;
     double worst = 0;
     for (int i = 0; i < 10000; ++i) {
@@ -89,13 +93,14 @@ TEST_CASE_TEMPLATE("microfacet: the middle is one, where squares underflow too",
     const auto h =
         ljus::detail::half_vector(Vec3T<T>{1, 0, tiny}, Vec3T<T>{-1, 0, tiny});
     CHECK(h == Vec3T<T>{0, 0, 1});
-    Draws draws;
+    Draws draws{ljus_test::test_seed(1)};
     for (int i = 0; i < 1000; ++i) {
         const auto a = draws.above<T>(), b = draws.above<T>();
         const auto m = ljus::detail::half_vector(a, b);
         REQUIRE(std::abs(glm::length(m) - 1) <= 2 * std::numeric_limits<T>::epsilon());
+        // Their lengths are rounded; divided by that of the sum, which can be short.
         REQUIRE(std::abs(glm::dot(a, m) - glm::dot(b, m)) <=
-                4 * std::numeric_limits<T>::epsilon());
+                4 * std::numeric_limits<T>::epsilon() * (1 + 1 / glm::length(a + b)));
     }
 }
 
@@ -128,7 +133,7 @@ TEST_CASE("microfacet: the facets that are seen cover what the surface covers") 
 TEST_CASE("microfacet: visible normals are drawn by their density, for 100 seeds") {
     int alarms = 0, tests = 0;
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {
-        Draws draws{seed};
+        Draws draws{ljus_test::test_seed(seed)};
         const double alpha = std::pow(10.0, draws.between(-2.0, 0.0));
         const auto wo = at_degrees<double>(draws.between(0.0, 89.5));
         // Bins of equal s (see over_normals) and azimuth.
@@ -192,7 +197,7 @@ TEST_CASE_TEMPLATE("microfacet: at the corners of the square and of the angles",
 
 TEST_CASE("microfacet: no direction along the surface is better than another") {
     // Turned about the normal, r(w) stays, and sampled facets are turned with it.
-    Draws draws;
+    Draws draws{ljus_test::test_seed(1)};
     for (int i = 0; i < 2000; ++i) {
         const double alpha = draws.between(0.05, 1.0), turn = draws.between(0.0, 6.28);
         const double c = std::cos(turn), s = std::sin(turn);

@@ -5,6 +5,9 @@
 
 #include <doctest/doctest.h>
 
+#include <cstdint>
+#include <limits>
+
 using namespace ljus;
 
 TEST_CASE("object: numbers are equal when type and index are") {
@@ -19,4 +22,5 @@ TEST_CASE("object: without more said it neither emits nor is inside out") {
     const detail::ObjectT<float> object{.material = {1, 2}};
     CHECK(is_black(object.emission));
     CHECK_FALSE(object.inside_out);
+    CHECK(object.light == std::numeric_limits<std::uint32_t>::max());
 }

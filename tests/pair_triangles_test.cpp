@@ -128,6 +128,22 @@ TEST_CASE("pair_triangles: points that differ in one coordinate are two") {
                                       {{0, 1, 2}, {3, 4, 5}});
             CHECK(found.quads.size() == (lift == 0 ? 1 : 0));
             CHECK(found.triangles.size() == (lift == 0 ? 0 : 2));
+            // Only where it should touch the other one.
+            CHECK(shapes({at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(0, 0, lift),
+                          at(1, 1, lift), at(0, 1, 0)},
+                         {{0, 1, 2}, {3, 4, 5}})
+                      .quads.size() == (lift == 0 ? 1 : 0));
         }
     }
+}
+
+TEST_CASE("pair_triangles: one that has its partner does not stand in another's way") {
+    // At the edge from a to b stand two triangles; the second of them is half of a square
+    // already when the partner of the first one comes.
+    const glm::dvec3 a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0}, d{0, 0, 1}, e{1, 0, 1},
+        f{1, -1, 0};
+    const auto found =
+        shapes({a, b, c, d, e, f}, {{0, 1, 2}, {3, 1, 4}, {0, 1, 3}, {1, 0, 5}});
+    CHECK(found.quads.size() == 2);
+    CHECK(found.triangles.empty());
 }

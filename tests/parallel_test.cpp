@@ -146,6 +146,75 @@ TEST_CASE("parallel: while one thread tells, the others work and do not tell") {
     CHECK(done_blocks == 12);
 }
 
+TEST_CASE("parallel: whoever said stop is not asked again") {
+    // Block 1 ends after block 0 was told of, and that told to stop.
+    std::atomic<bool> begun{false}, told{false};
+    const auto wait_for = [](const std::atomic<bool>& flag) {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+        while (!flag && std::chrono::steady_clock::now() < end)
+            std::this_thread::yield();
+    };
+    std::atomic<int> calls{0}, runs{0};
+    auto progress = [&](long long, long long) {
+        ++calls;
+        return false;
+    };
+    const auto body = [&](long long b) {
+        ++runs;
+        if (b == 0) wait_for(begun);
+        if (b != 1) return;
+        begun = true;
+        wait_for(told);
+        std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    };
+    auto tell = [&](long long done, long long total) {
+        const bool go_on = progress(done, total);
+        told = true;
+        return go_on;
+    };
+    CHECK_FALSE(ljus::parallel_blocks(1000, body, {.threads = 2, .progress = tell}));
+    CHECK(runs == 2);
+    CHECK(calls == 1);
+}
+
+TEST_CASE("parallel: what ended while another thread was telling is told at the end") {
+    // Block 0 is told of until block 1 has ended and found that somebody tells.
+    std::atomic<bool> telling{false}, ended{false};
+    const auto wait_for = [](const std::atomic<bool>& flag) {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+        while (!flag && std::chrono::steady_clock::now() < end)
+            std::this_thread::yield();
+    };
+    std::vector<long long> heard;
+    auto progress = [&](long long done, long long) {
+        heard.push_back(done);
+        if (done == 2) return true;
+        telling = true;
+        wait_for(ended);
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        return true;
+    };
+    const auto body = [&](long long b) {
+        if (b == 0) return;
+        wait_for(telling);
+        ended = true;
+    };
+    CHECK(ljus::parallel_blocks(2, body, {.threads = 2, .progress = progress}));
+    CHECK(heard == std::vector<long long>{1, 2});
+}
+
+TEST_CASE("parallel: 0 threads are all that there are") {
+    if (ljus::detail::max_threads() < 2) return; // one processor, or asked for so
+    std::atomic<int> begun{0};
+    ljus::parallel_blocks(2, [&](long long) {
+        ++begun;
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+        while (begun < 2 && std::chrono::steady_clock::now() < end)
+            std::this_thread::yield();
+        CHECK(begun == 2); // both at a time
+    });
+}
+
 TEST_CASE("parallel: what a block threw is not forgotten because progress goes on") {
     // Block 0 is told of while block 1 throws; then progress says "go on".
     std::atomic<int> runs{0};

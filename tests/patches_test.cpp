@@ -65,6 +65,15 @@ TEST_CASE("patches: each place of a shape belongs to one cell") {
                     CHECK(glm::length(detail::area_vector(facet)) ==
                           doctest::Approx(double(area(shape)) / grid.size())
                               .epsilon(1e-12));
+                    // Its middle lies in the cell as well.
+                    Vec3T<double> middle{0};
+                    for (int k = 0; k < facet.count; ++k)
+                        middle += facet.corners[std::size_t(k)] / double(facet.count);
+                    const Vec3T<double> up = normal(shape);
+                    const auto hit = intersect(
+                        RayT<double>{.origin = middle + up, .direction = -up}, shape);
+                    REQUIRE(hit);
+                    CHECK(cell_of(grid, detail::place_on(grid.kind, *hit, up)) == cell);
                     CHECK((glm::dot(detail::area_vector(facet),
                                     detail::area_vector(facet_of(shape))) < 0) ==
                           inward);
@@ -369,4 +378,30 @@ TEST_CASE("form_factors: the visible share has the weights of the form factor") 
         CAPTURE(h);
         CHECK(share == doctest::Approx(seen / whole).epsilon(0.02));
     }
+}
+
+TEST_CASE("form_factors: what lies behind a patch has no part in what is visible") {
+    // A wall of side 1 stands on a floor at x = 1.5 and faces the larger part of it. From
+    // the rest a screen hides the wall's back, which nothing sees anyway.
+    Stage<double> stage;
+    const auto white = stage.add(LambertianT<double>{});
+    stage.add(QuadT<double>{{0, 0, 0}, {2, 0, 0}, {0, 1, 0}}, white);
+    stage.add(QuadT<double>{{1.5, 0, 0}, {0, 0, 1}, {0, 1, 0}}, white);
+    stage.add(QuadT<double>{{1.51, -9, -9}, {0, 18, 0}, {0, 0, 18}},
+              stage.add(MirrorT<double>{}));
+    const Patches all = make_patches(stage, {.size = 9});
+    const IndexedScene<Stage<double>> indexed(stage);
+    int faced = 0;
+    for (std::uint32_t i = 0; i < all.patches.size(); ++i)
+        for (std::uint32_t j = 0; j < all.patches.size(); ++j) {
+            const auto side = [&](std::uint32_t patch) {
+                return detail::sample_patch(indexed, all, patch, Vec2T<double>{0.5})
+                    .normal;
+            };
+            if (side(i).z < 0.5 || side(j).x > -0.5) continue;
+            ++faced;
+            CHECK(detail::visible_share(indexed, all, i, j, 1000, 1) == 1);
+            CHECK(detail::visible_share(indexed, all, j, i, 1000, 1) == 1);
+        }
+    CHECK(faced == 1);
 }

@@ -8,19 +8,12 @@
 
 #include "ljus/io/pfm.hpp"
 #include "scratch_folder.hpp"
+#include "support/refusal.hpp"
 
 namespace {
 
 std::string message_of_load(const std::string& path) {
-    try {
-        (void)ljus::load_pfm(path);
-    } catch (const std::runtime_error& error) {
-        const std::string text = error.what();
-        const std::string start = "cannot read '" + path + "': ";
-        CHECK(text.starts_with(start));
-        return text.substr(start.size());
-    }
-    return "loaded";
+    return ljus_test::why_not_read(path, [&] { (void)ljus::load_pfm(path); });
 }
 
 } // namespace
@@ -141,4 +134,14 @@ TEST_CASE("pfm: a file without end is refused at once") {
 #if __has_include(<unistd.h>)
     CHECK_THROWS_AS((void)ljus::load_pfm("/dev/zero"), std::runtime_error);
 #endif
+}
+
+TEST_CASE("pfm: a decimal of a header is the nearest number") {
+    using ljus::detail::to_number;
+    CHECK(to_number("0.3") == 0.3); // 3 times 0.1 is not
+    CHECK(to_number("-12.7") == -12.7);
+    CHECK(to_number("7e2") == 700);
+    CHECK(to_number("+2.5E-1") == 0.25);
+    for (const char* const none : {"", "-", ".", "1.", "1e", "1 ", "x", "0x1"})
+        CHECK(std::isnan(to_number(none)) == (std::string(none) != "1."));
 }

@@ -169,6 +169,20 @@ TEST_CASE("photon dots: the drawing shows each surface in its colour, lamps brig
     CHECK(pixel(image, 62, 37) == Rgb{0.5f});
     CHECK(pixel(image, 37, 37) == Rgb{0});
     CHECK(pixel(image, 2, 2) == Rgb{0}); // nothing there
+    // Each pixel by the ray through its middle.
+    const Room slope = wall(true);
+    const Image small = scene_drawing(slope, front(), 11, 9);
+    for (int y = 0; y < 9; ++y)
+        for (int x = 0; x < 11; ++x) {
+            const Vec2 middle{float(x) + 0.5f, float(y) + 0.5f};
+            const Ray ray = primary_ray(front(), middle, 11, 9);
+            const auto hit = closest_hit(slope, ray);
+            REQUIRE((pixel(small, x, y).x > 0) == hit.has_value());
+            if (!hit) continue;
+            const double cosine = std::abs(glm::normalize(ray.direction).z);
+            CHECK(pixel(small, x, y).x ==
+                  ljus_test::within(0.16 * (0.3 + 0.7 * cosine) * 0.5, 1e-5));
+        }
     CHECK_THROWS_AS((void)scene_drawing(room, front(), 0, 5), std::invalid_argument);
 }
 

@@ -10,18 +10,18 @@
 #include <stdexcept>
 
 #include "scratch_folder.hpp"
-#include "support/photon_samples.hpp"
+#include "support/draws.hpp"
 
 using ljus::Bytes;
 using ljus::PhotonMapT;
 using ljus::PhotonT;
-using photon_test::Numbers;
+using ljus_test::Draws;
 
 namespace {
 
 template <typename T>
 PhotonMapT<T> some_map(int count) {
-    Numbers numbers{std::uint64_t(count) + 1};
+    Draws numbers{std::uint64_t(count) + 1};
     std::vector<PhotonT<T>> photons;
     for (int i = 0; i < count; ++i)
         photons.push_back({.position = numbers.point<T>(1),
@@ -186,6 +186,12 @@ TEST_CASE(
     ljus::detail::put_checksum(no_key);
     ljus::save_file(path, no_key);
     CHECK(why_not(path) == cannot + "it ends in the middle of its key.");
+    // No photon, but a key.
+    ljus::save_photon_map(path, some_map<float>(0), key);
+    CHECK(why_not(path) == "it was read");
+    CHECK(ljus::detail::map_limit(3, 38) == 56 + 3 * 38);
+    CHECK(ljus::detail::map_limit(std::numeric_limits<std::size_t>::max(), 38) ==
+          std::numeric_limits<std::size_t>::max());
 }
 
 TEST_CASE("photon_map_file: a save that fails leaves the older file as it was") {

@@ -12,7 +12,10 @@
 #include <stdexcept>
 
 #include "ljus/materials/lambertian.hpp"
-#include "support/photon_samples.hpp"
+#include "support/draws.hpp"
+#include "support/seed.hpp"
+#include "support/statistics.hpp"
+#include "support/within.hpp"
 
 using ljus::DensityEstimateSettings;
 using ljus::Kernel;
@@ -22,8 +25,9 @@ using ljus::PhotonKind;
 using ljus::PhotonMap;
 using ljus::Rgb;
 using ljus::Vec3;
-using photon_test::Mean;
-using photon_test::Numbers;
+using ljus_test::Draws;
+using ljus_test::Mean;
+using ljus_test::test_seed;
 
 namespace {
 
@@ -44,7 +48,7 @@ ljus::VertexT<T> floor_at(ljus::Vec3T<T> position) {
 
 /// Photons that fall on the square [-1, 1]^2 at a height, uniformly: together they carry
 /// the flux density.
-std::vector<Photon> rain(int count, Numbers& numbers, float height = 0,
+std::vector<Photon> rain(int count, Draws& numbers, float height = 0,
                          PhotonKind kind = PhotonKind::direct, float share = 1) {
     std::vector<Photon> photons;
     for (int i = 0; i < count; ++i) {
@@ -75,7 +79,7 @@ double exact(int channel) {
 std::vector<Mean> over_maps(int maps, int count,
                             const std::vector<DensityEstimateSettings>& ways,
                             std::uint64_t seed, Vec3 at = Vec3{0}) {
-    Numbers numbers{seed};
+    Draws numbers{test_seed(seed)};
     std::vector<Mean> means(ways.size());
     for (int i = 0; i < maps; ++i) {
         const auto map = ljus::make_photon_map(rain(count, numbers));
@@ -122,7 +126,7 @@ float kernel_weight(const Parabola& parabola, float x) {
 } // namespace
 
 TEST_CASE("photon_map: a kernel of the user's own, in lanes and one by one") {
-    Numbers numbers{83};
+    Draws numbers{83};
     const auto map = ljus::make_photon_map(rain(20000, numbers));
     const auto floor = floor_at<float>(Vec3{0});
     const Vec3 up{0, 0, 1};
@@ -154,7 +158,7 @@ TEST_CASE("photon_map: a kernel of the user's own, in lanes and one by one") {
 }
 
 TEST_CASE("photon_map: eight at a time give what one by one give") {
-    Numbers numbers{81};
+    Draws numbers{81};
     for (int repeat = 0; repeat < 300; ++repeat) {
         // Everything that decides: distance, height, side, kind, normal.
         std::vector<Photon> photons;
@@ -199,7 +203,7 @@ TEST_CASE("photon_map: eight at a time give what one by one give") {
 }
 
 TEST_CASE("photon_map: estimates that are answered together are those one by one") {
-    Numbers numbers{83};
+    Draws numbers{83};
     ljus::detail::BallBlocks room; // of the search before, as it was left
     for (const int count : {0, 1, 7, 32, 33, 300, 5000})
         for (const Kernel kernel : kernels) {
@@ -221,8 +225,8 @@ TEST_CASE("photon_map: estimates that are answered together are those one by one
                 if (i % 8 != 0) surface.point.position.z *= 0.01f;
                 surface.wo = glm::normalize(numbers.point<float>(1));
                 const Rgb throughput = numbers.point<float>(1);
-                places.push_back(
-                    ljus::detail::estimate_place(surface, matt, throughput, i));
+                ljus::detail::set_place(places.emplace_back(), surface, matt,
+                                        throughput, i);
                 each[i] =
                     throughput * ljus::estimate_radiance(map, surface, matt, surface.wo,
                                                          gather, kinds, summed_each);
@@ -239,7 +243,7 @@ TEST_CASE("photon_map: estimates that are answered together are those one by one
 }
 
 TEST_CASE("photon_map: one by one, too, find the flux density") {
-    Numbers numbers{82};
+    Draws numbers{82};
     Mean mean;
     for (int i = 0; i < 800; ++i) {
         const auto map = ljus::make_photon_map(rain(500, numbers));
@@ -282,7 +286,7 @@ TEST_CASE("photon_map: also where the radius ends a search before k are found") 
 }
 
 TEST_CASE("photon_map: the three channels are estimated apart") {
-    Numbers numbers{14};
+    Draws numbers{14};
     std::array<Mean, 3> means;
     for (int i = 0; i < 800; ++i) {
         const Rgb found =
@@ -333,7 +337,7 @@ TEST_CASE("photon_map: an empty map is black, and so is a place without photons"
     CHECK(estimate(PhotonMap{}, {}) == Rgb{0});
     CHECK(estimate(ljus::make_photon_map(std::vector<Photon>{}), {.nearest = 5}) ==
           Rgb{0});
-    Numbers numbers{1};
+    Draws numbers{1};
     const auto map = ljus::make_photon_map(rain(100, numbers));
     CHECK(PhotonMap{}.empty());
     CHECK_FALSE(map.empty());
@@ -366,7 +370,7 @@ TEST_CASE("photon_map: photons that all lie in one point give no NaN") {
 }
 
 TEST_CASE("photon_map: scenes of any size") {
-    Numbers numbers{31};
+    Draws numbers{31};
     const auto photons = rain(2000, numbers);
     for (const Kernel kernel : kernels)
         for (const std::size_t k : {std::size_t(0), std::size_t(40)}) {
@@ -399,7 +403,7 @@ TEST_CASE("photon_map: two million photons in one disc are all counted") {
     // A sum in float is 2 % off.
     std::vector<Photon> photons(2'000'000,
                                 Photon{.direction{0, 0, -1}, .flux{0.1f, 0, 0}});
-    Numbers numbers{32};
+    Draws numbers{32};
     for (Photon& photon : photons)
         photon.position = {float(numbers.unit()), float(numbers.unit()), 0};
     const auto map = ljus::make_photon_map(photons);
@@ -410,7 +414,7 @@ TEST_CASE("photon_map: two million photons in one disc are all counted") {
 }
 
 TEST_CASE("photon_map: photons of another wall are left out by the thickness") {
-    Numbers numbers{41};
+    Draws numbers{41};
     const auto floor = rain(2000, numbers);
     auto both = floor;
     // A wall at x = 0.1 that stands on the floor, above 3 % of the radius.
@@ -442,7 +446,7 @@ ljus::VertexT<float> surface_with(Vec3 position, Vec3 normal) {
 }
 
 /// Photons of flux 1 that fall straight onto a ball around 0, alike everywhere.
-std::vector<Photon> onto_ball(int count, float radius, Numbers& numbers) {
+std::vector<Photon> onto_ball(int count, float radius, Draws& numbers) {
     std::vector<Photon> photons;
     for (int i = 0; i < count; ++i) {
         const Vec3 n = ljus::sample_uniform_sphere(
@@ -462,7 +466,7 @@ TEST_CASE("photon_map: on a ball as small as the gather radius nothing is lost")
     // the squared distance is uniform over it: every kernel's mean is right.
     for (const float ball : {10.0f, 1.5f, 1.01f}) {
         CAPTURE(ball);
-        Numbers numbers{43};
+        Draws numbers{43};
         for (const std::size_t k : {std::size_t(0), std::size_t(30)}) {
             std::vector<Mean> means(kernels.size());
             for (int i = 0; i < 600; ++i) {
@@ -491,7 +495,7 @@ TEST_CASE("photon_map: on a ball as small as the gather radius nothing is lost")
 
 TEST_CASE("photon_map: the other wall of a corner and the other side of a wall do not "
           "count, however near") {
-    Numbers numbers{44};
+    Draws numbers{44};
     const auto floor = rain(3000, numbers);
     std::vector<Photon> others;
     for (int i = 0; i < 3000; ++i) {
@@ -523,7 +527,7 @@ TEST_CASE("photon_map: k nearest stays right beside a ceiling full of photons") 
     // Photons of the ceiling count among the k, set the radius at times, and are left
     // out of the sum: the mean must not care.
     for (const Kernel kernel : {Kernel::box, Kernel::epanechnikov}) {
-        Numbers numbers{42};
+        Draws numbers{42};
         Mean mean;
         for (int i = 0; i < 1500; ++i) {
             auto photons = rain(400, numbers);
@@ -542,7 +546,7 @@ TEST_CASE("photon_map: k nearest stays right beside a ceiling full of photons") 
 }
 
 TEST_CASE("photon_map: photons of other kinds do not disturb the k nearest") {
-    Numbers numbers{51};
+    Draws numbers{51};
     const auto light = rain(500, numbers);
     const auto shadows = rain(3000, numbers, 0, PhotonKind::shadow, 10);
     std::vector<Photon> mixed;
@@ -603,7 +607,7 @@ TEST_CASE("photon_map: light from below a matt surface is not seen above it") {
 }
 
 TEST_CASE("photon_map: records follow the order of the tree") {
-    Numbers numbers{61};
+    Draws numbers{61};
     auto photons = rain(1000, numbers);
     for (std::size_t i = 0; i < photons.size(); ++i) {
         photons[i].light = static_cast<std::uint16_t>(i);
@@ -622,7 +626,7 @@ TEST_CASE("photon_map: records follow the order of the tree") {
 
 TEST_CASE("photon_map: in double") {
     std::vector<ljus::PhotonT<double>> photons;
-    Numbers numbers{71};
+    Draws numbers{71};
     for (int i = 0; i < 4000; ++i)
         photons.push_back(
             {.position{1e6 + numbers.between(-1, 1), numbers.between(-1, 1), 0},
@@ -688,7 +692,7 @@ TEST_CASE("photon_map: a way to gather that gives no estimate is refused") {
 
 TEST_CASE("photon_map: kind, light and normal of a record, each to the last bit") {
     std::vector<Photon> photons;
-    Numbers numbers{91};
+    Draws numbers{91};
     for (int i = 0; i < 777; ++i)
         photons.push_back({.position{float(i), 0, 0},
                            .direction{0, 0, -1},
@@ -772,4 +776,46 @@ TEST_CASE("photon_map: the radius that k photons typically take, by hand") {
     }
     CHECK(double(ljus::typical_radius(map, 1)) ==
           doctest::Approx(std::exp(sum / count)).epsilon(1e-4));
+}
+
+TEST_CASE("photon_map: of the k nearest the disc is as flat as it is wide") {
+    // Three at 0.1, 0.2 and 0.3: the last one gives the radius, and of the others one
+    // stands higher than half of it, though not than half of the widest disc.
+    const auto at = [](float x, float height) {
+        return Photon{.position{x, 0, height},
+                      .direction{0, 0, -1},
+                      .flux = Rgb{1},
+                      .normal = ljus::small_normal(Vec3{0, 0, 1})};
+    };
+    const float beside = std::sqrt(0.2f * 0.2f - 0.18f * 0.18f);
+    for (const float height : {0.14f, 0.18f}) {
+        const float x = height > 0.15f ? beside : std::sqrt(0.04f - height * height);
+        const auto map =
+            ljus::make_photon_map(std::vector{at(0.1f, 0), at(x, height), at(0.3f, 0)});
+        const double found =
+            double(estimate(map, {.radius = 1, .nearest = 3, .kernel = Kernel::box}).x);
+        const double of_one =
+            double(matt.albedo.x) / std::numbers::pi / (std::numbers::pi * 0.09);
+        CHECK(found == ljus_test::within((height < 0.15f ? 2 : 1) * of_one, 1e-4));
+    }
+}
+
+namespace {
+
+/// A kernel that makes light, or loses some.
+struct Level {
+    float height = 1;
+};
+float kernel_weight(Level level, float) {
+    return level.height;
+}
+
+} // namespace
+
+TEST_CASE("photon_map: a kernel's mean is 1, but for 1 %") {
+    for (const float good : {0.992f, 1.0f, 1.008f})
+        CHECK_NOTHROW(ljus::check(ljus::DensityEstimateOf<Level>{.kernel{good}}));
+    for (const float bad : {0.95f, 0.985f, 1.015f, 1.05f})
+        CHECK_THROWS_AS(ljus::check(ljus::DensityEstimateOf<Level>{.kernel{bad}}),
+                        std::invalid_argument);
 }

@@ -15,12 +15,12 @@
 #include "ljus/geometry/shape.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/photons/tracing.hpp"
-#include "support/photon_samples.hpp"
+#include "support/draws.hpp"
 #include "support/seed.hpp"
 
 using ljus::FluxAudit;
 using ljus::Rgb;
-using photon_test::Numbers;
+using ljus_test::Draws;
 using RgbD = ljus::RgbT<double>; ///< Accounts are kept in double.
 
 TEST_CASE("photon: 44 bytes in float, and a plain value") {
@@ -33,7 +33,7 @@ TEST_CASE("photon: 44 bytes in float, and a plain value") {
 }
 
 TEST_CASE("photon: a normal in three bytes is less than half a degree wrong") {
-    Numbers numbers{ljus_test::test_seed(5)};
+    Draws numbers{ljus_test::test_seed(5)};
     for (int i = 0; i < 10000; ++i) {
         const glm::dvec3 n = glm::normalize(numbers.point<double>(1));
         const glm::dvec3 kept(ljus::small_normal(ljus::Vec3(n)));
@@ -70,7 +70,7 @@ TEST_CASE("photon: accounts are added part by part") {
 }
 
 TEST_CASE("photon: roulette changes no mean, in any channel") {
-    Numbers numbers{ljus_test::test_seed(3)};
+    Draws numbers{ljus_test::test_seed(3)};
     for (int i = 0; i < 300; ++i) {
         const Rgb flux =
             Rgb{float(numbers.unit()), float(numbers.unit()), float(numbers.unit())} +
@@ -93,7 +93,7 @@ TEST_CASE("photon: roulette changes no mean, in any channel") {
 }
 
 TEST_CASE("photon: what survives roulette is never brighter than what came") {
-    Numbers numbers{ljus_test::test_seed(4)};
+    Draws numbers{ljus_test::test_seed(4)};
     for (int i = 0; i < 10000; ++i) {
         const Rgb flux{float(numbers.unit()), float(numbers.unit()), 1};
         const Rgb weight{float(numbers.unit()), float(numbers.unit()),
@@ -108,7 +108,7 @@ TEST_CASE("photon: what survives roulette is never brighter than what came") {
 }
 
 TEST_CASE("photon: at each surface absorbed + roulette + survivor is what came") {
-    Numbers numbers{ljus_test::test_seed(5)};
+    Draws numbers{ljus_test::test_seed(5)};
     for (int i = 0; i < 10000; ++i) {
         const Rgb flux{float(numbers.unit()), float(numbers.unit()),
                        float(numbers.unit())};

@@ -306,7 +306,7 @@ TEST_CASE("polynomial: the bound of rounding is that of the largest coefficient"
 }
 
 TEST_CASE("polynomial: the formula finds what is well apart: four roots, two or none") {
-    Numbers draws(9);
+    Numbers draws{9};
     int negative = 0, positive = 0; // both ways of the resolvent
     for (int i = 0; i < 3000; ++i) {
         // (x^2 - s x + t) twice, with roots m - h and m + h, or m - ih and m + ih.
@@ -357,4 +357,7 @@ TEST_CASE("polynomial: the formula finds what is well apart: four roots, two or 
     REQUIRE(shifted.size() == 4);
     for (std::size_t k = 0; k < 4; ++k)
         CHECK(shifted[k] == doctest::Approx(std::array{1, 2, 4, 5}[k]).epsilon(1e-9));
+    // All four in one place: each of its roots and quotients is 0.
+    const auto none = roots_of({0, 0, 0, 0, 2});
+    CHECK(none == std::vector<double>(4, 0.0));
 }

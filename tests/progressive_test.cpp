@@ -16,8 +16,9 @@
 #include "ljus/materials/mirror.hpp"
 #include "ljus/render/progressive.hpp"
 #include "scratch_folder.hpp"
+#include "support/draws.hpp"
+#include "support/integrate.hpp"
 #include "support/mean.hpp"
-#include "support/photon_samples.hpp"
 #include "support/refusal.hpp"
 #include "support/rooms.hpp"
 
@@ -42,9 +43,9 @@
 
 using namespace ljus;
 using ljus_test::apart;
+using ljus_test::Draws;
 using ljus_test::Mean;
 using ljus_test::refusal;
-using photon_test::Numbers;
 
 namespace {
 
@@ -57,7 +58,7 @@ struct NoisyPass {
 
     RenderedT<float> operator()(long long pass, double scale) const {
         RenderedT<float> result{.image = make_image<float>(width, height)};
-        Numbers numbers{seed * 1000003 + std::uint64_t(pass) * 7919};
+        Draws numbers{seed * 1000003 + std::uint64_t(pass) * 7919};
         for (Rgb& color : result.image.pixels)
             for (int c = 0; c < 3; ++c)
                 color[c] = float(1 + bias * scale * scale +
@@ -114,7 +115,7 @@ Camera patch_camera(float degrees = 1) {
 
 /// The kernel's mean of the mirror's irradiance 2 / (d^2 + 4)^(3/2) over a disc.
 double blurred(double radius) {
-    return photon_test::integrate(0, 1, 4, [&](double t) { // t = d^2 / r^2
+    return ljus_test::integrate(0, 1, 4, [&](double t) { // t = d^2 / r^2
         const double d2 = t * radius * radius + 4;
         return 2 * (1 - t) * 2 / (d2 * std::sqrt(d2));
     });
@@ -181,7 +182,7 @@ TEST_CASE("progressive: the mean is that of the passes, added in double") {
 }
 
 TEST_CASE("progressive: the estimated error is the scatter of many runs") {
-    // Of 1500 runs of 15 pixels and 3 channels, 8 passes each. Numbers in [-1/2, 1/2)
+    // Of 1500 runs of 15 pixels and 3 channels, 8 passes each. Draws in [-1/2, 1/2)
     // have the variance 1/12; pass i scatters by 1/scale_i more. The bias moves.
     double exact = 0;
     for (int i = 1; i <= 8; ++i) exact += 1 / closed_shrink(i, 2.0 / 3) / 12 / 64;
@@ -215,7 +216,7 @@ TEST_CASE("progressive: the estimated error is the scatter of many runs") {
 TEST_CASE("progressive: the error of blocks has what their pixels share") {
     // All pixels of a pass are off by the same: a block's mean is as wrong as a pixel.
     const auto shared = [](long long pass, double) {
-        Numbers numbers{std::uint64_t(pass)};
+        Draws numbers{std::uint64_t(pass)};
         return RenderedT<float>{
             .image = make_image<float>(20, 13, Rgb{float(numbers.unit())})};
     };
@@ -631,7 +632,7 @@ void check_kills(long long passes, const RenderPass& pass, double longest) {
     const ScratchFolder folder;
     const std::string whole = folder.file("whole"), killed = folder.file("killed");
     work(whole, passes, pass);
-    Numbers numbers{4};
+    Draws numbers{4};
     int kills = 0;
     while (kills < 60 && !survives(killed, passes, pass, numbers.between(0, longest))) {
         ++kills;

@@ -12,6 +12,7 @@
 #include <limits>
 
 #include "support/numbers.hpp"
+#include "support/statistics.hpp"
 #include "support/within.hpp"
 
 using namespace ljus;
@@ -36,7 +37,9 @@ TEST_CASE("quad: known hits, on both sides of the diagonal") {
             CHECK(hit->t == 4.0f);
             CHECK(hit->u == u);
             CHECK(hit->v == v);
-            CHECK(intersect<double>(down_at(u, v), square)->t == 4.0f);
+            const auto wide = intersect<double>(down_at(u, v), square);
+            REQUIRE(wide);
+            CHECK(wide->t == 4.0f);
         }
 }
 

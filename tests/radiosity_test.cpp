@@ -320,7 +320,7 @@ TEST_CASE("radiosity: elimination exchanges rows where it has to") {
             for (Color& x : right) x = Color(number(), number(), number());
             // Far from singular: a row of its own for each column, in another order.
             for (std::size_t i = 0; i < n && n > 1; ++i)
-                a[i * n + (i + 1) % n] += (i + round) % 2 == 0 ? 9 : -9;
+                a[i * n + (i + 1) % n] += (i + std::size_t(round)) % 2 == 0 ? 9 : -9;
             for (std::size_t i = 0; i < n; ++i)
                 for (std::size_t j = 0; j < n; ++j) b[i] += a[i * n + j] * right[j];
             detail::eliminate(a, b);
@@ -334,6 +334,10 @@ TEST_CASE("radiosity: elimination exchanges rows where it has to") {
         detail::eliminate(a, b);
         for (const Color& x : b) CHECK(glm::distance(x, Color(1)) < 1e-14);
     }
+    std::vector<double> a{-1, 1, 1e-20, 1};
+    std::vector<Color> b{Color(0), Color(1)};
+    detail::eliminate(a, b);
+    for (const Color& x : b) CHECK(glm::distance(x, Color(1)) < 1e-14);
 }
 
 TEST_CASE("radiosity: what is not yet sent, as a share of what is emitted") {

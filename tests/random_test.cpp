@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "support/numbers.hpp"
+#include "support/statistics.hpp"
 
 using namespace ljus;
 using ljus_test::chi_square;

@@ -301,6 +301,39 @@ TEST_CASE("render: progress is told, and can stop it") {
     CHECK(stopped.counts.camera_rays < 64 * 64);
 }
 
+TEST_CASE("render: a strip for every 16 pixels of a row, the last one part of one") {
+    for (const int width : {1, 15, 16, 17, 32, 33}) {
+        long long all = 0;
+        const auto watch = [&](long long, long long total) {
+            return all = total, true;
+        };
+        (void)render(Echo{}, Camera{},
+                     {.width = width,
+                      .height = 3,
+                      .samples = 1,
+                      .threads = 1,
+                      .progress = watch});
+        CHECK(all == 3 * std::ceil(width / 16.0));
+    }
+}
+
+TEST_CASE("render: neighbours do not look through the same places of their squares") {
+    for (const Sampling sampling : {Sampling::sobol, Sampling::multi_jittered}) {
+        const RenderSettings picture{.width = 8, .height = 8, .samples = 16};
+        const Pattern pattern = make_pattern(sampling, 16);
+        std::set<int> cells; // of 16 x 16, into which the first ray of each pixel goes
+        for (int y = 0; y < 8; ++y)
+            for (int x = 0; x < 8; ++x) {
+                RandomStream stream;
+                const auto at =
+                    detail::place_of_ray<double>(picture, pattern, x, y, 0, stream);
+                const Vec2T<double> rest = at.place - Vec2T<double>(x, y);
+                cells.insert(int(16 * rest.x));
+            }
+        CHECK(cells.size() > 8); // one, if all had one pattern
+    }
+}
+
 TEST_CASE("render: one pixel's ray is the same alone as in the picture") {
     const Room room = make_room<float>(Ball::mixture, Lamp::quad, 1);
     const auto tracer = make_path_tracer(room);

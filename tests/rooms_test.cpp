@@ -1,7 +1,9 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <utility>
 #include <vector>
 
@@ -11,8 +13,10 @@
 #include "ljus/scenes/cornell_box.hpp"
 #include "ljus/scenes/furnaces.hpp"
 #include "ljus/scenes/report_rooms.hpp"
+#include "support/seed.hpp"
 
 using namespace ljus;
+using ljus_test::test_seed;
 
 namespace {
 
@@ -41,9 +45,11 @@ Means means(const Camera& camera, int rays, const MakeRenderer& with_renderer) {
     Means all;
     for (std::uint64_t seed = 0; seed < seeds; ++seed)
         with_renderer(seed + 1, [&](const auto& renderer) {
-            const auto rendered =
-                render(renderer, camera,
-                       {.width = 16, .height = 16, .samples = rays, .seed = seed + 1});
+            const auto rendered = render(renderer, camera,
+                                         {.width = 16,
+                                          .height = 16,
+                                          .samples = rays,
+                                          .seed = test_seed(seed + 1)});
             CHECK(rendered.counts.rejected == 0);
             glm::dvec3 sum{0};
             for (const Rgb& c : rendered.image.pixels) {
@@ -66,7 +72,7 @@ template <typename Scene>
 Means photon_means(const Room<Scene>& room, int rays, float radius) {
     return means(room.camera, rays, [&](std::uint64_t seed, const auto& use) {
         const PhotonMappingSettings settings{
-            .caustics = {.photons = 10'000, .seed = seed},
+            .caustics = {.photons = 10'000, .seed = test_seed(seed)},
             .caustics_estimate = {.radius = radius}};
         const auto maps = make_photon_maps(room.scene, settings);
         use(make_photon_mapper(room.scene, maps, settings));
@@ -114,6 +120,88 @@ int facing(const Scene& scene, const Vec3& inside) {
     if constexpr (std::tuple_size_v<decltype(scene.shapes)> == 3)
         look(std::get<std::vector<Triangle>>(scene.shapes));
     return count;
+}
+
+// A ball as the report's program has it: both reflectivity and transparency may be 1.
+struct ReportBall {
+    Vec3 center;
+    float radius;
+    Rgb color;
+    float reflectivity = 0, transparency = 0, index = 1;
+};
+
+// The ball is there, of the material that the table of report_rooms.hpp makes of it.
+template <typename Scene>
+void check_ball(const Scene& scene, std::size_t number, const ReportBall& right) {
+    CAPTURE(number);
+    const Sphere& ball = std::get<std::vector<Sphere>>(scene.shapes)[number];
+    const auto& object = scene.objects[1][number];
+    CHECK(ball.center == right.center);
+    CHECK(ball.radius == right.radius);
+    CHECK(is_black(object.emission));
+    CHECK_FALSE(object.inside_out);
+    const auto check_color = [&](const Rgb& absorption) { // of half the way through
+        const Rgb through = transmittance(absorption, right.radius);
+        for (int i = 0; i < 3; ++i)
+            CHECK(through[i] == doctest::Approx(std::max(right.color[i], 0.05f)));
+    };
+    scene.visit_material(object.material, [&]<typename M>(const M& m) {
+        if constexpr (std::same_as<M, Lambertian>) {
+            CHECK(right.reflectivity + right.transparency == 0);
+            CHECK(m.albedo == 0.75f * right.color);
+        } else if constexpr (std::same_as<M, Mirror>) {
+            CHECK(right.reflectivity == 1);
+            CHECK(m.reflectance == Rgb{0.98f});
+        } else if constexpr (std::same_as<M, Glass>) {
+            CHECK(right.transparency == 1);
+            CHECK(right.reflectivity == 0);
+            CHECK(m.index == right.index);
+            check_color(m.absorption);
+        } else {
+            const float all = right.reflectivity + right.transparency;
+            CHECK(right.transparency == 1);
+            CHECK(m.reflectivity == doctest::Approx(right.reflectivity / all));
+            CHECK(m.transparency == 1);
+            CHECK(m.index == right.index);
+            CHECK(is_black(m.color));
+            check_color(m.absorption);
+        }
+    });
+}
+
+// Seen from a point, a matt wall stands at this place and has this albedo.
+template <typename Scene>
+void check_wall(const Scene& scene, const Vec3& from, const Vec3& place,
+                const Rgb& albedo) {
+    CAPTURE(place.x);
+    CAPTURE(place.y);
+    CAPTURE(place.z);
+    const Ray ray{.origin = from, .direction = place - from};
+    const auto hit = closest_hit(scene, ray);
+    REQUIRE(hit);
+    CHECK(hit->at.t == doctest::Approx(1).epsilon(1e-5));
+    const auto& object = scene.object(hit->object);
+    CHECK(is_black(object.emission));
+    scene.visit_material(object.material, [&]<typename M>(const M& m) {
+        if constexpr (std::same_as<M, Lambertian>)
+            for (int i = 0; i < 3; ++i)
+                CHECK(m.albedo[i] == doctest::Approx(albedo[i]).epsilon(1e-6));
+        else
+            FAIL_CHECK("it is not matt");
+    });
+}
+
+// A lamp is a square in the ceiling, from a corner.
+template <typename Scene>
+void check_lamp(const Scene& scene, std::size_t number, const Vec3& corner, float side,
+                const Rgb& radiance) {
+    const Light& light = scene.lights[number];
+    const auto& quad = std::get<std::vector<Quad>>(scene.shapes)[light.object->index];
+    const Vec3 middle = corner + Vec3{side / 2, side / 2, 0};
+    CHECK(glm::distance(point_at(quad, 0.5f, 0.5f).position, middle) < 1e-5f);
+    CHECK(area(quad) == doctest::Approx(side * side));
+    CHECK(light.emission == radiance);
+    CHECK(normal(quad).z == -1.0f);
 }
 
 } // namespace
@@ -243,6 +331,142 @@ TEST_CASE("rooms: the Cornell box faces inwards") {
     add_cornell_walls(scene);
     CHECK(scene.size() == 5);
     CHECK(facing(scene, Vec3{0, 1, 0}) == 5);
+}
+
+TEST_CASE("rooms: what stands where in the report's rooms, by its program's history") {
+    const ReportBall matt[] = {{{5, -0.5f, -4}, 0.75f, {1, 0, 0}},
+                               {{10, 0, -0.5f}, 1.25f, {1, 0.2f, 1}},
+                               {{6, 4, 2}, 1.15f, {1, 1, 0.2f}},
+                               {{8, 3, -3}, 1.15f, {1, 1, 0.2f}, 1}};
+    const ReportBall in_final[] = {
+        {{6, -3.5f, -3.5f}, 1.15f, {0.5f, 0.5f, 1}, 0.6f, 1, 1.15f},
+        {{6, -4, 1.75f}, 1.5f, {1, 1, 0}, 0, 1, 1.47f},
+        {{7, 0, 2.75f}, 0.5f, {0.8f, 0.2f, 1}, 0, 1, 1.37f},
+        {{6.5f, -2, 0.95f}, 1, {0.7f, 1, 0}, 0, 1, 1.47f}};
+    const ReportBall in_all[] = {
+        {{6, -3.5f, -3.5f}, 1.15f, {0.5f, 0.5f, 1}, 0.6f, 1, 1},
+        {{6, -4, 1.75f}, 1.5f, {1, 1, 1}, 0, 1, 1.97f}};
+    const ReportBall of_glass[] = {
+        {{6, -4, 1.75f}, 1.5f, {1, 1, 1}, 0, 1, 1.97f},
+        {{6, -3.5f, -3.5f}, 1.15f, {0.5f, 0.5f, 1}, 0.6f, 1, 1},
+        {{8, 0.5f, -2.5f}, 1.5f, {1, 1, 1}, 0.5f, 1, 1.6f},
+        {{7, 4.5f, -3}, 1.15f, {1, 1, 0.2f}, 0, 1, 1.7f}};
+    const auto last = final_room(), all = all_materials_room(),
+               glass = four_glass_room();
+    for (std::size_t i = 0; i < 4; ++i) {
+        check_ball(last.scene, i, matt[i]);
+        check_ball(all.scene, i, matt[i]);
+        check_ball(last.scene, 4 + i, in_final[i]);
+        check_ball(glass.scene, i, of_glass[i]);
+    }
+    for (std::size_t i = 0; i < 2; ++i) check_ball(all.scene, 4 + i, in_all[i]);
+    // A lamp of 2 by 2; the final room has a small yellowish one beside it.
+    for (const auto* room : {&last, &all, &glass})
+        check_lamp(room->scene, 0, {5, -1, 4.999f}, 2, Rgb{30});
+    check_lamp(last.scene, 1, {4, 2, 4.999f}, 1, 30.0f * Rgb{1, 1, 0.65f});
+    // The tetrahedron, corner by corner.
+    const Vec3 v[] = {{7, 5.09f, -1}, {7, 3.46f, 0.15f}, {6, 3.46f, -1.57f},
+                      {8, 3.46f, -1.57f}};
+    const int faces[][3] = {{0, 2, 1}, {0, 3, 2}, {1, 3, 0}, {2, 3, 1}};
+    for (const auto* room : {&last, &all})
+        for (std::size_t i = 0; i < 4; ++i) {
+            const auto& face = std::get<2>(room->scene.shapes)[2 + i];
+            CHECK(face.v1 == v[faces[i][0]]);
+            CHECK(face.v2 == v[faces[i][1]]);
+            CHECK(face.v3 == v[faces[i][2]]);
+            const auto& object = room->scene.objects[2][2 + i];
+            const auto& cyan = std::get<0>(room->scene.materials);
+            CHECK(cyan[object.material.index].albedo == Rgb{0, 0.75f, 0.75f});
+        }
+}
+
+TEST_CASE("rooms: the report's walls, by rays to their middles and into the corners") {
+    Scene<Shapes<Quad, Triangle>, Materials<Lambertian>> scene;
+    add_report_room(scene);
+    const Vec3 from{5, 0, 0};
+    const Rgb green = 0.75f * Rgb{0.05f, 1, 0.05f}, blue = 0.75f * Rgb{0.05f, 0.05f, 1};
+    const Rgb red = 0.75f * Rgb{1, 0.05f, 0.05f}, white{0.75f};
+    const Rgb orange = 0.75f * Rgb{1, 0.25f, 0.05f};
+    for (const float z : {-4.9f, 0.0f, 4.9f}) {
+        for (const float x : {0.1f, 5.0f, 9.9f}) {
+            check_wall(scene, from, {x, 6, z}, green);
+            check_wall(scene, from, {x, -6, z}, orange);
+        }
+        for (const float s : {0.02f, 0.5f, 0.98f}) {
+            check_wall(scene, from, {10 + 3 * s, 6 - 6 * s, z}, blue);
+            check_wall(scene, from, {13 - 3 * s, -6 * s, z}, red);
+        }
+    }
+    for (const float z : {-5.0f, 5.0f})
+        for (const Vec3& place : {Vec3{0.1f, 5.9f, z}, Vec3{0.1f, -5.9f, z},
+                                  Vec3{5, 0, z}, Vec3{9.9f, 5.9f, z},
+                                  Vec3{9.9f, -5.9f, z}, Vec3{12.9f, 0, z}})
+            check_wall(scene, from, place, white);
+    // Behind the camera it is open.
+    CHECK_FALSE(closest_hit(scene, Ray{.origin = from, .direction{-1, 0, 0}}));
+}
+
+TEST_CASE("rooms: the Cornell boxes, number by number") {
+    const auto check_box = [](const auto& room) {
+        const auto& scene = room.scene;
+        const Vec3 from{0, 1, 0};
+        for (const float a : {-0.9f, 0.9f}) {
+            check_wall(scene, {0, 1, 0.9f}, {a, 0, 0.95f}, Rgb{0.75f});
+            check_wall(scene, from, {a, 2, -0.9f}, Rgb{0.75f});
+            check_wall(scene, from, {a, 1.9f, -1}, Rgb{0.75f});
+            check_wall(scene, from, {-1, 1.9f, a}, Rgb{0.63f, 0.06f, 0.05f});
+            check_wall(scene, from, {1, 1.9f, a}, Rgb{0.14f, 0.45f, 0.09f});
+        }
+        CHECK_FALSE(closest_hit(scene, Ray{.origin = from, .direction{0, 0, 1}}));
+        REQUIRE(scene.lights.size() == 1);
+        const Light& light = scene.lights[0];
+        const auto& lamp = std::get<0>(scene.shapes)[light.object->index];
+        CHECK(glm::distance(point_at(lamp, 0.5f, 0.5f).position, Vec3{0, 1.99f, 0}) <
+              1e-6f);
+        CHECK(area(lamp) == doctest::Approx(0.25));
+        CHECK(normal(lamp).y == -1.0f);
+        CHECK(light.emission == Rgb{17, 13, 8});
+        const auto& balls = std::get<std::vector<Sphere>>(scene.shapes);
+        REQUIRE(balls.size() == 2);
+        CHECK(balls[0].center == Vec3{-0.42f, 0.38f, -0.3f});
+        CHECK(balls[1].center == Vec3{0.42f, 0.38f, 0.3f});
+        CHECK(balls[0].radius == 0.38f);
+        CHECK(balls[1].radius == 0.38f);
+        // 33 degrees from top to bottom, seen from (0, 1, 4.4).
+        CHECK(room.camera.position == Vec3{0, 1, 4.4f});
+        CHECK(room.camera.forward == Vec3{0, 0, -1});
+        CHECK(room.camera.half_height == doctest::Approx(0.296213496));
+    };
+    const auto box = cornell_box();
+    check_box(box);
+    CHECK(std::get<1>(box.scene.materials)[0].reflectance == Rgb{0.95f});
+    CHECK(std::get<2>(box.scene.materials)[0].index == 1.5f);
+    CHECK(is_black(std::get<2>(box.scene.materials)[0].absorption));
+    const auto matt = matt_cornell_box();
+    check_box(matt);
+    CHECK(std::get<0>(matt.scene.materials)[3].albedo == Rgb{0.2f, 0.35f, 0.7f});
+    CHECK(std::get<0>(matt.scene.materials)[4].albedo == Rgb{0.7f});
+}
+
+TEST_CASE("rooms: a furnace is closed and shines inwards from all its walls") {
+    const auto check_furnace = [](const auto& room) {
+        int missed = 0, dark = 0;
+        for (int i = 0; i < 500; ++i) {
+            const float z = float(2 * i + 1) / 500 - 1, phi = 2.4f * float(i);
+            const float r = std::sqrt(1 - z * z);
+            const Ray ray{.origin{0.1f, -0.2f, 0.3f},
+                          .direction{r * std::cos(phi), r * std::sin(phi), z}};
+            const auto hit = closest_hit(room.scene, ray);
+            missed += !hit;
+            if (hit) dark += !vertex_at(room.scene, ray, *hit).emits();
+        }
+        CHECK(missed == 0);
+        CHECK(dark == 0);
+        CHECK(room.camera.position == Vec3{0.3f, -0.2f, 0.5f});
+        CHECK(room.camera.half_height == doctest::Approx(1).epsilon(1e-6));
+    };
+    check_furnace(sphere_furnace(Rgb{1}, Rgb{0.5f}));
+    check_furnace(box_furnace(Rgb{1}, Rgb{0.5f}));
 }
 
 TEST_CASE("rooms: both renderers find the same light") {

@@ -290,7 +290,7 @@ TEST_CASE_TEMPLATE("sampling: a point of the disc has a density, on its border t
     for (int i = 0; i < 400000; ++i) {
         auto u = draws.square<T>();
         const T edge = std::array<T, 4>{T(0), last, draws.unit<T>() * T(1e-6),
-                                        T(1) - draws.unit<T>() * T(1e-6)}[i % 4u];
+                                        T(1) - draws.unit<T>() * T(1e-6)}[unsigned(i) % 4u];
         (i % 3 ? u.x : u.y) = std::min(edge, last);
         const auto p = ljus::sample_concentric_disc(u);
         outside += !(ljus::pdf_concentric_disc(p) > 0);

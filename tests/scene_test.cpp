@@ -36,10 +36,11 @@ concept Takes = requires(S& scene, Args... args) {
 static_assert(Takes<Room, Sphere, MaterialId> && Takes<Room, Quad, MaterialId, Rgb> &&
               Takes<Room, Triangle, MaterialId, Rgb, bool> && Takes<Room, Glass> &&
               Takes<Room, PointLight>);
-static_assert(!Takes<Room, Sphere> && !Takes<Room, SphereT<double>, MaterialId> &&
-              !Takes<Room, LambertianT<double>> && !Takes<Room, int>);
+// What is not listed gives a sentence, which tests/checks/short_errors.sh asks for.
+static_assert(Room::lists<Triangle> && Room::lists<Mirror> &&
+              !Room::lists<SphereT<double>> && !Room::lists<LambertianT<double>>);
 using Small = Scene<Shapes<Sphere>, Materials<Lambertian>>;
-static_assert(!Takes<Small, Quad, MaterialId> && !Takes<Small, Glass>);
+static_assert(Small::lists<Sphere> && !Small::lists<Quad> && !Small::lists<Glass>);
 static_assert(detail::each_once<> && detail::each_once<int> &&
               detail::each_once<int, char> && !detail::each_once<int, char, int> &&
               !detail::each_once<char, int, int>);

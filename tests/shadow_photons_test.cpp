@@ -46,7 +46,7 @@ Verdict verdict_of(const VerdictGrid& grid, const SurfacePoint& point, int side,
 std::vector<Photon> photons_of(const Room& room, long long count,
                                std::uint64_t seed = 1) {
     return trace_photons(room, MapType::general,
-                         {.photons = count, .seed = seed, .threads = 1})
+                         {.photons = count, .seed = test_seed(seed), .threads = 1})
         .photons;
 }
 
@@ -117,7 +117,7 @@ TEST_CASE("shadow photons: which way a side faces") {
         CHECK(detail::facing(n, -1) == axis);
     }
     // By a unit vector as by its small normal, ties of 45 degrees too.
-    auto stream = random_stream(5, Pass::camera, 0, 0);
+    auto stream = random_stream(test_seed(5), Pass::camera, 0, 0);
     for (int i = 0; i < 20000; ++i) {
         Vec3 n = sample_uniform_sphere(next_2d<float>(stream));
         if (i % 4 == 0) n = glm::normalize(Vec3{n.x, n.x * (1 + 1e-7f), 0.1f * n.z});
@@ -303,8 +303,8 @@ TEST_CASE("shadow photons: called lit at the tolerated share with the stated ris
         constexpr int trials = 20000;
         int lit = 0;
         for (int trial = 0; trial < trials; ++trial) {
-            auto stream =
-                random_stream(7, Pass::general_photons, 0, std::uint64_t(trial));
+            auto stream = random_stream(test_seed(7), Pass::general_photons, 0,
+                                        std::uint64_t(trial));
             std::vector<Photon> photons;
             for (std::uint32_t i = 0; i < n; ++i) {
                 const float x = next_1d<float>(stream), z = next_1d<float>(stream);
@@ -339,7 +339,8 @@ TEST_CASE("shadow photons: the irradiance that no photon has seen") {
     int none = 0;
     constexpr int trials = 20000;
     for (int trial = 0; trial < trials; ++trial) {
-        auto stream = random_stream(3, Pass::general_photons, 0, std::uint64_t(trial));
+        auto stream =
+            random_stream(test_seed(3), Pass::general_photons, 0, std::uint64_t(trial));
         bool seen = false; // 1000 photons on a floor 1000 / mean discs large
         for (int i = 0; i < 1000; ++i)
             seen = seen || double(next_1d<float>(stream)) < mean / 1000;
@@ -746,7 +747,7 @@ TEST_CASE("shadow photons: cells, bricks and the table that finds them") {
             CHECK_FALSE(cells.cell_of(point, 0));
         }
     // A key is a brick and a way, and back; bricks are numbered as they come.
-    auto stream = random_stream(3, Pass::user, 0, 0);
+    auto stream = random_stream(test_seed(3), Pass::user, 0, 0);
     const auto some = [&] {
         return int(next_1d<float>(stream) * float(detail::most_cells));
     };
@@ -859,4 +860,37 @@ TEST_CASE("shadow photons: verdicts in a ball, by side, light and kind") {
     SurfacePoint wall = floor_point(0, 0);
     wall.normal = {1, 0, 0};
     CHECK(verdict_at(map, wall, 1, 0, 1.0f, enough) == Verdict::unknown);
+}
+
+TEST_CASE("shadow photons: what a fine cell knows is not changed by a coarse one") {
+    const detail::VerdictCell first{.x = 8, .y = 8, .z = 8, .way = 2};
+    for (const int times : {2, 4})
+        for (const bool lit : {false, true}) {
+            // Cell 0 is lit, cell 1 in shadow, of the others nothing is known.
+            detail::VerdictBitsT<float> fine{.lights = 1}, coarse{.lights = 1};
+            (void)fine.table.insert(brick_key(first));
+            fine.bits = {1, 2, 0};
+            const std::int32_t at = 8 / times;
+            (void)coarse.table.insert(detail::brick_key({at, at, at, 2}));
+            const std::uint64_t all = ~std::uint64_t{0};
+            coarse.bits = {lit ? all : 0, lit ? 0 : all, 0};
+            detail::fill_from(fine, coarse, times);
+            CHECK(fine.bits[0] == (lit ? all - 2 : 1));
+            CHECK(fine.bits[1] == (lit ? 2 : all - 1));
+        }
+}
+
+TEST_CASE(
+    "shadow photons: a wall lies in the middle of its cells, not on their border") {
+    const auto photons = photons_of(half_plane(), 20000);
+    Vec3 low = photons[0].position;
+    for (const Photon& photon : photons) low = glm::min(low, photon.position);
+    const VerdictGrid grid =
+        make_verdict_grid(photons, 1, {.rule = SkipRule::enough}, 1);
+    const auto& cells = grid.known.cells;
+    REQUIRE(cells.length > 0);
+    for (int axis = 0; axis < 3; ++axis) {
+        const float place = (low[axis] - cells.corner[axis]) / cells.length;
+        CHECK(place - std::floor(place) == doctest::Approx(0.5).epsilon(0.01));
+    }
 }

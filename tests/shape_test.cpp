@@ -15,6 +15,7 @@
 
 #include "ljus/geometry/moving.hpp"
 #include "support/numbers.hpp"
+#include "support/statistics.hpp"
 
 using namespace ljus;
 using ljus_test::Numbers;

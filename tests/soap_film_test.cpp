@@ -20,6 +20,7 @@
 #include "ljus/scene/camera.hpp"
 #include "support/draws.hpp"
 #include "support/mean.hpp"
+#include "support/refusal.hpp"
 
 using namespace ljus;
 using namespace ljus_test;
@@ -70,12 +71,7 @@ Camera camera_of_room() {
 }
 
 std::string refusal(const SoapFilm& film) {
-    try {
-        check(film);
-    } catch (const std::invalid_argument& error) {
-        return error.what();
-    }
-    return "";
+    return ljus_test::refusal([&] { check(film); });
 }
 
 } // namespace
@@ -130,6 +126,7 @@ TEST_CASE("soap film: hangs under its own weight") {
 
 TEST_CASE("soap film: one that cannot be is refused in a sentence") {
     CHECK(refusal({}).empty());
+    CHECK(refusal({.thickness = ljus::detail::max_film_thickness<float>}).empty());
     CHECK(refusal({.thickness = -1}) ==
           "soap_film.thickness is -1; it must be within [0, 1e6] nm.");
     CHECK(refusal({.thickness = NAN}).find("soap_film.thickness is NaN") == 0);

@@ -17,6 +17,7 @@
 
 #include "support/draws.hpp"
 #include "support/numbers.hpp"
+#include "support/statistics.hpp"
 #include "support/within.hpp"
 
 using namespace ljus;
@@ -203,7 +204,7 @@ TEST_CASE("solid angle: triangles and quads, at any size and from both sides") {
         CAPTURE(size);
         CHECK(measured(triangle, from, 40000, true).agrees_with(half, 1e-4));
         CHECK(measured(quad, from, 40000, true).agrees_with(half + other, 1e-4));
-        CHECK((measured(quad, from, 100).value() > 0) == seen);
+        CHECK((measured(quad, from, 100).mean > 0) == seen);
     }
 }
 
@@ -336,7 +337,7 @@ double by_rule(const glm::dvec3& from, const glm::dvec3& normal, const glm::dvec
 } // namespace
 
 TEST_CASE("solid angle: form factors of lamps, cut by the horizon or not") {
-    Numbers n(3);
+    Numbers n{3};
     int some = 0;
     for (int i = 0; i < 60; ++i) {
         const glm::dvec3 from = n.point(1), normal = n.direction();

@@ -36,6 +36,7 @@
 
 #include "ljus/geometry/sphere.hpp"
 #include "support/exact.hpp"
+#include "support/numbers.hpp"
 
 using ljus::Ray;
 using ljus::RayT;
@@ -48,11 +49,11 @@ namespace {
 
 using ljus_test::grid_exponent;
 using ljus_test::Integer;
+using ljus_test::Numbers;
 using ljus_test::on_grid;
 using Real = boost::multiprecision::cpp_bin_float_100;
 
-// --- The oracle
-// -------------------------------------------------------------------------
+// --- The oracle ----------------------------------------------------------------------
 
 struct Truth {
     bool hit = false;
@@ -132,29 +133,7 @@ double ulps(T t, const Real& truth) {
     return (abs(Real(t) - truth) / Real(unit)).template convert_to<double>();
 }
 
-// --- The families
-// -----------------------------------------------------------------------
-
-/// A small generator of our own, so that the cases are the same everywhere.
-struct Numbers {
-    std::uint64_t state = 1;
-    double next() {
-        state = state * 6364136223846793005ull + 1442695040888963407ull;
-        return static_cast<double>(state >> 11) / 9007199254740992.0;
-    }
-    double between(double low, double high) { return low + (high - low) * next(); }
-    double power(double low, double high) { // 10^x
-        return std::pow(10.0, between(low, high));
-    }
-    Vec3T<double> direction() {
-        for (;;) {
-            const double x = between(-1, 1), y = between(-1, 1), z = between(-1, 1);
-            const Vec3T<double> v{x, y, z};
-            const double length2 = glm::dot(v, v);
-            if (length2 > 0.01 && length2 < 1) return v / std::sqrt(length2);
-        }
-    }
-};
+// --- The families --------------------------------------------------------------------
 
 template <std::floating_point T>
 struct Case {
@@ -287,8 +266,7 @@ Case<T> make_case(std::size_t family, int i, Numbers& n) {
     }
 }
 
-// --- The count
-// --------------------------------------------------------------------------
+// --- The count -----------------------------------------------------------------------
 
 struct Tally {
     int firm = 0, firm_wrong = 0, hard = 0, hard_wrong = 0;

@@ -14,8 +14,8 @@
 #include <set>
 #include <vector>
 
-#include "support/numbers.hpp"
 #include "support/seed.hpp"
+#include "support/statistics.hpp"
 
 using namespace ljus;
 using ljus_test::chi_square;

@@ -112,8 +112,16 @@ TEST_CASE("survey: each pass is on or off for a reason that is printed") {
     CHECK_FALSE(plan.general_map.on);
     CHECK(plan.general_map.why == "no ray asks it");
     CHECK_FALSE(plan.shadow_photons.on);
-    CHECK(plan.tree.on);
-    CHECK(plan.tree.why == "8 objects, a tree finds the first on a ray");
+    CHECK(plan.skipped_rays.why == "no rule was asked for");
+    CHECK(plan.skipped_bounces.why == "not asked for");
+    settings.skip = {.rule = SkipRule::enough, .indirect_rays = true};
+    settings.general.photons = 0;
+    plan = survey(glass, settings);
+    CHECK(plan.skipped_rays.why.starts_with("0 photons, and each light takes "));
+    CHECK(plan.skipped_bounces.why == "0 photons were asked for");
+    plan = survey(glass, settings = {});
+    CHECK_FALSE(plan.tree.on);
+    CHECK(plan.tree.why == "8 objects, eight are asked at a time");
     Room one;
     one.add(Sphere{}, one.add(Lambertian{}));
     CHECK_FALSE(survey(one, settings).tree.on);
@@ -214,7 +222,7 @@ TEST_CASE("survey: the lines as they are printed, and one photon is enough") {
     CHECK(plan.general_map.why == "indirect light is asked of it");
     CHECK(plan.indirect_rays.why == "7 of 8 objects light each other");
     CHECK(to_text(plan.tree) ==
-          "tree             on   8 objects, a tree finds the first on a ray\n");
+          "tree             off  8 objects, eight are asked at a time\n");
     CHECK(to_text(plan.thin_film) == "thin film        off  no material is one\n");
     std::string all;
     for (const PlanItem* item : plan.items()) all += to_text(*item);
@@ -327,6 +335,7 @@ TEST_CASE("survey: where float stops holding, it says so, with the digits left")
         const auto white = scene.add(LambertianT<T>{});
         scene.add(SphereT<T>{.center{T(0), T(0), T(0)}, .radius = T(1)}, white);
         scene.add(SphereT<T>{.center{T(0), -far, T(0)}, .radius = radius}, white);
+        scene.add(PointLightT<T>{.intensity = RgbT<T>(T(1))});
         return scene;
     };
     CHECK(remarks(moved(1e4f, 1.0f)).empty());
@@ -351,6 +360,26 @@ TEST_CASE("survey: where float stops holding, it says so, with the digits left")
     CHECK(make_photon_maps(far).remarks == plan.remarks[0] + "\n");
 }
 
+TEST_CASE("survey: a scene without a lamp is said to be black, and it is") {
+    Scene<Shapes<Sphere>, Materials<Lambertian>> scene;
+    scene.add(Sphere{.center{0, 0, -3}}, scene.add(Lambertian{}));
+    const Plan plan = survey(scene, PhotonMappingSettings{});
+    REQUIRE(plan.remarks.size() == 1);
+    CHECK(plan.remarks[0] ==
+          "the scene has no light, and the picture will be black: add an object with a "
+          "radiance, or a point light");
+    // It stands in the plan, and the first pass says it again.
+    CHECK(to_text(plan).ends_with("\nremark          " + plan.remarks[0] + "\n"));
+    const auto maps = make_photon_maps(scene);
+    CHECK(maps.remarks == plan.remarks[0] + "\n");
+    const auto black = render(make_photon_mapper(scene, maps), look_at({}),
+                              {.width = 8, .height = 6, .samples = 4});
+    for (const Rgb& pixel : black.image.pixels) CHECK(pixel == Rgb{0});
+    // One lamp, and there is nothing to say.
+    scene.add(Sphere{.center{0, 3, -3}}, scene.add(Lambertian{}), Rgb{1});
+    CHECK(survey(scene, PhotonMappingSettings{}).remarks.empty());
+}
+
 TEST_CASE("survey: a lobe that shadow rays do not find is named") {
     const auto remarks = [](float roughness, DirectLight direct) {
         Scene<Shapes<Sphere>, Materials<Lambertian, Glossy>> scene;
@@ -362,7 +391,9 @@ TEST_CASE("survey: a lobe that shadow rays do not find is named") {
     REQUIRE(remarks(0.01f, DirectLight::sampled).size() == 1);
     CHECK(remarks(0.01f, DirectLight::sampled)[0].find("1 object(s) are nearly") == 0);
     CHECK(remarks(0.05f, DirectLight::sampled).size() == 1);
-    for (const float wide : {0.0f, 0.2f, 1.0f})
+    // A density of 1000 along the mirrored way is a roughness of 0.0998.
+    CHECK(remarks(0.097f, DirectLight::sampled).size() == 1);
+    for (const float wide : {0.0f, 0.103f, 0.2f, 1.0f})
         CHECK(remarks(wide, DirectLight::sampled).empty());
     CHECK(remarks(0.01f, DirectLight::mis).empty());
     CHECK(remarks(0.01f, DirectLight::analytic).empty());
@@ -390,6 +421,14 @@ TEST_CASE("survey: which passes each way of indirect light needs, and from how m
         const auto two = passes(row.indirect, 2, 1);
         CHECK(two.shadow_rays);
         CHECK(two.indirect_rays == row.rays);
+        if (!row.rays) {
+            PhotonMappingSettings settings{.max_depth = 2, .indirect = row.indirect};
+            CHECK(detail::make_plan(found, settings).indirect_rays.why ==
+                  "not asked for");
+            settings.max_depth = 1;
+            CHECK(detail::make_plan(found, settings).indirect_rays.why ==
+                  "the depth ends at the first surface");
+        }
         CHECK(two.general_map == row.general);
         CHECK(two.shadow_photons == row.general);
         CHECK(two.irradiance == row.irradiance);

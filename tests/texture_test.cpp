@@ -367,7 +367,7 @@ TEST_CASE("texture: of pictures only those are read whose reader is trusted, and
     CHECK(refusal_of(jpeg) == "a is damaged: a table has more than 255 entries.");
     // A size that would take gigabytes.
     Bytes large = whole;
-    for (const std::size_t at : {18, 22}) large[at] = 0x40; // 16386 x 16386
+    for (const std::size_t at : {18u, 22u}) large[at] = 0x40; // 16386 x 16386
     const std::uint32_t new_sum = detail::png_sum(large, 12, 29);
     for (std::size_t i = 0; i < 4; ++i)
         large[29 + i] = static_cast<unsigned char>(new_sum >> (24 - 8 * i) & 255u);

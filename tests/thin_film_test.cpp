@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
+#include <vector>
 
 #include <boost/multiprecision/cpp_complex.hpp>
 
@@ -312,4 +314,199 @@ TEST_CASE_TEMPLATE(
     // Found from outside: the limit from each thickness is a mirror.
     CHECK(ljus::thin_film(T(0), T(1.33), T(1e-30), T(550)).reflected == 1);
     CHECK(ljus::thin_film(T(0), T(1.33), T(1e-30), T(550)).transmitted == 0);
+}
+
+TEST_CASE("film colour: three wavelengths, one a channel") {
+    const auto three = ljus::film_three(0.7, 1.33, 400.0);
+    const auto at = [](double wavelength) {
+        return ljus::thin_film(0.7, 1.33, 400.0, wavelength).reflected;
+    };
+    CHECK(three.x == at(611.4));
+    CHECK(three.y == at(549.1));
+    CHECK(three.z == at(464.3));
+}
+
+TEST_CASE("film colour: a table by hand, to its last row and behind it") {
+    // Rows at the paths 0, 1 and 4, and the mean; an index of 1 bends nothing.
+    const auto row = [](double value) { return ljus::RgbT<double>(value); };
+    const ljus::FilmTableT<double> table{
+        .index = 1,
+        .cosines = 2,
+        .paths = 3,
+        .longest = 4,
+        .cells = {row(1), row(1), row(2), row(2), row(3), row(3), row(9), row(9),
+                  row(INFINITY)}}; // one more than it has: nobody reads it
+    const auto at = [&](double path) { return look_up(table, 1.0, path).x; };
+    CHECK(at(0) == 1);
+    CHECK(at(0.25) == 1.5);
+    CHECK(at(2.25) == 2.5);
+    CHECK(at(3.9) == doctest::Approx(1 + std::sqrt(3.9)));
+    CHECK(at(4) == 9);
+    CHECK(at(1e30) == 9);
+}
+
+TEST_CASE("observer: the fit's published constants, typed a second time") {
+    // By another program, to 15 digits: a wrong digit of one of the 20 constants stays
+    // within the 0.03 that the fit is off its table.
+    const double eye[][4] = {
+        {400, 0.0116744650448092, 0.00128008785546068, 0.0607859949105047},
+        {430, 0.27339309010349, 0.0103838790109473, 1.38682275054222},
+        {450, 0.343750027963776, 0.0334147995315081, 1.7813850393059},
+        {470, 0.191832165335092, 0.0899439551304877, 1.29447339281129},
+        {490, 0.0320122096499184, 0.213068788728945, 0.465525385984622},
+        {520, 0.0698413627883319, 0.707113377656644, 0.0849914310468925},
+        {540, 0.282596864651915, 0.95416943907732, 0.0201784541439252},
+        {560, 0.60288764670001, 0.991081639477311, 0.00351836331245985},
+        {580, 0.920460516031767, 0.872133790505321, 0.000450337270469693},
+        {610, 1.00020491147278, 0.500338539402102, 1.15505746845681e-05},
+        {650, 0.283631873380808, 0.110045343268982, 2.96115850313243e-08},
+        {700, 0.00561199795848167, 0.00430455402456242, 3.00153837809723e-12}};
+    for (const auto& row : eye) {
+        const auto found = ljus::cie_observer(row[0]);
+        for (int i = 0; i < 3; ++i)
+            CHECK(found[i] == doctest::Approx(row[i + 1]).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("observer: the screen's own red, green and blue, and its white") {
+    // By their chromaticities in IEC 61966-2-1; white is X = Y = Z = 1 here.
+    const double primaries[][2] = {{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}};
+    for (int own = 0; own < 3; ++own) {
+        const double x = primaries[own][0], y = primaries[own][1];
+        const auto rgb = ljus::detail::xyz_to_rgb(
+            glm::dvec3(x / y / 0.95047, 1.0, (1 - x - y) / y / 1.08883));
+        for (int i = 0; i < 3; ++i)
+            if (i != own) CHECK(std::abs(rgb[i]) < 2e-4 * rgb[own]);
+    }
+    const auto white = ljus::detail::xyz_to_rgb(glm::dvec3(1.0));
+    for (int i = 0; i < 3; ++i) CHECK(white[i] == doctest::Approx(1).epsilon(1e-14));
+}
+
+TEST_CASE("observer: into the gamut by as much grey as needed, and no more") {
+    // Grey of the same luminance, by hand: what leaves [0, 1] farthest lies on its
+    // border afterwards, and all channels are drawn to the grey in proportion.
+    Draws draws{8};
+    int mixed = 0;
+    for (int i = 0; i < 10000; ++i) {
+        const glm::dvec3 c{draws.between(-0.5, 1.5), draws.between(-0.5, 1.5),
+                           draws.between(-0.5, 1.5)};
+        const double grey = 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
+        if (grey <= 0.01 || grey >= 0.99) continue;
+        double keep = 1;
+        for (const double x : {c.x, c.y, c.z})
+            keep = std::min(keep, x < 0   ? grey / (grey - x)
+                                  : x > 1 ? (1 - grey) / (x - grey)
+                                          : 1.0);
+        const auto shown = ljus::into_gamut(c);
+        for (int k = 0; k < 3; ++k)
+            REQUIRE(std::abs(shown[k] - (grey + keep * (c[k] - grey))) < 1e-12);
+        mixed += keep < 1;
+    }
+    CHECK(mixed > 1000);
+}
+
+TEST_CASE("film colours: where the spectrum is asked") {
+    std::vector<double> asked;
+    const auto ask = [&](double nm) { return asked.push_back(nm), 1.0; };
+    (void)ljus::detail::seen<double>(ask);
+    REQUIRE(asked.size() == 470);
+    CHECK(asked.front() == 360.5);
+    CHECK(asked.back() == 829.5);
+    // As close as the doc says: the phase 4 pi path / nm moves by 1/2 at 360 nm.
+    const double path = 20000 * std::sqrt(ljus::film_cosine2(0.8, 1.33));
+    const double step = 0.5 * 360 * 360 / (4 * std::numbers::pi * path);
+    const auto count = static_cast<int>(std::ceil(470 / step));
+    glm::dvec3 sum{0}, white{0};
+    for (int i = 0; i < count; ++i) {
+        const double nm = 360 + (i + 0.5) * 470 / count;
+        const glm::dvec3 eye = ljus::cie_observer(nm);
+        sum += eye * ljus::thin_film(0.8, 1.33, 20000.0, nm).reflected;
+        white += eye;
+    }
+    const auto color = ljus::detail::xyz_to_rgb(sum / white);
+    const auto found = ljus::film_spectral(0.8, 1.33, 20000.0);
+    for (int k = 0; k < 3; ++k) CHECK(found[k] == ljus_test::within(color[k], 1e-13));
+}
+
+TEST_CASE("film colours: the swing that is seen, its constants typed a second time") {
+    // By another program from the published Gaussians: X, Y and Z after a delay in nm.
+    const double swings[][4] = {
+        {0, 1, 1, 1},
+        {150, -0.0901767099032, -0.119941880827, -0.485814335481},
+        {400, -0.267094775804, -0.187614026124, 0.712853653748},
+        {700, 0.217629748481, -0.0352049824604, -0.843625701054},
+        {1100, 0.280629320097, 0.633162479724, -0.658279874053},
+        {1700, 0.356023120961, 0.327600652737, 0.0126457056684}};
+    for (const auto& row : swings) {
+        const auto right = ljus::detail::xyz_to_rgb(glm::dvec3(row[1], row[2], row[3]));
+        const auto found = ljus::detail::visible_swing(row[0]);
+        for (int i = 0; i < 3; ++i)
+            CHECK(found[i] == ljus_test::within(right[i], 1e-9));
+    }
+}
+
+TEST_CASE("film colours: three times round, for each polarisation by itself") {
+    // The sum of the doc, with Fresnel's amplitudes by sines and cosines. At a slant
+    // the two polarisations differ most; the third time round is R^3 of the whole.
+    for (const double c : {0.9, 0.5, 0.15}) {
+        const double n = 1.5, d = 350;
+        const double inside = std::sqrt(1 - (1 - c * c) / (n * n)); // cosine
+        const double s = (c - n * inside) / (c + n * inside);
+        const double p = (n * c - inside) / (n * c + inside);
+        glm::dvec3 sum{0};
+        for (const double r : {s * s, p * p}) {
+            glm::dvec3 waves{0};
+            for (int k = 1; k <= 3; ++k)
+                waves += std::pow(r, k) *
+                         ljus::detail::visible_swing(2 * k * d * n * inside);
+            sum += r / (1 + r) - (1 - r) / (1 + r) * waves;
+        }
+        const auto found = ljus::film_preintegrated(c, n, d);
+        for (int i = 0; i < 3; ++i) CHECK(std::abs(found[i] - sum[i]) < 1e-13);
+    }
+}
+
+TEST_CASE("film table: each cell is the spectrum's colour, and what had to be greyed") {
+    const auto table = ljus::bake_film_table(
+        1.33, {.cosines = 3, .paths = 41, .longest = 1200});
+    int greyed = 0;
+    double worst = 0, far = 0;
+    for (int row = 0; row < 41; ++row)
+        for (int column = 0; column < 3; ++column) {
+            const double c = column * column / 4.0, path = 1200 * row * row / 1600.0;
+            const double d = path / std::sqrt(ljus::film_cosine2(c, 1.33));
+            const auto color = ljus::film_spectral(c, 1.33, d);
+            greyed += ljus::into_gamut(color) != color;
+            worst = std::min({worst, color.x, color.y, color.z});
+            const auto cell = table.cells[std::size_t(row * 3 + column)];
+            far = std::max(far, ljus::max_component(
+                                    glm::abs(ljus::into_gamut(color) - cell)));
+        }
+    MESSAGE("farthest ", far, ", worst ", worst, " and ", table.worst);
+    CHECK(far < 2e-4);
+    CHECK(greyed > 5);
+    CHECK(std::abs(table.greyed - greyed) <= 1);
+    CHECK(std::abs(table.worst - worst) < 2e-4);
+    // Thin films only: the colours ask for close samples, not the fringes.
+    const auto thin =
+        ljus::bake_film_table(1.33, {.cosines = 2, .paths = 2, .longest = 100});
+    const auto right = ljus::into_gamut(ljus::film_spectral(1.0, 1.33, 100 / 1.33));
+    for (int i = 0; i < 3; ++i)
+        CHECK(std::abs(thin.cells[3][i] - right[i]) < 1e-5);
+}
+
+TEST_CASE("thin film: what is small keeps its digits, and nothing is no film") {
+    // Hardly any light goes through at the grazing angle, none is reflected by a film
+    // that is nearly air.
+    for (const double c : {1e-3, 1e-6, 1e-9}) {
+        const auto exact = by_matrix(c, 1.33, Real(150.0) / Real(600.0));
+        const double t = exact[1].convert_to<double>();
+        CHECK(ljus::thin_film(c, 1.33, 150.0, 600.0).transmitted ==
+              ljus_test::within(t, 1e-10));
+    }
+    const double r0 = std::pow(1e-8 / (2 + 1e-8), 2);
+    CHECK(ljus::thick_film(1.0, 1 + 1e-8) ==
+          ljus_test::within(2 * r0 / (1 + r0), 1e-6));
+    CHECK(ljus::thick_film(0.0, 1.0) == 0);
+    CHECK(ljus::thick_film(0.0, 1.33) == 1);
 }

@@ -11,8 +11,10 @@
 #include <limits>
 #include <vector>
 
+#include "common/plain_triangle.hpp"
 #include "ljus/geometry/watertight.hpp"
 #include "support/numbers.hpp"
+#include "support/statistics.hpp"
 #include "support/within.hpp"
 
 using namespace ljus;
@@ -457,4 +459,62 @@ TEST_CASE("triangle: the border is as wide as the rounding, and open on slivers"
     CHECK(farthest <= 1);
     CHECK(closed > 1000);
     CHECK(open > 1000);
+}
+
+TEST_CASE("triangle: the border by hand, along each axis") {
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto along = [&](double x) {
+            Vec3T<double> v{0};
+            v[axis] = x;
+            return v;
+        };
+        // |D| |T| (|E1| + |E2|) / |determinant|
+        CHECK(detail::border_of_rounding(along(-3), along(5), along(7), along(-11),
+                                         -2.0, 1.0) ==
+              detail::rounding_bound<double>(16) * 3 * 5 * 18 * 2);
+    }
+}
+
+TEST_CASE("triangle: u is within [0, 1] whatever the shape asks of it and of v") {
+    const auto hit = [](float x, float y) {
+        return moller_trumbore<double>(down_at(x, y), {0, 0, -4}, {1, 0, 0}, {0, 1, 0},
+                                       [](double, double, double) { return true; });
+    };
+    for (const float y : {-7.0f, 0.5f, 7.0f}) {
+        CHECK(hit(0, y));
+        CHECK(hit(1, y));
+        CHECK_FALSE(hit(-0.001f, y));
+        CHECK_FALSE(hit(1.001f, y));
+    }
+    REQUIRE(hit(0.25f, 0.5f));
+    CHECK(hit(0.25f, 0.5f)->part == 0);
+}
+
+// Within 1e-3 of an edge float may decide either way; elsewhere both must agree.
+TEST_CASE("triangle: the formula on paper agrees away from edges") {
+    Numbers numbers{31};
+    int hits = 0, misses = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        const Triangle triangle{Vec3(numbers.point(1)), Vec3(numbers.point(1)),
+                                Vec3(numbers.point(1))};
+        const double u = numbers.between(-0.5, 1.5), v = numbers.between(-0.5, 1.5);
+        const double nearest =
+            std::min({std::abs(u), std::abs(v), std::abs(1 - u - v)});
+        if (area(triangle) < 0.1f || nearest < 1e-3) continue;
+        const Vec3 target = triangle.v1 + float(u) * (triangle.v2 - triangle.v1) +
+                            float(v) * (triangle.v3 - triangle.v1);
+        const Vec3 way(numbers.direction());
+        if (std::abs(glm::dot(way, normal(triangle))) < 0.1f) continue;
+        const Ray ray{.origin = target - 3.0f * way, .direction = way};
+        const auto hit = examples::intersect_plainly(ray, triangle);
+        const bool inside = u > 0 && v > 0 && u + v < 1;
+        CHECK(hit.has_value() == inside);
+        (inside ? hits : misses) += 1;
+        if (!hit) continue;
+        CHECK(hit->t == doctest::Approx(3).epsilon(1e-5));
+        CHECK(hit->u == doctest::Approx(u).epsilon(1e-4).scale(1));
+        CHECK(hit->v == doctest::Approx(v).epsilon(1e-4).scale(1));
+    }
+    CHECK(hits > 1000);
+    CHECK(misses > 1000);
 }

@@ -444,6 +444,27 @@ TEST_CASE("vertex: panes in the way let a path pass, or stop it by what they ref
     CHECK(visibility(scene, point(-1), point(3)) == D3{0});
 }
 
+TEST_CASE("vertex: a way is blocked by the thousandth pane") {
+    for (const int panes : {999, 1000}) {
+        Scene<Shapes<QuadT<double>>, Materials<LambertianT<double>, ThinGlassT<double>>>
+            scene;
+        const auto clear = scene.add(ThinGlassT<double>{1, D3{1}}); // reflects nothing
+        const auto at_height = [](double z) {
+            return QuadT<double>{{-9, -9, z}, {18, 0, 0}, {0, 18, 0}};
+        };
+        scene.add(at_height(-1), scene.add(LambertianT<double>{}));
+        for (int i = 0; i < panes; ++i) scene.add(at_height(i), clear);
+        auto stream = random_stream(1, Pass::user, 0, 0);
+        PathStateT<double> path{.ray{.origin{0, 0, 1000.5}, .direction{0, 0, -1}}};
+        CHECK(next_vertex(scene, path, stream).has_value() == (panes < 1000));
+        const auto point = [](double z) {
+            return SurfacePointT<double>{.position{0, 0, z}, .normal{0, 0, 1}};
+        };
+        CHECK(visibility(scene, point(1000.5), point(-0.5)).x ==
+              doctest::Approx(panes < 1000 ? 1 : 0));
+    }
+}
+
 TEST_CASE("vertex: roulette's threshold and its largest probability") {
     const auto alive = [](float carried, float u, float threshold, float most) {
         Rgb throughput{carried};

@@ -152,7 +152,10 @@ TEST_CASE("watertight: the range of the ray decides") {
         ray.t_min = t_min, ray.t_max = t_max;
         return intersect<Watertight>(ray, half_square).has_value();
     };
-    CHECK(intersect<Watertight>(down_at(0.25f, 0.5f), half_square)->t == 4.0f);
+    const auto found = intersect<Watertight>(down_at(0.25f, 0.5f), half_square);
+    REQUIRE(found);
+    CHECK(found->t == 4.0f);
+    CHECK(found->part == 0);
     CHECK(hit(4, 4));
     CHECK(hit(0, 4));
     CHECK(hit(4, infinity));

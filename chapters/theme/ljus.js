@@ -55,12 +55,21 @@
         const name = figure.dataset.name || "";
         const { images, captions } = takeImages(figure, stage);
         if (!images.length) return;
+        // On paper all pictures are there, each with its value and its caption.
+        const frames = images.map((image, i) => {
+            const frame = element("figure");
+            const value = [name, values[i]].filter(text => text).join(": ");
+            const said = [value, captions[i]].filter(text => text).join(". ");
+            frame.append(image, element("figcaption", "", said));
+            return frame;
+        });
+        stage.append(...frames);
         const input = range(images.length - 1, 0, name);
         const output = element("output");
         const caption = element("p", "ljus-caption");
         const show = () => {
             const at = Number(input.value);
-            images.forEach((image, i) => image.classList.toggle("shown", i === at));
+            frames.forEach((frame, i) => frame.classList.toggle("shown", i === at));
             output.textContent = values[at] || "";
             caption.textContent = captions[at] || "";
         };
@@ -70,6 +79,16 @@
         figure.append(control, caption);
         show();
     }
+
+    // Paper has no folds: they are open while a page is printed.
+    let folds = [];
+    window.addEventListener("beforeprint", () => {
+        folds = Array.from(document.querySelectorAll("details:not([open])"));
+        for (const fold of folds) fold.open = true;
+    });
+    window.addEventListener("afterprint", () => {
+        for (const fold of folds) fold.open = false;
+    });
 
     document.addEventListener("DOMContentLoaded", () => {
         document.querySelectorAll(".ljus-compare").forEach(compare);

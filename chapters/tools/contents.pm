@@ -27,26 +27,38 @@ sub parts {
     return @parts;
 }
 
-# What a chapter's pictures depend on: the sources of its programs, examples/NN_*.cpp.
+# What a chapter's figures depend on: the sources of its programs, examples/NN_*.cpp.
 sub key {
     my ($folder, $number) = @_;
     my $sum = Digest::SHA->new(256);
-    $sum->add(slurp($_)) for sort glob sprintf "%s/../examples/%02d_*.cpp", $folder, $number;
+    # NN_drawings.cpp draws anew in each build.
+    my @programs = grep { !/_drawings\.cpp$/ } glob sprintf "%s/../examples/%02d_*.cpp", $folder, $number;
+    $sum->add(slurp($_)) for sort @programs;
     return substr $sum->hexdigest, 0, 16;
 }
 
 # The pictures in report quality that belong to the repository: by the name of the PNG that
-# a program writes { file, chapter, key }.
+# a program writes { file, number of the chapter }.
 sub kept {
     my ($folder) = @_;
     my %kept;
-    return \%kept if !-f "$folder/pictures/kept.txt";
-    for my $line (split /\n/, slurp("$folder/pictures/kept.txt")) {
+    return \%kept if !-f "$folder/kept/pictures.txt";
+    for my $line (split /\n/, slurp("$folder/kept/pictures.txt")) {
         next if $line =~ /^#/;
-        my ($picture, $file, $number, $key) = split ' ', $line;
-        $kept{$picture} = {file => $file, number => $number, key => $key};
+        my ($picture, $file, $number) = split ' ', $line;
+        $kept{$picture} = {file => $file, number => $number};
     }
     return \%kept;
+}
+
+# Where and by what the kept figures of a chapter were made, or nothing: there are none, or
+# its programs are not what they were.
+sub made {
+    my ($folder, $number) = @_;
+    my $path = sprintf '%s/kept/%02d/made.txt', $folder, $number;
+    return undef if !-f $path;
+    my ($key, $where) = split /\n/, slurp($path);
+    return $key eq key($folder, $number) ? $where : undef;
 }
 
 sub chapters { return map { @{$_->{chapters}} } parts(@_) }

@@ -6,6 +6,7 @@
 /// The SVG takes its colour from where it stands (currentColor), so that a page which
 /// includes it by \\htmlinclude stays readable in dark mode.
 
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -21,6 +22,14 @@ struct Point {
     double x = 0; ///< To the right.
     double y = 0; ///< Up.
 };
+
+/// A point of space in a drawing of the plane of x and y.
+/// \param v  A vector of the library.
+/// \return Its x and y.
+template <typename V>
+[[nodiscard]] Point flat(const V& v) {
+    return {double(v.x), double(v.y)};
+}
 
 /// How a line is drawn.
 struct Pen {
@@ -121,6 +130,21 @@ inline void draw_arc(Drawing& drawing, const Point& center, double radius, doubl
     draw_line(drawing, points, pen);
 }
 
+/// The corners of a polygon that looks like a circle: for draw_line() and draw_area().
+/// \param center  The circle's centre.
+/// \param radius  Its radius.
+/// \return Points, the first one again at the end.
+[[nodiscard]] inline std::vector<Point> circle(const Point& center, double radius) {
+    constexpr int steps = 72;
+    std::vector<Point> points;
+    for (int i = 0; i <= steps; ++i) {
+        const double angle = 2 * std::numbers::pi * i / steps;
+        points.push_back(
+            {center.x + radius * std::cos(angle), center.y + radius * std::sin(angle)});
+    }
+    return points;
+}
+
 /// Draws a dot.
 /// \param drawing  Where to.
 /// \param at       Its middle.
@@ -135,7 +159,7 @@ inline void draw_dot(Drawing& drawing, const Point& at, double radius,
                     color + "\"/>\n";
 }
 
-/// Writes a name; the character after an underscore stands lower, as in "n_1 = 1".
+/// Writes a name; letters and digits after an underscore stand lower, as in "n_1 = 1".
 /// \param drawing  Where to.
 /// \param at       The middle of the text.
 /// \param name     The text.
@@ -144,12 +168,17 @@ inline void draw_label(Drawing& drawing, const Point& at, const std::string& nam
                        const std::string& color = "currentColor") {
     const std::string place = pixels(drawing, at);
     const std::size_t comma = place.find(',');
-    const std::size_t lower = name.find('_');
-    std::string body = name;
-    if (lower != std::string::npos && lower + 1 < name.size())
-        body = name.substr(0, lower) + "<tspan dy=\"4\" font-size=\"70%\">" +
-               name[lower + 1] + "</tspan><tspan dy=\"-4\">" + name.substr(lower + 2) +
-               "</tspan>";
+    std::string body;
+    for (std::size_t i = 0; i < name.size();) {
+        if (name[i] != '_') {
+            body += name[i++];
+            continue;
+        }
+        body += "<tspan dy=\"4\" font-size=\"70%\">";
+        while (++i < name.size() && std::isalnum(static_cast<unsigned char>(name[i])))
+            body += name[i];
+        body += "</tspan><tspan dy=\"-4\">\u200b</tspan>";
+    }
     drawing.body += "<text x=\"" + place.substr(0, comma) + "\" y=\"" +
                     place.substr(comma + 1) +
                     "\" text-anchor=\"middle\" dominant-baseline=\"middle\" fill=\"" +

@@ -123,8 +123,7 @@ struct PictureSlice {
 
 namespace detail {
 
-inline constexpr std::string_view slice_magic = "ljus picturepart";
-inline constexpr std::uint32_t slice_version = 1;
+inline constexpr ljus::detail::MapFormat slice_format{"ljus picturepart", 1};
 
 // Calls `each` with every number between the header and the settings' text.
 template <typename Slice, typename Each>
@@ -146,7 +145,7 @@ void each_slice_number(Slice& part, Each each) {
 inline void save_slice(const std::string& path, const PictureSlice& part) {
     using ljus::detail::put_number;
     ljus::Bytes bytes = ljus::detail::map_front(
-        detail::slice_magic, detail::slice_version, std::uint32_t(part.slice.number),
+        detail::slice_format, std::uint32_t(part.slice.number),
         std::uint32_t(part.slice.count), std::uint32_t(part.wide ? 8 : 4));
     put_number(bytes, std::uint32_t(part.width));
     put_number(bytes, std::uint32_t(part.height));
@@ -155,11 +154,10 @@ inline void save_slice(const std::string& path, const PictureSlice& part) {
     put_number(bytes, std::uint64_t(part.settings.size()));
     bytes.insert(bytes.end(), part.settings.begin(), part.settings.end());
     for (const ljus::RgbT<double>& color : part.pixels)
-        for (int channel = 0; channel < 3; ++channel)
-            if (part.wide)
-                put_number(bytes, color[channel]);
-            else
-                put_number(bytes, static_cast<float>(color[channel]));
+        if (part.wide)
+            ljus::detail::put_vector(bytes, color);
+        else
+            ljus::detail::put_vector(bytes, ljus::Rgb(color));
     ljus::detail::put_checksum(bytes);
     ljus::save_file(path, bytes);
 }
@@ -170,8 +168,8 @@ inline void save_slice(const std::string& path, const PictureSlice& part) {
 /// \throws std::runtime_error  with path and reason: what is cut short, damaged, of
 ///         another version or no slice is refused.
 [[nodiscard]] inline PictureSlice load_slice(const std::string& path) {
-    ljus::detail::MapReader file = ljus::detail::open_map(
-        path, std::size_t(1) << 34, detail::slice_magic, detail::slice_version);
+    ljus::detail::MapReader file =
+        ljus::detail::open_map(path, std::size_t(1) << 34, detail::slice_format);
     PictureSlice part;
     part.slice.number = static_cast<int>(file.take<std::uint32_t>());
     part.slice.count = static_cast<int>(file.take<std::uint32_t>());
@@ -206,8 +204,8 @@ inline void save_slice(const std::string& path, const PictureSlice& part) {
                     " bytes do not go with its picture's size");
     part.pixels.resize(pixels);
     for (ljus::RgbT<double>& color : part.pixels)
-        for (int i = 0; i < 3; ++i)
-            color[i] = part.wide ? file.take<double>() : double(file.take<float>());
+        color = part.wide ? file.take_vector<ljus::RgbT<double>>()
+                          : ljus::RgbT<double>(file.take_vector<ljus::Rgb>());
     return part;
 }
 

@@ -54,6 +54,21 @@ struct Table {
     return buffer;
 }
 
+/// Prints a row of a table on the terminal.
+/// \param row    Its cells.
+/// \param width  Of each, in letters.
+inline void print_row(const std::vector<std::string>& row, int width = 12) {
+    for (const std::string& cell : row) std::printf("%-*s ", width, cell.c_str());
+    std::printf("\n");
+}
+
+/// Prints the rows of a table, without its headings.
+/// \param table  The table.
+/// \param width  Of each cell, in letters.
+inline void print_rows(const Table& table, int width = 12) {
+    for (const auto& row : table.rows) print_row(row, width);
+}
+
 /// Saves a text as a whole, or not at all.
 /// \param path      The file.
 /// \param contents  What it shall hold.

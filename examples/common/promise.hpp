@@ -23,25 +23,25 @@ struct Recipe {
     std::string name{};                     ///< As it is told to the user.
     ljus::PhotonMappingSettings settings{}; ///< Photons and all else of one picture.
     int rays = 1;                           ///< In each pixel.
-    int more = 0;                           ///< Further ones where the first disagree.
-    double bias = 0; ///< Its square, in relMSE, in the rooms of chapter 35.
+    double bias = 0; ///< Its square, in relMSE, as large as in the rooms of chapter 35.
 };
 
 /// The ways that a promise is kept by, the quickest first: the presets, with photons in
 /// proportion to the pixels and few rays, since the mean of several pictures is shown.
+/// Each pixel has the same number: more rays where the first ones disagree are quicker,
+/// but biased, and no mean of pictures takes that away.
 /// \param width   Of the picture, in pixels.
 /// \param height  Of the picture, in pixels.
 /// \return draft, fast and exact.
 [[nodiscard]] inline std::vector<Recipe> recipes(int width, int height) {
     using enum ljus::Preset;
-    std::vector<Recipe> all{
-        {"draft", preset_settings(draft, width, height), 1, 0, 0.005},
-        {"fast", preset_settings(fast, width, height), 2, 8, 0.003},
-        {"exact", preset_settings(exact, width, height), 4, 0}};
+    std::vector<Recipe> all{{"draft", preset_settings(draft, width, height), 1, 0.003},
+                            {"fast", preset_settings(fast, width, height), 4, 0.002},
+                            {"exact", preset_settings(exact, width, height), 4}};
     const long long pixels = static_cast<long long>(width) * height;
     const long long photons = std::clamp(2 * pixels, 20'000LL, 2'000'000LL);
     all[2].settings.caustics.photons = photons;
-    all[2].bias = 3e-4 * std::sqrt(1e5 / double(photons));
+    all[2].bias = 1e-4 * std::sqrt(1e5 / double(photons));
     return all;
 }
 
@@ -50,6 +50,7 @@ struct Forecast {
     double seconds = 0; ///< Of one picture.
     double noise = 0;   ///< Of one picture: the mean of n pictures has noise / n.
     double bias = 0;    ///< Its square: what the mean of any number of pictures keeps.
+    double unsure = 0;  ///< Standard error of that.
 };
 
 /// What the user has been promised: seconds, or else an error.
@@ -58,12 +59,43 @@ struct Promise {
     double error = 0;   ///< relMSE; 0: as small as the seconds allow.
 };
 
+/// A squared bias from two sources: what a pilot has measured, and the book's rooms.
+///
+/// A short pilot measures little but its own noise, and then the book's number is the
+/// better guess; the two are weighed by their standard errors, where that of the book's
+/// number is the number itself.
+/// \param measured  By the pilot; it may be below 0.
+/// \param error     Its standard error; infinity: there was no pilot.
+/// \param expected  By the book.
+/// \return Bias and what it is unsure by; the rest is 0.
+// [weigh]
+[[nodiscard]] inline Forecast weigh(double measured, double error, double expected) {
+    if (std::isinf(error)) return {.bias = expected, .unsure = expected};
+    if (error == 0) return {.bias = std::max(measured, 0.0)};
+    const double book = expected * expected, pilot = error * error;
+    const double weight = book / (book + pilot); // of the pilot
+    return {.bias = weight * std::max(measured, 0.0) + (1 - weight) * expected,
+            .unsure = std::sqrt(weight) * error};
+}
+// [weigh]
+
+/// How much noise an error leaves room for, beside a bias that is not well known: what
+/// is left of it by a bias that is larger by its standard error, but at least half of
+/// what is left by the bias itself.
+/// \param found  The forecast.
+/// \param error  relMSE.
+/// \return At most 0 if the bias alone is larger than the error.
+[[nodiscard]] inline double room_for_noise(const Forecast& found, double error) {
+    const double left = error - found.bias;
+    return std::max(left - found.unsure, left / 2);
+}
+
 /// By how many pictures an error is reached.
 ///
 /// n pictures have the noise v / n, and know it badly if they are few: 2/n of it is
 /// added, so that v (1 + 2/n) / n must fall to what the bias leaves.
 /// \param noise  v, of one picture.
-/// \param spare  The error less the bias, above 0.
+/// \param spare  Of room_for_noise(), above 0.
 /// \return A whole number, at least 2.
 [[nodiscard]] inline double pictures_for(double noise, double spare) {
     const double a = noise / spare;
@@ -83,8 +115,8 @@ struct Choice {
 ///
 /// *Seconds*: of all recipes that come within a tenth of them by a whole number of
 /// pictures, at least 2 so that their scatter tells the error, the one with the least
-/// error. *Error*: of all recipes whose bias is at most half of it, because a bias is
-/// only guessed from the pilot, the one that takes the least time.
+/// error. *Error*: of all recipes whose bias, made larger by its standard error, is at
+/// most half of it, the one that takes the least time.
 /// \param found     One for each recipe.
 /// \param promise   Seconds, or an error.
 /// \param left      Seconds that are left of those promised, the pilot's taken off.
@@ -94,12 +126,13 @@ struct Choice {
                                    const Promise& promise, double left = 0) {
     Choice best{.possible = false};
     for (std::size_t i = 0; i < found.size(); ++i) {
-        const auto& [seconds, noise, bias] = found[i];
+        const auto& [seconds, noise, bias, unsure] = found[i];
         double n = 2, worth = 0, of_best = 0; // less is better
         bool possible = true;
         if (promise.error > 0) {
-            possible = bias <= promise.error / 2;
-            if (bias < promise.error) n = pictures_for(noise, promise.error - bias);
+            possible = bias + unsure <= promise.error / 2;
+            if (bias < promise.error)
+                n = pictures_for(noise, room_for_noise(found[i], promise.error));
             worth = possible ? n * seconds : bias;
             of_best = best.possible ? best.seconds : found[best.recipe].bias;
         } else {
@@ -124,6 +157,12 @@ struct Choice {
     return text;
 }
 
+/// A squared bias, with its standard error if it has one.
+[[nodiscard]] inline std::string bias_text(const Forecast& found) {
+    const std::string text = two_digits(found.bias);
+    return found.unsure > 0 ? text + " ± " + two_digits(found.unsure) : text;
+}
+
 /// What was chosen and why, in two sentences.
 /// \param found    As for choose().
 /// \param names    Of the recipes.
@@ -133,12 +172,12 @@ struct Choice {
                                         const std::vector<Recipe>& names,
                                         const Promise& promise, const Choice& choice) {
     const bool timed = promise.seconds > 0;
-    const auto& [seconds, noise, bias] = found[choice.recipe];
-    std::string text = "The mean of " + std::to_string(choice.pictures) +
-                       " pictures by " + names[choice.recipe].name + ", " +
-                       two_digits(seconds) + " s each, is expected to have relMSE " +
-                       two_digits(choice.error) + ", of which " + two_digits(bias) +
-                       " is bias: ";
+    const Forecast& chosen = found[choice.recipe];
+    std::string text =
+        "The mean of " + std::to_string(choice.pictures) + " pictures by " +
+        names[choice.recipe].name + ", " + two_digits(chosen.seconds) +
+        " s each, is expected to have relMSE " + two_digits(choice.error) +
+        ", of which " + bias_text(chosen) + " is bias: ";
     text += !choice.possible ? timed ? "nothing fits the seconds better. "
                                      : "nothing else has less bias. "
             : timed          ? "the least error for these seconds. "
@@ -148,7 +187,7 @@ struct Choice {
         if (i == choice.recipe) continue;
         const auto& other = found[i];
         const double n = std::max(1.0, std::round(choice.seconds / other.seconds));
-        const double spare = promise.error - other.bias;
+        const double spare = room_for_noise(other, promise.error);
         others += others.empty() ? "" : ", ";
         others += names[i].name;
         if (timed)
@@ -159,35 +198,42 @@ struct Choice {
         else
             others += " " +
                       two_digits(pictures_for(other.noise, spare) * other.seconds) +
-                      " s, with a bias of " + two_digits(other.bias);
+                      " s, with a bias of " + bias_text(other);
     }
     if (others.empty()) return text + "There was no time to try another.";
     return text + "The others: " + others + ".";
 }
 
-/// The mean of some squares over those of a picture, as relMSE has it.
+/// How bright each pixel of the mean of some pictures is, for relative errors.
 ///
-/// A pixel's own square is taken from the mean of it and its neighbours: by itself, one
-/// that happens to be bright would count as less noisy than it is.
-/// \param squares  Of whatever is wrong with the picture.
-/// \param picture  Of the same size.
-[[nodiscard]] inline double relative(const ljus::ImageT<double>& squares,
-                                     const ljus::ImageT<double>& picture) {
-    double sum = 0;
-    for (int y = 0; y < picture.height; ++y)
-        for (int x = 0; x < picture.width; ++x) {
+/// A pixel's own mean would do if it were exact. Where it is noise, dividing its noise
+/// by its square hides the noise: so the more its standard error is of it, from none to
+/// a half, the more the mean of it and its neighbours stands for it.
+/// \param state  The pictures, by ljus::add_pass() with alpha 1, at least 2.
+[[nodiscard]] inline ljus::ImageT<double> levels(const ljus::ProgressiveState& state) {
+    const auto mean = ljus::mean_image<double>(state);
+    const double n = double(state.passes);
+    auto result = mean;
+    for (int y = 0; y < mean.height; ++y)
+        for (int x = 0; x < mean.width; ++x) {
             ljus::RgbT<double> around{0};
-            const int right = std::min(x + 1, picture.width - 1);
-            const int below = std::min(y + 1, picture.height - 1);
-            const int left = std::max(x - 1, 0), above = std::max(y - 1, 0);
-            for (int v = above; v <= below; ++v)
-                for (int u = left; u <= right; ++u) around += pixel(picture, u, v);
-            around /= double((right - left + 1) * (below - above + 1));
-            const auto share =
-                pixel(squares, x, y) / (around * around + ljus::default_epsilon);
-            sum += (share.x + share.y + share.z) / 3;
+            int pixels = 0;
+            for (int v = std::max(y - 1, 0); v <= std::min(y + 1, mean.height - 1); ++v)
+                for (int u = std::max(x - 1, 0); u <= std::min(x + 1, mean.width - 1);
+                     ++u, ++pixels)
+                    around += pixel(mean, u, v);
+            around /= double(pixels);
+            const auto& own = pixel(mean, x, y);
+            const auto error = pixel(state.squares, x, y) / (n * (n - 1)); // squared
+            for (int c = 0; c < 3; ++c) {
+                const double known =
+                    own[c] == 0 ? 0.0
+                                : std::max(0.0, 1 - 4 * error[c] / (own[c] * own[c]));
+                pixel(result, x, y)[c] = std::sqrt(known * own[c] * own[c] +
+                                                   (1 - known) * around[c] * around[c]);
+            }
         }
-    return sum / double(picture.pixels.size());
+    return result;
 }
 
 /// The noise of the mean of some pictures, by their scatter, as part of relMSE.
@@ -195,8 +241,15 @@ struct Choice {
 /// \return Infinity for less than two.
 [[nodiscard]] inline double relative_noise(const ljus::ProgressiveState& state) {
     if (state.passes < 2) return std::numeric_limits<double>::infinity();
+    const auto level = levels(state);
     const double n = double(state.passes);
-    return relative(state.squares, ljus::mean_image<double>(state)) / (n * (n - 1));
+    double sum = 0;
+    for (std::size_t p = 0; p < level.pixels.size(); ++p) {
+        const auto& r = level.pixels[p];
+        const auto share = state.squares.pixels[p] / (r * r + ljus::default_epsilon);
+        sum += (share.x + share.y + share.z) / 3;
+    }
+    return sum / double(level.pixels.size()) / (n * (n - 1));
 }
 
 } // namespace examples

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,30 +40,31 @@ struct Setting {
 /// What a setting brought. All errors are parts of relMSE, with the reference's own
 /// noise taken off, but for RMSE, the trimmed one and FLIP.
 struct Measured {
-    std::string scene{};  ///< Which room.
-    std::string knob{};   ///< What was turned.
-    std::string value{};  ///< How far.
-    double x = 0;         ///< The same as a number.
-    double seconds = 0;   ///< Processor time of a picture, the median.
-    double photons = 0;   ///< The part of the photon maps.
-    double megabytes = 0; ///< Of the photon maps.
-    double rays = 0;      ///< Traced for a pixel.
-    double rmse = 0;      ///< Mean over the seeds.
-    double bias = 0;      ///< Its square.
-    double noise = 0;     ///< Of one picture.
-    double maps = 0;      ///< The part of it that photons make; 0 if not asked for.
-    double block = 0;     ///< Of the means of 10 x 10 pixels.
-    double trimmed = 0;   ///< Without the worst hundredth.
-    double flip = 0;      ///< Of the first seed.
-    std::string stamp{};  ///< Of all that decides it.
+    std::string scene{};   ///< Which room.
+    std::string knob{};    ///< What was turned.
+    std::string value{};   ///< How far.
+    double x = 0;          ///< The same as a number.
+    double seconds = 0;    ///< Processor time of a picture, the median.
+    double photons = 0;    ///< The part of the photon maps.
+    double megabytes = 0;  ///< Of the photon maps.
+    double rays = 0;       ///< Traced for a pixel.
+    double rmse = 0;       ///< Mean over the seeds.
+    double bias = 0;       ///< Its square.
+    double bias_error = 0; ///< Standard error of that.
+    double noise = 0;      ///< Of one picture.
+    double maps = 0;       ///< The part of it that photons make; 0 if not asked for.
+    double block = 0;      ///< Of the means of 10 x 10 pixels.
+    double trimmed = 0;    ///< Without the worst hundredth.
+    double flip = 0;       ///< Of the first seed.
+    std::string stamp{};   ///< Of all that decides it.
 
     /// All of it.
     [[nodiscard]] double error() const { return std::max(bias + noise, 1e-9); }
 };
 /// \cond
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Measured, scene, knob, value, x, seconds, photons,
-                                   megabytes, rays, rmse, bias, noise, maps, block,
-                                   trimmed, flip, stamp)
+                                   megabytes, rays, rmse, bias, bias_error, noise, maps,
+                                   block, trimmed, flip, stamp)
 /// \endcond
 
 /// What numbers depend on, for the top of files.
@@ -141,7 +143,9 @@ struct Notebook {
         nlohmann::json::parse(bytes.begin(), bytes.end(), nullptr, false, false);
     if (json.is_discarded() || !json.contains("lines"))
         throw std::runtime_error(path + " is no notebook of trades; remove it.");
-    for (const auto& line : json["lines"]) notebook.lines.push_back(line);
+    for (const auto& line : json["lines"])
+        if (line.contains("bias_error")) // else by an older program
+            notebook.lines.push_back(line);
     return notebook;
 }
 
@@ -150,8 +154,10 @@ struct Notebook {
 /// \param name    Of the room.
 /// \param size    Width and height.
 /// \param folders Where to look, the first one first.
-[[nodiscard]] inline Oracle find_reference(const std::string& name, int size,
-                                           const std::vector<std::string>& folders) {
+/// \return None if there is none.
+[[nodiscard]] inline std::optional<Oracle>
+find_reference(const std::string& name, int size,
+               const std::vector<std::string>& folders) {
     const std::string file = "reference-" + name + "-" + std::to_string(size);
     for (const std::string& folder : folders) {
         const std::string path = folder + "/" + file;
@@ -167,8 +173,7 @@ struct Notebook {
             oracle.truth.pixels[i] = ljus::RgbT<double>(image.pixels[i]);
         return oracle;
     }
-    throw std::runtime_error("there is no " + file +
-                             ".pfm: make it by --references with that --size.");
+    return std::nullopt;
 }
 
 /// Saves a reference, with its own noise.
@@ -215,21 +220,57 @@ template <typename Room>
 /// How a setting is measured.
 struct Measuring {
     int size = 40;   ///< Width and height of the pictures.
-    int seeds = 4;   ///< Pictures, at least 2.
+    int seeds = 4;   ///< Pictures, at least 3.
     int threads = 0; ///< 0: all that there are.
 };
 
-/// Measures one setting, unless it has been.
-/// \param name      Of the room.
+/// About how long a setting will take, for the time that is left of a sweep: a pixel's
+/// rays and a map's photons have a price each, whatever the room.
+/// \return Processor seconds of the machine that it was fitted on.
+[[nodiscard]] inline double cost_of(const Setting& setting, const Measuring& how) {
+    const auto& settings = setting.recipe.settings;
+    const double pixels = double(how.size) * how.size;
+    const double ray = setting.paths ? 1.1e-6 : 3e-6;
+    const double photons = double(settings.caustics.photons) +
+                           (settings.indirect == ljus::IndirectLight::rays
+                                ? 0.0
+                                : double(settings.general.photons));
+    const double one = pixels * ray * setting.recipe.rays +
+                       (setting.paths ? 0 : 0.01 + 8e-7 * photons);
+    return one * how.seeds * (setting.of_maps ? 2 : 1);
+}
+
+/// A picture in float, whatever it was made in.
+template <typename T>
+[[nodiscard]] ljus::Image in_float(const ljus::ImageT<T>& picture) {
+    ljus::Image image{picture.width, picture.height, {}};
+    for (const auto& color : picture.pixels) image.pixels.push_back(ljus::Rgb(color));
+    return image;
+}
+
+/// What a setting is known by: a small picture is its fingerprint, so that by other
+/// code or other numbers it is measured anew.
+template <typename Room>
+[[nodiscard]] std::string stamp_of(const Room& room, const Setting& setting,
+                                   const Oracle& oracle, const Measuring& how) {
+    const auto seen = shoot_setting(
+        room, setting, {.width = 6, .height = 6, .seed = 1, .threads = how.threads}, 1);
+    stop_if_asked();
+    return hex_text(hash_of(in_float(seen.rendered.image).pixels)) + "-" +
+           std::to_string(how.size) + "-" + std::to_string(how.seeds) + "-" +
+           std::to_string(oracle.rays);
+}
+
+/// Measures one setting.
+/// \param line      Where, what and its stamp; gets the rest.
 /// \param room      Scene and camera.
 /// \param setting   What is measured.
 /// \param oracle    The reference.
 /// \param how       Size, seeds, threads.
 /// \param notebook  Gets the line.
 template <typename Room>
-void measure(const std::string& name, const Room& room, const Setting& setting,
+void measure(Measured line, const Room& room, const Setting& setting,
              const Oracle& oracle, const Measuring& how, Notebook& notebook) {
-    Measured line{name, setting.knob, setting.value, setting.x};
     const auto shot = [&](int size, int seed, int map_seed) {
         const ljus::RenderSettings picture{.width = size,
                                            .height = size,
@@ -239,17 +280,6 @@ void measure(const std::string& name, const Room& room, const Setting& setting,
         stop_if_asked();
         return seen;
     };
-    const auto image_of = [](const auto& seen) {
-        auto image = ljus::make_image(seen.image.width, seen.image.height);
-        for (std::size_t i = 0; i < image.pixels.size(); ++i)
-            image.pixels[i] = ljus::Rgb(seen.image.pixels[i]);
-        return image;
-    };
-    // A small picture is the fingerprint: other code, other numbers, measured anew.
-    line.stamp = hex_text(hash_of(image_of(shot(6, 1, 1).rendered).pixels)) + "-" +
-                 std::to_string(how.size) + "-" + std::to_string(how.seeds) + "-" +
-                 std::to_string(oracle.rays);
-    if (notebook.find(line)) return;
     std::vector<ljus::Image> runs, of_maps;
     std::vector<double> seconds, photons;
     // [measure]
@@ -259,11 +289,11 @@ void measure(const std::string& name, const Room& room, const Setting& setting,
         photons.push_back(seen.photons);
         line.megabytes = seen.bytes * 1e-6;
         line.rays = double(seen.rendered.counts.rays()) / how.size / how.size;
-        runs.push_back(image_of(seen.rendered));
+        runs.push_back(in_float(seen.rendered.image));
         line.rmse += rmse(runs.back(), oracle.truth) / how.seeds;
         line.trimmed += trimmed_rel_mse(runs.back(), oracle.truth) / how.seeds;
         if (setting.of_maps)
-            of_maps.push_back(image_of(shot(how.size, 1, 1000 + seed).rendered));
+            of_maps.push_back(in_float(shot(how.size, 1, 1000 + seed).rendered.image));
     }
     for (auto* times : {&seconds, &photons}) std::sort(times->begin(), times->end());
     line.seconds = std::max(seconds[seconds.size() / 2], 1e-6);
@@ -271,6 +301,7 @@ void measure(const std::string& name, const Room& room, const Setting& setting,
     const auto parts = relative_split(runs, oracle.truth, oracle.noise);
     const auto blocks = relative_split(runs, oracle.truth, oracle.block_noise, 10);
     line.bias = parts.bias_squared;
+    line.bias_error = relative_bias_error(runs, oracle.truth);
     line.noise = parts.variance;
     line.block = blocks.bias_squared + blocks.variance;
     if (setting.of_maps) line.maps = relative_split(of_maps, oracle.truth).variance;

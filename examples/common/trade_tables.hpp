@@ -18,6 +18,11 @@ namespace detail {
 
 inline constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
+/// A squared bias and its standard error.
+inline std::string bias_text(const Measured& m) {
+    return text(m.bias, "%.2g") + " ± " + text(m.bias_error, "%.1g");
+}
+
 /// A plot of error against time, a curve for each room, and a table of everything.
 inline void save_knob(const std::string& folder, const Notebook& notebook,
                       const std::vector<std::string>& scenes, const std::string& knob) {
@@ -39,7 +44,7 @@ inline void save_knob(const std::string& folder, const Notebook& notebook,
             table.rows.push_back(
                 {m.scene, m.value, text(m.seconds, "%.3g"), text(m.photons, "%.2g"),
                  text(m.megabytes, "%.3g"), text(m.rays, "%.3g"), text(m.rmse, "%.3g"),
-                 text(m.error(), "%.2g"), text(m.bias, "%.2g"), text(m.noise, "%.2g"),
+                 text(m.error(), "%.2g"), bias_text(m), text(m.noise, "%.2g"),
                  m.maps > 0 ? text(m.maps, "%.2g") : "", text(m.block, "%.2g"),
                  text(m.trimmed, "%.2g"), text(m.flip, "%.3f")});
         for (const bool paths : {false, true}) {
@@ -118,7 +123,7 @@ inline void save_front(const std::string& folder, const Notebook& notebook,
         front.push_back({m.seconds, nothing, nothing, m.error()});
         best = m.error();
         table.rows.push_back({text(m.seconds, "%.3g"), text(m.error(), "%.2g"),
-                              text(m.bias, "%.2g"), text(m.block, "%.2g"),
+                              bias_text(m), text(m.block, "%.2g"),
                               text(m.trimmed, "%.2g"), text(m.flip, "%.3f"),
                               text(m.megabytes, "%.3g"), m.knob, m.value});
     }
@@ -149,7 +154,12 @@ inline void save_equal(const std::string& folder, const Notebook& notebook,
                 time.rows.back().push_back(n < 1 ? "no picture yet"
                                                  : text(bias + m.noise / n, "%.2g"));
             }
-            time.rows.back().push_back(bias > 0 ? text(bias, "%.1g") : "no limit");
+            // A bias that is not twice its standard error has not been found.
+            const bool found = m.bias > 2 * m.bias_error;
+            time.rows.back().push_back(
+                m.value == "paths" ? "no limit"
+                : found            ? text(bias, "%.1g")
+                                   : "below " + text(bias + 2 * m.bias_error, "%.1g"));
             error.rows.push_back({scene, m.value});
             for (const double target : {0.1, 0.03, 0.01, 0.003, 0.001}) {
                 const double n = std::ceil(m.noise / (target - bias));
@@ -194,8 +204,8 @@ inline void save_trades(const std::string& folder, const Notebook& notebook,
         .name = "trades-half", .columns = {"knob"}, .notes = {notebook.conditions}};
     std::string csv = csv_head({notebook.conditions},
                                {"scene", "knob", "value", "x", "seconds", "photons_s",
-                                "megabytes", "rays", "rmse", "bias2", "noise", "maps",
-                                "blocks", "trimmed", "flip", "stamp"});
+                                "megabytes", "rays", "rmse", "bias2", "bias2_error",
+                                "noise", "maps", "blocks", "trimmed", "flip", "stamp"});
     for (const std::string& scene : scenes) half.columns.push_back(scene);
     for (const std::string& knob : knobs) {
         detail::save_knob(folder, notebook, scenes, knob);
@@ -207,7 +217,7 @@ inline void save_trades(const std::string& folder, const Notebook& notebook,
                 std::vector<std::string> cells{m.scene, m.knob, m.value};
                 for (const double number :
                      {m.x, m.seconds, m.photons, m.megabytes, m.rays, m.rmse, m.bias,
-                      m.noise, m.maps, m.block, m.trimmed, m.flip})
+                      m.bias_error, m.noise, m.maps, m.block, m.trimmed, m.flip})
                     cells.push_back(text(number, "%.6g"));
                 cells.push_back(m.stamp);
                 csv += csv_line(cells);

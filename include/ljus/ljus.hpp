@@ -11,8 +11,7 @@
 #include "ljus/geometry/quad.hpp"
 #include "ljus/geometry/sphere.hpp"
 #include "ljus/geometry/triangle.hpp"
-#include "ljus/inspect/survey.hpp"
-#include "ljus/io/png.hpp"
+
 #include "ljus/materials/compensated_glossy.hpp"
 #include "ljus/materials/eon.hpp"
 #include "ljus/materials/glass.hpp"
@@ -24,15 +23,19 @@
 #include "ljus/materials/rough_diffuse.hpp"
 #include "ljus/materials/soap_film.hpp"
 #include "ljus/materials/textured.hpp"
+
+#include "ljus/scene/camera.hpp"
+#include "ljus/scene/lens_camera.hpp"
+#include "ljus/scene/make_scene.hpp"
+
 #include "ljus/render/distributed.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"
 #include "ljus/render/whitted.hpp"
-#include "ljus/scene/camera.hpp"
-#include "ljus/scene/lens_camera.hpp"
-#include "ljus/scene/make_scene.hpp"
-#include "ljus/version.hpp"
+
+#include "ljus/inspect/survey.hpp"
+#include "ljus/io/png.hpp"
 
 #ifdef LJUS_CORE // link with ljus::core, and what it has is not compiled here
 #include "ljus/core.hpp"

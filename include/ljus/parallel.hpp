@@ -85,80 +85,50 @@ LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
 
 // What several threads change, they change in turn. A lock of OpenMP's, which costs
 // no header, in place of atomics, whose header costs an eighth of one of ours.
-class Mutex {
-public:
 #ifdef _OPENMP
-    Mutex() noexcept {
-        omp_init_lock(&lock_);
-    }
-    ~Mutex() {
-        omp_destroy_lock(&lock_);
-    }
-    void take() noexcept {
-        omp_set_lock(&lock_);
-    }
-    void give() noexcept {
-        omp_unset_lock(&lock_);
-    }
-#else
-    Mutex() noexcept = default;
-    void take() noexcept {}
-    void give() noexcept {}
-#endif
+struct Mutex {
+    omp_lock_t lock;
+    Mutex() noexcept { omp_init_lock(&lock); }
+    ~Mutex() { omp_destroy_lock(&lock); }
     Mutex(const Mutex&) = delete;
     Mutex& operator=(const Mutex&) = delete;
-
-private:
-#ifdef _OPENMP
-    omp_lock_t lock_;
-#endif
+    void take() noexcept { omp_set_lock(&lock); }
+    void give() noexcept { omp_unset_lock(&lock); }
 };
+#else
+struct Mutex {
+    void take() noexcept {}
+    void give() noexcept {}
+};
+#endif
 
 // A thread's turn, from here to the end of the block.
-class LockGuard {
-public:
-    explicit LockGuard(Mutex& turns) noexcept : turns_(turns) { turns_.take(); }
-    ~LockGuard() { turns_.give(); }
+struct LockGuard {
+    Mutex& mutex;
+    explicit LockGuard(Mutex& turns) noexcept : mutex(turns) { mutex.take(); }
+    ~LockGuard() { mutex.give(); }
     LockGuard(const LockGuard&) = delete;
     LockGuard& operator=(const LockGuard&) = delete;
-
-private:
-    Mutex& turns_;
 };
 
-LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
-                                 const ParallelSettings& options) {
-    static_assert(max_threads_allowed == 1024, "the sentence below says so");
-    require(options.threads >= 0 && options.threads <= max_threads_allowed,
-            "the number of threads", static_cast<long long>(options.threads),
-            "within [0, 1024]");
+// One loop over blocks: what its threads do, and what they change in turn.
+struct BlockLoop {
+    const long long count;
+    const BlockBody body;
+    const Progress& progress;
 
-    Mutex turns;                    // what follows is changed in turn
+    Mutex turns{};
     long long next = 0;             // the block to begin next
     long long done = 0;             // blocks that have run to their end
     bool stop = false;              // no further block shall begin
+    bool stopped = false;           // progress said so
     bool reporting = false;         // a thread is in progress()
     long long reported = 0;         // what progress heard last
     long long failed_block = count; // the first block, in order, that threw
-    std::exception_ptr failure;
+    std::exception_ptr failure{};   // what it threw
 
-    // Tells of what is done, unless another thread is telling; the others work on.
-    bool stopped = false; // by progress
-    const auto report = [&] {
-        long long now = 0;
-        {
-            const LockGuard turn(turns);
-            if (reporting || stopped || done <= reported) return;
-            reporting = true;
-            now = reported = done;
-        }
-        const bool go_on = options.progress(now, count);
-        const LockGuard turn(turns);
-        reporting = false;
-        stopped = !go_on;
-        stop = stop || stopped;
-    };
-    const auto work = [&] {
+    // What each thread does.
+    void work() {
         // [next block]
         for (;;) {
             long long block = 0;
@@ -176,18 +146,48 @@ LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
                 report();
                 // [next block]
             } catch (...) {
-                const LockGuard turn(turns);
-                stop = true;
-                // Every block before this one has begun and runs to its end, so that
-                // the first one that throws is the same for any number of threads.
-                if (block < failed_block) {
-                    failed_block = block;
-                    failure = std::current_exception();
-                }
+                fail(block);
             }
         }
-    };
+    }
 
+    // Tells of what is done, unless another thread is telling; the others work on.
+    void report() {
+        long long now = 0;
+        {
+            const LockGuard turn(turns);
+            if (reporting || stopped || done <= reported) return;
+            reporting = true;
+            now = reported = done;
+        }
+        const bool go_on = progress(now, count);
+        const LockGuard turn(turns);
+        reporting = false;
+        stopped = !go_on;
+        stop = stop || stopped;
+    }
+
+    // Keeps the exception that is being handled, if it is the first in order. Every
+    // block before this one has begun and runs to its end, so that the first one that
+    // throws is the same for any number of threads.
+    void fail(long long block) {
+        const LockGuard turn(turns);
+        stop = true;
+        if (block < failed_block) {
+            failed_block = block;
+            failure = std::current_exception();
+        }
+    }
+};
+
+LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
+                                 const ParallelSettings& options) {
+    static_assert(max_threads_allowed == 1024, "the sentence below says so");
+    require(options.threads >= 0 && options.threads <= max_threads_allowed,
+            "the number of threads", static_cast<long long>(options.threads),
+            "within [0, 1024]");
+
+    BlockLoop loop{count, body, options.progress};
 #ifdef _OPENMP
     const long long wanted = options.threads == 0 ? max_threads() : options.threads;
     const int threads = static_cast<int>(wanted < count ? wanted : count);
@@ -195,21 +195,21 @@ LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
         // At the end of the region all wait for the last. libgomp's threads do so by
         // spinning for milliseconds, and if another program has the processor of the
         // last one they keep it from theirs: a loop of one millisecond took twenty.
-        // Where there are more threads than processors they go to sleep at once, which
-        // is what we want; so there is one more, which does nothing.
+        // More threads than processors go to sleep at once, which is what we want; so
+        // there is one more, which does nothing.
         const int idle = threads == omp_get_num_procs() ? 1 : 0;
 #pragma omp parallel num_threads(threads + idle)
-        if (omp_get_thread_num() < threads) work();
+        if (omp_get_thread_num() < threads) loop.work();
     } else {
-        work();
+        loop.work();
     }
 #else
-    work();
+    loop.work();
 #endif
 
-    if (failure) std::rethrow_exception(failure);
-    report(); // the last blocks may have ended while another thread was reporting
-    return done >= count;
+    if (loop.failure) std::rethrow_exception(loop.failure);
+    loop.report(); // the last blocks may have ended while another thread was reporting
+    return loop.done >= count;
 }
 
 #endif

@@ -6,12 +6,13 @@
 /// The version of the library; CMake reads it from here.
 #define LJUS_VERSION_MAJOR 0
 /// \see LJUS_VERSION_MAJOR
-#define LJUS_VERSION_MINOR 1
+#define LJUS_VERSION_MINOR 2
 /// \see LJUS_VERSION_MAJOR
 #define LJUS_VERSION_PATCH 0
 
 #if defined(_MSVC_LANG) ? _MSVC_LANG < 202002L : __cplusplus < 202002L
 #error "Ljus needs C++20: add -std=c++20 (g++, clang) or /std:c++20 (MSVC)."
+#include <add -std=c++20> // there is none: here the compiler stops, before it says more
 #endif
 
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)

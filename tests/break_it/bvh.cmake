@@ -64,6 +64,24 @@ ljus_break_it(NAME indexed-scene-type HEADER scene/index.hpp TEST index
     TO   "type += 0;"
     CASES "indexed scene: in double*")
 
+# Flat shapes in lanes are asked as if nothing were rounded.
+ljus_break_it(NAME few-shapes-slack HEADER geometry/detail/shape_lanes.hpp TEST index
+    FROM "r.length * (r.reach * flat.slack_by.lane[i] + flat.slack.lane[i]);"
+    TO   "0 * r.length * (r.reach * flat.slack_by.lane[i] + flat.slack.lane[i]);"
+    CASES "few shapes: the loop's answers*")
+
+# So are balls.
+ljus_break_it(NAME few-shapes-ball HEADER geometry/detail/shape_lanes.hpp TEST index
+    FROM "64 * roundoff * (q.lane[i] + radius2);"
+    TO   "0 * roundoff * (q.lane[i] + radius2);"
+    CASES "few shapes: the loop's answers*")
+
+# Of what waits the first is forgotten, whichever was asked.
+ljus_break_it(NAME few-shapes-order HEADER accel/few_shapes.hpp TEST index
+    FROM "*nearest = waiting[count - 1];"
+    TO   "waiting[0] = waiting[count - 1];"
+    CASES "few shapes: the loop's answers*")
+
 # The first child of a wide node's two gets all places but one, whatever they cost.
 ljus_break_it(NAME bvh-collapse HEADER accel/detail/bvh_collapse.hpp TEST bvh8
     FROM "if (low == 1 || sum < best.cost) best = {low, sum};"

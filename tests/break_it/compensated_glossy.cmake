@@ -34,3 +34,10 @@ ljus_break_it(NAME energy_loss-place HEADER optics/energy_loss.hpp TEST compensa
     FROM "return std::sqrt(std::min(x, T(1))) * T(EnergyLossT<T>::cells);"
     TO   "return std::min(x, T(1)) * T(EnergyLossT<T>::cells);"
     CASES "facet loss*")
+
+# Even in the cosine within a cell, where the density says even in its square.
+ljus_break_it(NAME energy_loss-cell HEADER optics/energy_loss.hpp
+    TEST compensated_glossy
+    FROM "low * low + share * (high - low) * (high + low)"
+    TO   "(low + share * (high - low)) * (low + share * (high - low))"
+    CASES "facet loss: a cosine is drawn*")

@@ -19,3 +19,16 @@ ljus_break_it(NAME conductor-extinction HEADER optics/conductor.hpp TEST conduct
 ljus_break_it(NAME metal-angle HEADER materials/mirror.hpp TEST metal
     FROM "std::min(std::abs(wo.z), T(1))"
     TO   "T(1)")
+
+# 0/0 at the grazing angle of an index of 1: NaN.
+ljus_break_it(NAME conductor-nothing HEADER optics/conductor.hpp TEST conductor
+    FROM "return all > T(0) ? part / all : T(1);"
+    TO   "return part / all;"
+    CASES "conductor: a share for every*")
+
+# Two digits of silver's green change places.
+ljus_break_it(NAME conductor-digits HEADER optics/conductor.hpp TEST conductor
+    FROM "T(3.483)"
+    TO   "T(3.843)"
+    CASES "conductor: the indices*"
+    COMPILED)

@@ -86,3 +86,10 @@ ljus_break_it(NAME stratified-stream-twice HEADER math/stratified_stream.hpp
     FROM "cell, detail::mix_bits(key),"
     TO   "cell, ~key,"
     CASES "stratified stream: the draws of a ray*")
+
+# Rays are spread evenly though the picture asks for chance.
+ljus_break_it(NAME stratified-stream-chance HEADER math/stratified_stream.hpp
+    TEST lens_camera
+    FROM "if (stream.pattern.sampling == Sampling::random) return u;"
+    TO   ""
+    CASES "stratified stream: by chance*")

@@ -77,3 +77,15 @@ ljus_break_it(NAME emission-aim-at-ball HEADER photons/aiming.hpp TEST emission
     FROM "light.flux * (cone.one_minus_cos / T(2))"
     TO   "light.flux * cone.one_minus_cos"
     CASES "emission: aimed at one ball*")
+
+# Photons that a sun aims downstream start within the scene.
+ljus_break_it(NAME emission-sun-start HEADER path/emission.hpp TEST emission
+    FROM "glm::dot(center - sun.position, sun.direction) + sun.radius"
+    TO   "sun.radius"
+    CASES "emission: a sun's photons start*")
+
+# A target without a size comes first: 0/0.
+ljus_break_it(NAME emission-no-size HEADER photons/aiming.hpp TEST emission
+    FROM "if (!(size > T(0))) continue;"
+    TO   ""
+    CASES "emission: what has no size*")

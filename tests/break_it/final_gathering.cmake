@@ -67,3 +67,38 @@ ljus_break_it(NAME final-gathering-first HEADER render/final_gathering.hpp
     FROM "if (first) found.distance = vertex->distance;"
     TO   "found.distance = vertex->distance;"
     CASES "final gathering: what a gather ray brings*")
+
+# A point on the far side of a wall answers for the near side.
+ljus_break_it(NAME final-gathering-far-side HEADER photons/irradiance_points.hpp
+    TEST final_gathering
+    FROM "if (photon_side(record.direction, normal) < 0) normal = -normal;"
+    TO   ""
+    CASES "final gathering: points at photons*")
+
+# All points have one shadow ray's numbers: in a half-shadow all are lit, or none.
+ljus_break_it(NAME final-gathering-numbers HEADER photons/irradiance_points.hpp
+    TEST final_gathering
+    FROM "random_stream(seed, Pass::irradiance, 0, i)"
+    TO   "random_stream(seed, Pass::irradiance, 0, 0)"
+    CASES "final gathering: a point is on*")
+
+# What stands just above the photon is asked in its place.
+ljus_break_it(NAME final-gathering-height HEADER photons/irradiance_points.hpp
+    TEST final_gathering
+    FROM "T(1e-3) * radius"
+    TO   "T(1e-1) * radius"
+    CASES "final gathering: a point is on*")
+
+# Gather rays leave coloured glass as if it were air.
+ljus_break_it(NAME final-gathering-medium HEADER render/final_gathering.hpp
+    TEST final_gathering
+    FROM ".medium = vertex.medium,"
+    TO   ""
+    CASES "final gathering: rays are attenuated*")
+
+# All gather rays of a place end together.
+ljus_break_it(NAME final-gathering-branch HEADER render/final_gathering.hpp
+    TEST final_gathering
+    FROM "std::uint64_t(i + 1) << 20"
+    TO   "std::uint64_t(1) << 20"
+    CASES "final gathering: in a hall*")

@@ -21,3 +21,9 @@ ljus_break_it(NAME light-sun-disc HEADER scene/make_light.hpp TEST light
     FROM "T(1.001) * glm::length(half)"
     TO   "T(0.9) * glm::length(half)"
     CASES "light: a sun has the flux*")
+
+# A density beyond all numbers, and 0/0 behind it.
+ljus_break_it(NAME light-density HEADER scene/light.hpp TEST light
+    FROM "std::isfinite(seen.pdf)"
+    TO   "true"
+    CASES "light: what no picture*")

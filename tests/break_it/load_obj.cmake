@@ -1,5 +1,5 @@
 # The number of a vertex, from the end, off by one.
-ljus_break_it(NAME load-obj-from-the-end HEADER io/detail/obj_reader.hpp TEST load_obj
+ljus_break_it(NAME load-obj-from-the-end HEADER io/detail/obj_text.hpp TEST load_obj
     FROM "number > 0 ? number - 1LL"
     TO   "number > 1 ? number - 1LL"
     CASES "load_obj: a cube*")
@@ -11,7 +11,7 @@ ljus_break_it(NAME load-obj-bad-number HEADER io/detail/obj_text.hpp TEST load_o
     CASES "load_obj: each trouble*")
 
 # 4294967297 is 1 to an int.
-ljus_break_it(NAME load-obj-overflow HEADER io/detail/obj_reader.hpp TEST load_obj
+ljus_break_it(NAME load-obj-overflow HEADER io/detail/obj_text.hpp TEST load_obj
     FROM "digits < 10 && "
     TO   ""
     CASES "load_obj: each trouble*")
@@ -23,32 +23,32 @@ ljus_break_it(NAME load-obj-line HEADER io/detail/obj_text.hpp TEST load_obj
     CASES "load_obj: line ends*")
 
 # A fan instead of ears.
-ljus_break_it(NAME polygon-fan HEADER io/detail/polygon.hpp TEST load_obj
+ljus_break_it(NAME polygon-fan HEADER geometry/detail/polygon.hpp TEST load_obj
     FROM "if (ears[i % n] == 0) continue;"
     TO   ""
     CASES "load_obj: polygons*")
 
 # The neighbours of an ear that is cut off are not asked again.
-ljus_break_it(NAME polygon-neighbours HEADER io/detail/polygon.hpp TEST load_obj
+ljus_break_it(NAME polygon-neighbours HEADER geometry/detail/polygon.hpp TEST load_obj
     FROM "ears[beside] = is_ear(beside) ? 1 : 0;"
     TO   "ears[beside] = 1;"
     CASES "load_obj: polygons*,load_obj: many corners*")
 
 # A hostile texture coordinate is taken for none, and its face is kept.
 ljus_break_it(NAME load-obj-uv-index HEADER io/detail/obj_reader.hpp TEST load_obj
-    FROM " || (t != 0 && !of_uv)"
-    TO   ""
+    FROM "(named.texcoord_index != 0 && !place)"
+    TO   "false"
     CASES "load_obj: each trouble*")
 
-# All corners have the texture coordinates of the first.
+# All corners have the first texture coordinates of the file.
 ljus_break_it(NAME load-obj-uv HEADER io/detail/obj_reader.hpp TEST load_obj
-    FROM "const long long t = painted[corner[k]];"
-    TO   "const long long t = painted[corner[0]];"
+    FROM "corner.uv ? uv[*corner.uv]"
+    TO   "corner.uv ? uv[0]"
     CASES "load_obj: texture coordinates*")
 
 # A seam of the picture is an edge of the surface.
-ljus_break_it(NAME load-obj-seam HEADER io/load_obj.hpp TEST load_obj
-    FROM "detail::smooth_across_seams<T>(part);"
+ljus_break_it(NAME load-obj-seam HEADER io/detail/obj_reader.hpp TEST load_obj
+    FROM "smooth_across_seams(part);"
     TO   "smooth_normals(part.data);"
     CASES "load_obj: texture coordinates*")
 

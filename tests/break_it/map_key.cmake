@@ -17,13 +17,13 @@ ljus_break_it(NAME map-key-lights HEADER io/detail/map_key.hpp TEST map_key
     CASES "map_key: whatever a scene*")
 
 # A mirror and a matt surface of the same numbers are one.
-ljus_break_it(NAME map-key-types HEADER io/detail/field_hash.hpp TEST map_key
+ljus_break_it(NAME map-key-types HEADER io/detail/map_key.hpp TEST map_key
     FROM "*c != '\\0'; ++c) add(*c);"
     TO   "*c == '\\0'; ++c) add(*c);"
     CASES "map_key: materials of equal members*")
 
 # How long a list is does not count.
-ljus_break_it(NAME map-key-sizes HEADER io/detail/field_hash.hpp TEST map_key
+ljus_break_it(NAME map-key-sizes HEADER io/detail/map_key.hpp TEST map_key
     FROM "add(std::uint64_t(v.size()));"
     TO   ""
     CASES "map_key: the hash*")

@@ -31,7 +31,7 @@ ljus_break_it(NAME parallel-first-exception HEADER parallel.hpp TEST parallel
 
 # A failure that nobody hears of.
 ljus_break_it(NAME parallel-silent HEADER parallel.hpp TEST parallel
-    FROM "if (failure) std::rethrow_exception(failure);"
+    FROM "if (loop.failure) std::rethrow_exception(loop.failure);"
     TO   ""
     CASES "parallel: of all exceptions*")
 
@@ -43,8 +43,8 @@ ljus_break_it(NAME parallel-alone HEADER parallel.hpp TEST parallel
 
 # A loop that was stopped says that it is done.
 ljus_break_it(NAME parallel-done HEADER parallel.hpp TEST parallel
-    FROM "return done >= count;"
-    TO   "return done >= 0;"
+    FROM "return loop.done >= count;"
+    TO   "return loop.done >= 0;"
     CASES "parallel: false from progress*")
 
 # Two threads tell of what is done at a time.
@@ -61,8 +61,8 @@ ljus_break_it(NAME parallel-stop-forgotten HEADER parallel.hpp TEST parallel
 
 # Stopped at the last block is taken for not finished.
 ljus_break_it(NAME parallel-last-block HEADER parallel.hpp TEST parallel
-    FROM "return done >= count;"
-    TO   "return !stopped;"
+    FROM "return loop.done >= count;"
+    TO   "return !loop.stopped;"
     CASES "parallel: false at the very last*")
 
 # One stream of random numbers for all threads: whoever comes first draws first, and no
@@ -72,3 +72,15 @@ ljus_break_it(NAME render-shared-stream HEADER render/render.hpp TEST render
     TO   "static std::uint64_t drawn = 0;
     start_ray(stream, picture.seed, drawn++, 0, pattern);"
     CASES "render: rows that are*")
+
+# Whoever said stop is asked again by each block that was under way.
+ljus_break_it(NAME parallel-asked-again HEADER parallel.hpp TEST parallel
+    FROM "if (reporting || stopped || done <= reported) return;"
+    TO   "if (reporting || done <= reported) return;"
+    CASES "parallel: whoever said stop*")
+
+# What ended while another thread was telling is told by nobody.
+ljus_break_it(NAME parallel-last-word HEADER parallel.hpp TEST parallel
+    FROM "loop.report(); // the last blocks"
+    TO   "// the last blocks"
+    CASES "parallel: what ended while*")

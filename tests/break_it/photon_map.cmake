@@ -110,3 +110,10 @@ ljus_break_it(NAME together-side HEADER photons/detail/estimates_together.hpp
     FROM "std::copysign(T(1), vertex.wo.z) * vertex.frame.normal"
     TO   "vertex.frame.normal"
     CASES "photon_map: estimates that are*")
+
+# The disc of the k nearest is as high as the widest one.
+ljus_break_it(NAME photon-map-k-height HEADER photons/density_estimate.hpp
+    TEST photon_map
+    FROM "height * height > limit * limit * radius2"
+    TO   "height * height > limit * limit * widest2"
+    CASES "photon_map: of the k nearest the disc*")

@@ -5,14 +5,14 @@ ljus_break_it(NAME map-file-checksum HEADER io/detail/map_bytes.hpp TEST photon_
     CASES "photon_map_file: a file with any bit*")
 
 # The number of photons is believed.
-ljus_break_it(NAME map-file-count HEADER io/photon_map_file.hpp TEST photon_map_file
-    FROM "file.left() / photon_bytes != count"
-    TO   "false"
+ljus_break_it(NAME map-file-count HEADER io/detail/map_bytes.hpp TEST photon_map_file
+    FROM "left() / bytes_of_one == count"
+    TO   "true"
     CASES "photon_map_file: photons that no map*")
 
 # A map of another version is read as if it were this one's.
 ljus_break_it(NAME map-file-version HEADER io/detail/map_bytes.hpp TEST photon_map_file
-    FROM "found != version"
+    FROM "found != format.version"
     TO   "false"
     CASES "photon_map_file: what is wrong*")
 

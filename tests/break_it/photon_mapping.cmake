@@ -54,11 +54,17 @@ ljus_break_it(NAME later-throughput HEADER render/detail/later_caustics.hpp TEST
     FROM "place.throughput * light"
     TO   "light"
     CASES "render: caustics that*")
-ljus_break_it(NAME later-item HEADER render/detail/strip_sums.hpp TEST render
+ljus_break_it(NAME later-item HEADER render/detail/sample_sums.hpp TEST render
     FROM "later_.item = static_cast<std::uint32_t>(count_);"
     TO   "later_.item = 0;"
     CASES "render: answers that come*")
 ljus_break_it(NAME later-left HEADER render/render.hpp TEST render
-    FROM "sums.finish();"
+    FROM "samples.finish();"
     TO   ""
     CASES "render: answers that come*")
+
+# One pattern for all pixels.
+ljus_break_it(NAME render-one-pattern HEADER render/render.hpp TEST render
+    FROM "mix_bits(picture.seed) ^ pixel"
+    TO   "mix_bits(picture.seed)"
+    CASES "render: neighbours*")

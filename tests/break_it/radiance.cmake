@@ -51,7 +51,7 @@ ljus_break_it(NAME radiance-exitance HEADER scene/light.hpp TEST radiance
     CASES "radiance: a Lambertian lamp*")
 
 # What comes later counts without the filter's weight.
-ljus_break_it(NAME radiance-filter-later HEADER render/detail/strip_sums.hpp TEST render
-    FROM "RgbT<double>(weights_[i] * samples_[i]);"
-    TO   "RgbT<double>(samples_[i]);"
+ljus_break_it(NAME radiance-filter-later HEADER render/detail/sample_sums.hpp TEST render
+    FROM "sample(weights_[i] * samples_[i]);"
+    TO   "sample(samples_[i]);"
     CASES "render: answers that come later*")

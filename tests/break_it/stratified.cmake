@@ -6,6 +6,6 @@ ljus_break_it(NAME stratified-remainder HEADER math/sampling_pattern.hpp TEST st
 
 # The scramble alone favours some places.
 ljus_break_it(NAME stratified-step HEADER math/sampling_pattern.hpp TEST stratified
-    FROM "(i + step) % count"
-    TO   "i"
+    FROM "place = i + step;"
+    TO   "place = i;"
     CASES "stratified: over the keys*")

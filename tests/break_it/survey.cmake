@@ -9,3 +9,9 @@ ljus_break_it(NAME survey-narrow HEADER render/detail/scene_remarks.hpp TEST sur
     FROM "Lobes::glossy) > T(1000)"
     TO   "Lobes::glossy) > T(0)"
     CASES "survey: a lobe that*")
+
+# Ten times as narrow before anybody is warned.
+ljus_break_it(NAME survey-narrower HEADER render/detail/scene_remarks.hpp TEST survey
+    FROM "> T(1000)"
+    TO   "> T(10000)"
+    CASES "survey: a lobe*")

@@ -40,3 +40,21 @@ ljus_break_it(NAME thin_film-underflow HEADER optics/thin_film.hpp TEST thin_fil
     FROM "root = T(2) * cos_theta / q, ratio = root * root;"
     TO   "ratio = T(4) * c2 / (q * q);"
     CASES "thin film: shares of light*")
+
+# The two widths of a bell change places: within what the fit is off its table.
+ljus_break_it(NAME cie_observer-bell HEADER optics/cie_observer.hpp TEST thin_film
+    FROM "bell(501.1, 0.0490, 0.0382)"
+    TO   "bell(501.1, 0.0382, 0.0490)"
+    CASES "observer: the fit's*")
+
+# The cell behind the last one is read, and weighs nothing: but for infinity.
+ljus_break_it(NAME film_table-behind HEADER optics/film_table.hpp TEST thin_film
+    FROM "table.cosines - 2"
+    TO   "table.cosines - 1"
+    CASES "film colour: a table by hand*")
+
+# One minus R, where next to nothing goes through.
+ljus_break_it(NAME thin_film-small HEADER optics/thin_film.hpp TEST thin_film
+    FROM "ratio < T(1) ? ratio"
+    TO   "ratio < T(0) ? ratio"
+    CASES "thin film: what is small*")

@@ -53,3 +53,27 @@ ljus_break_it(NAME tracing-give-up HEADER photons/tracing.hpp TEST tracing
     FROM "if (nothing && result.emitted >= pass.give_up) break;"
     TO   ""
     CASES "tracing: a pass that stores nothing*")
+
+# Both passes draw the same numbers.
+ljus_break_it(NAME tracing-one-pass HEADER photons/tracing.hpp TEST tracing
+    FROM "? Pass::caustics_photons :"
+    TO   "? Pass::general_photons :"
+    CASES "tracing: each path*")
+
+# A pass that gave up audits the flux of those it sent as if they were all.
+ljus_break_it(NAME tracing-gave-up HEADER photons/tracing.hpp TEST tracing
+    FROM "result.audit *= double(pass.photons) / double(result.emitted);"
+    TO   ""
+    CASES "tracing: a pass that stores*")
+
+# Each stage of a pass begins its progress anew.
+ljus_break_it(NAME tracing-progress HEADER photons/tracing.hpp TEST tracing
+    FROM "pass.progress(done + now, count)"
+    TO   "pass.progress(now, count)"
+    CASES "tracing: progress*")
+
+# Shadows fall where things were when the shutter opened.
+ljus_break_it(NAME tracing-shadow-time HEADER photons/photon_path.hpp TEST tracing
+    FROM "spawn_ray(from, photon.ray.direction, photon.ray.time)"
+    TO   "spawn_ray(from, photon.ray.direction)"
+    CASES "tracing: a shadow falls*")

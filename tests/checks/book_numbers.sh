@@ -16,7 +16,7 @@ cat >table.csv <<'END'
 # prog.cpp, one run;
 # a machine.
 way,rays,"time, s",noise,noise
-plain,1,0.5,12 %,3
+plain, 1 ,0.5,12 %,3
 plain,4,2.125,,4
 "wide, eight",4,0.25,1.5e-3,5
 END

@@ -25,7 +25,7 @@ See \ref ch_bvh "Bounding volumes", chapter \ref ch_bvh "8" and \ref ch_sphere_t
 END
 perl "$tools/page" page.md | diff - right.md || wrong "a page is read otherwise"
 perl "$tools/page" "$LJUS_ROOT/chapters/contents.md" >contents.md || wrong "no contents"
-[ "$(grep -c '^\\page part_' contents.md)" -eq 6 ] || wrong "the book has not six parts"
+[ "$(grep -c '^\\page part_' contents.md)" -eq 7 ] || wrong "the book has not seven parts"
 grep -q '^| Figure 11 .*ch_caustics.*fig-11' contents.md || wrong "figure 11 is in no index"
 
 # What Doxygen leaves to be done.
@@ -35,8 +35,12 @@ cat >html/ch_sphere.html <<'END'
 <div class="contents"><div class="textblock"><h1><a class="anchor" id="here"></a>The trade</h1>
 <div class="image"><img src="a.png" alt=""/>
 <div class="caption">Two balls.</div></div>
+<div class="image">
+<object type="image/svg+xml" data="plot.svg" style="pointer-events: none;"></object>
+<div class="caption">
+Error against time</div></div>
 <div class="fragment"><div class="line">std::<span class="keywordtype">float</span>ing_po<span class="keywordtype">int</span> <a class="code hl_function" href="q.html#x">normal</a>;</div></div><!-- fragment -->
-<dl class="exercise"><dt><b><a class="el" href="exercise.html#_exercise000009">Exercise:</a></b></dt><dd>One by importance.</dd></dl>
+<dl class="exercise"><dt><b><a class="el" href="exercise.html#_exercise000009">Exercise:</a></b></dt><dd>One by importance, \(k\) of \(\frac{a}{b}\).</dd></dl>
 </div></div><!-- contents -->
 </body></html>
 END
@@ -44,12 +48,14 @@ sed 's/Sphere/Ray/; s/_exercise000009/_exercise000001/' html/ch_sphere.html >htm
 echo '<tagfile></tagfile>' >tags
 perl "$tools/finish" "$folder/html" tags >/dev/null || wrong "the pages are not finished"
 page=html/ch_sphere.html
+grep -q '<body class="ljus-page">' $page || wrong "a page of the book has no class"
 grep -q 'polyfill' $page && wrong "a script comes from the network"
 grep -q 'alt="Two balls."' $page || wrong "a picture has no alt text"
+grep -q '<img src="plot.svg" alt="Error against time"/>' $page || wrong "a plot stands in a frame"
 grep -q 'std::floating_point normal;' $page || wrong "a listing has wrong links or colours"
 grep -q 'id="_exercise000009".*Exercise 6.1' $page || wrong "an exercise has no number"
 [ "$(grep -c 'rel="prev" href="ch_ray.html"' $page)" -eq 2 ] || wrong "no chapter before"
-grep -q 'One by importance' html/search-text.js || wrong "the search does not know a word"
+grep -q 'One by importance, k of …' html/search-text.js || wrong "the search does not know a word"
 
 # A page with each flaw that needs no browser.
 flaw() {
@@ -87,6 +93,18 @@ for rays in 4 16 64 256; do
     done
     grep -qF -- "$row |" "$LJUS_ROOT/README.md" || wrong "README.md should have the row $row |"
 done
+
+# So is its plot; and a number that changes changes it.
+perl "$tools/pareto" --check || wrong "the plot of the README is an old one"
+mkdir -p old/tools old/measured old/pictures
+cp "$tools/pareto" "$tools/contents.pm" old/tools
+cp "$LJUS_ROOT"/chapters/measured/trades-front-*.csv old/measured
+perl old/tools/pareto
+cmp old/pictures/pareto.svg "$LJUS_ROOT/chapters/pictures/pareto.svg" || wrong "the plot is another"
+sed -i 's/^0\.0[0-9]*,/0.5,/' old/measured/trades-front-report.csv
+perl old/tools/pareto --check 2>err.txt && wrong "an old plot of the README is let through"
+grep -q "is not of today's numbers" err.txt || wrong "$(cat err.txt)"
+[ "$(wc -c <"$LJUS_ROOT/chapters/pictures/pareto.svg")" -lt 100000 ] || wrong "the plot is too large"
 
 [ $wrong -eq 0 ] && echo "the book's pages are made and checked as they should be"
 exit $wrong

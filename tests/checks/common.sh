@@ -11,6 +11,20 @@ trap 'rm -rf "$scratch"' EXIT
 
 skip() { echo "skipped: $*"; exit 77; }
 
+# The other compiler of g++ and clang++ than the build's; itself, if there is no other, or
+# one that is too old for the library, and says nothing about it.
+other_compiler() {
+    local other=clang++
+    case $("$LJUS_CXX" --version) in *clang*) other=g++ ;; esac
+    if printf '%s\n' '#include <concepts>' \
+        '#if defined(__clang__) ? __clang_major__ < 14 : __GNUC__ < 11' \
+        '#error' '#endif' | "$other" -std=c++20 -fsyntax-only -x c++ - 2>/dev/null; then
+        echo "$other"
+    else
+        echo "$LJUS_CXX"
+    fi
+}
+
 # The files that a header of ours includes, directly.
 ours_in() { sed -n 's/^ *#[ ]*include *"\([^"]*\)".*/\1/p' "$1"; }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # One way in which others use the library, from an empty folder to a program that runs.
-# Usage: consumer.sh plain|find_package|add_subdirectory|pkg_config|fetch|missing
+# Usage: consumer.sh plain|find_package|add_subdirectory|pkg_config|fetch|missing|course_project
 . "$(dirname "$0")/common.sh"
 way=$1
 folder=$scratch/consumer_$way
@@ -139,6 +139,39 @@ case $way in
         tr -s ' \n' '  ' <"$folder/configure.log" | grep -oF \
             "Ljus: glm is not installed; install it (sudo apt-get install libglm-dev)" ||
             { cat "$folder/configure.log"; exit 1; }
+        ;;
+    course_project)
+        # examples/course_project, copied to where nothing else is, by each of its ways.
+        install_ljus -DLJUS_INSTALL_CORE=OFF
+        source=$folder/project
+        one_way() {
+            rm -rf "$folder/project" "$folder/build"
+            cp -R "$LJUS_ROOT/examples/course_project" "$folder/project"
+            [ "$1" != single ] || cp "$folder/prefix/share/ljus/single/ljus.hpp" "$source/"
+            echo "by $1:"
+            shift
+            run_cmake -S "$source" -B "$folder/build" "$@" >"$folder/configure.log" 2>&1 ||
+                { cat "$folder/configure.log"; exit 1; }
+            "$LJUS_CMAKE" --build "$folder/build"
+            (cd "$folder" && build/course_project)
+            [ -f "$folder/first.png" ] || cp "$folder/picture.png" "$folder/first.png"
+            cmp "$folder/picture.png" "$folder/first.png"
+            rm "$folder/picture.png"
+        }
+        # shellcheck disable=SC2046
+        one_way "an installed Ljus" -DCMAKE_PREFIX_PATH="$folder/prefix" $(hints)
+        # shellcheck disable=SC2046
+        one_way "a folder" -DLJUS_FROM="$LJUS_ROOT" $(hints)
+        if commit=$(git -C "$LJUS_ROOT" rev-parse HEAD 2>/dev/null); then
+            # shellcheck disable=SC2046
+            one_way "a repository" -DLJUS_FROM="file://$LJUS_ROOT" \
+                -DLJUS_COMMIT="$commit" $(hints)
+        fi
+        if [ -f "$folder/prefix/share/ljus/single/ljus.hpp" ]; then
+            one_way single -DCMAKE_CXX_FLAGS="$LJUS_PACKAGE_FLAGS"
+        else
+            echo "no single header was installed, because Python is not"
+        fi
         ;;
     *) echo "consumer.sh: there is no way '$way'." >&2; exit 2 ;;
 esac

@@ -6,17 +6,7 @@
 # compile_cost.sh asks each of them alone.
 # Usage: copy.sh [N]: every Nth header; without it, all.
 . "$(dirname "$0")/common.sh"
-compiler=$LJUS_CXX
-case $("$compiler" --version) in
-    *clang*) other=g++ ;;
-    *) other=clang++ ;;
-esac
-# One that is too old for the library says nothing about it.
-if printf '%s\n' '#include <concepts>' \
-    '#if defined(__clang__) ? __clang_major__ < 14 : __GNUC__ < 11' \
-    '#error' '#endif' | "$other" -std=c++20 -fsyntax-only -x c++ - 2>/dev/null; then
-    compiler=$other
-fi
+compiler=$(other_compiler)
 status=0
 count=0
 while read -r header; do

@@ -2,7 +2,7 @@
 # What is no shape, no material, no light, or not listed gives a short message at the caller's line.
 . "$(dirname "$0")/common.sh"
 status=0
-longest=32
+longest=24
 
 # short_error CODE [PATTERN]: CODE is refused in few lines, one of which names the
 # caller's line and one of which matches PATTERN.
@@ -33,12 +33,13 @@ short_error() {
 short_error 'Scene<Shapes<Sphere, Torus>, Materials<Lambertian>> s;' 'Shape'
 short_error 'Scene<Shapes<Sphere>, Materials<Torus>> s;' 'Material'
 short_error 'Scene<Shapes<Sphere>, Materials<Lambertian>> s; s.add(Mirror{});' \
-    "no matching (member )?function"
-short_error 'Scene<Shapes<Sphere>, Materials<Lambertian>> s; s.add(Torus{});' 'AnyLight'
+    'Neither a light nor listed'
+short_error 'Scene<Shapes<Sphere>, Materials<Lambertian>> s; s.add(Torus{});' \
+    'Neither a light nor listed'
 short_error 'Scene<Shapes<Sphere>, Materials<Lambertian>> s; s.add(PointLightT<double>{});' \
-    "no matching (member )?function"
+    'Neither a light nor listed'
 short_error 'Scene<Shapes<Sphere>, Materials<Lambertian>> s; s.add(Quad{}, MaterialId{});' \
-    "no matching (member )?function"
+    'List the shape'
 short_error 'Scene<Shapes<Sphere, Sphere>, Materials<Lambertian>> s;' \
     'A scene lists each type once'
 short_error 'Scene<Shapes<Sphere>, Materials<>> s;' 'at least one type of material'

@@ -56,6 +56,7 @@ FLIPPED = {
     "<<": [">>"], ">>": ["<<"],
 }  # fmt: skip
 AXES = {"x": "y", "y": "x", "z": "x"}
+ELSEWHERE = ("_WIN32", "_MSC_VER", "FP_FAST_FMA")  # behind #ifdef: not compiled here
 
 
 @dataclass
@@ -95,6 +96,7 @@ class Reader:
         self.tokens = []
         self.clean = text  # without comments
         pieces, done = [], 0
+        elsewhere = 0  # so many #if are open in what is not compiled here
         for match in TOKEN.finditer(text):
             kind = match.lastgroup if match.lastgroup != "end" else "string"
             if match["string"]:
@@ -105,7 +107,13 @@ class Reader:
                 done = match.end()
             elif kind == "directive":
                 self.directives.append(match.start())
-            else:
+                word, *names = match[0].replace("#", " ").split()
+                if elsewhere:
+                    elsewhere += word.startswith("if")
+                    elsewhere -= word == "endif" or (word == "else" and elsewhere == 1)
+                elif word == "ifdef" and names[0] in ELSEWHERE:
+                    elsewhere = 1
+            elif not elsewhere:
                 self.tokens.append(Token(kind, match[0], match.start(), match.end()))
         self.clean = "".join(pieces) + text[done:]
         self.pair_brackets()

@@ -16,7 +16,8 @@ change nothing that a test could see, with the reason; they are not counted.
   --sample N      only N mutants of each header's, chosen at random
   --seed S        ... by this seed (1)
   --all N         at most N mutants in all, chosen at random
-  --again         only those that survived the last run here
+  --again         only those that survived the last run here; with --sample N as well
+                  N of each header's that never ran here
   --long          with the tests that say '// long:' as well; without it these are run for
                   headers only that have no other test
   --jobs N        so many at a time (the number of processors)
@@ -144,51 +145,60 @@ def file_of_fates(header, options):
     return options.build / "fates" / (header.replace("/", "_") + ".json")
 
 
-def known_fates(header, options):
-    """{key: fate} of all runs here since the header was last changed."""
+def known_fates(header, options, which="fates"):
+    """{key: fate} of all runs here since the header was last changed: how each mutant
+    fared the last time, or with which="first" the first time."""
     file = file_of_fates(header, options)
     known = json.loads(read(file)) if file.exists() else {}
     text = hashlib.sha1(read(INCLUDE / "ljus" / header).encode()).hexdigest()
-    return known["fates"] if known.get("header") == text else {}
+    return known.get(which, {}) if known.get("header") == text else {}
 
 
 def keep_fates(header, found, fate, options):
-    known = known_fates(header, options)
-    known.update({key_in_file(m): fate[id(m)] for m in found if id(m) in fate})
-    text = hashlib.sha1(read(INCLUDE / "ljus" / header).encode()).hexdigest()
-    write(file_of_fates(header, options), json.dumps({"header": text, "fates": known}))
+    new = {key_in_file(m): fate[id(m)] for m in found if id(m) in fate}
+    known = {
+        "header": hashlib.sha1(read(INCLUDE / "ljus" / header).encode()).hexdigest(),
+        "fates": known_fates(header, options) | new,
+        "first": new | known_fates(header, options, "first"),
+    }
+    write(file_of_fates(header, options), json.dumps(known))
 
 
 def write_csv(tests_of, equivalent, options):
-    """By floor: how many were tried, of those noticed, and how many are equivalent."""
+    """By floor: how many were tried, how many of them are equivalent, and of the others
+    how many were noticed when they were tried for the first time, and the last time."""
     rows = defaultdict(Counter)
     everything = 0
     for header in tests_of:
-        known = known_fates(header, options)
+        last = known_fates(header, options)
+        first = known_fates(header, options, "first")
         row = rows[floor(header)]
         for region in mutants.find(read(INCLUDE / "ljus" / header))[1]:
             everything += len(region.mutants)
             for mutant in region.mutants:
-                result = known.get(key_in_file(mutant))
+                result = last.get(key_in_file(mutant), "left out")
+                if result == "left out":
+                    continue
+                row["made"] += 1
                 if key_of(header, mutant) in equivalent:
-                    row["equivalent"] += result is not None and result != "left out"
-                elif result in NOTICED:
-                    row["killed"] += 1
-                elif result not in (None, "left out"):
-                    row["alive"] += 1
+                    row["equivalent"] += 1
+                    continue
+                row["first"] += first.get(key_in_file(mutant), result) in NOTICED
+                row["now"] += result in NOTICED
     compiler = subprocess.run(["g++", "-dumpfullversion"], capture_output=True, text=True)
-    tried = sum(row["killed"] + row["alive"] + row["equivalent"] for row in rows.values())
+    made = sum(row["made"] for row in rows.values())
     lines = [
-        f"# scripts/test --mutate --sample, {tried} of {everything} mutants, chosen at random",
-        f"# header by header; tests at -O1; g++ {compiler.stdout.strip()}.",
-        "floor,made,killed,equivalent,share",
+        f"# scripts/test --mutate --sample, {made} of {everything} mutants, chosen at random",
+        "# header by header. At first: before there were tests for those that lived. Those",
+        "# that were killed once are not tried again. Tests at -O1; "
+        f"g++ {compiler.stdout.strip()}.",
+        "floor,made,equivalent,killed at first,share at first,killed now,share now",
     ]
     for name, row in [*sorted(rows.items()), ("all", sum(rows.values(), Counter()))]:
-        tried = row["killed"] + row["alive"]
+        tried = row["made"] - row["equivalent"]
         if tried:
-            share = f"{100 * row['killed'] / tried:.0f} %"
-            made = tried + row["equivalent"]
-            lines.append(f"{name},{made},{row['killed']},{row['equivalent']},{share}")
+            then, now = (f"{row[k]},{100 * row[k] / tried:.0f} %" for k in ("first", "now"))
+            lines.append(f"{name},{row['made']},{row['equivalent']},{then},{now}")
     write(options.csv, "\n".join([*lines, ""]))
 
 
@@ -541,12 +551,16 @@ def main():
         found = [m for m in found if key_of(header, m) not in equivalent]
         known = known_fates(header, options)
         found = [m for m in found if known.get(key_in_file(m)) != "left out"]
+        last = []
         if options.again:
             file = options.build / "survivors" / header.replace("/", "_")
-            last = {tuple(k) for k in json.loads(read(file))} if file.exists() else set()
-            found = [m for m in found if key_of(header, m)[1:] in last]
+            keys = {tuple(k) for k in json.loads(read(file))} if file.exists() else set()
+            last = [m for m in found if key_of(header, m)[1:] in keys]
+            never = [m for m in found if m not in last and key_in_file(m) not in known]
+            found = never if options.sample is not None else []
         if options.sample is not None and len(found) > options.sample:
             found = random.Random(f"{options.seed} {header}").sample(found, options.sample)
+        found = last + found
         chosen_of[header] = found
     if options.all is not None:
         everything = [(h, m) for h, found in chosen_of.items() for m in found]

@@ -9,7 +9,6 @@
 #include <limits>
 #include <numbers>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -17,6 +16,7 @@
 
 #include "ljus/materials/material.hpp"
 #include "support/draws.hpp"
+#include "support/refusal.hpp"
 #include "support/statistics.hpp"
 
 namespace ljus_test {
@@ -213,12 +213,7 @@ void check_symmetry(const M& m) {
 /// The sentence with which check() refuses a material; empty if it does not.
 template <ljus::Material M>
 std::string refusal(const M& m) {
-    try {
-        check(m);
-    } catch (const std::invalid_argument& error) {
-        return error.what();
-    }
-    return "";
+    return refusal([&] { check(m); });
 }
 
 } // namespace ljus_test

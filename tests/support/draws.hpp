@@ -25,7 +25,7 @@ struct Draws {
     }
 
     /// A number of [0, 1) with 24 bits, or 53 in double.
-    template <std::floating_point T>
+    template <std::floating_point T = double>
     T unit() {
         constexpr int keep = sizeof(T) == 4 ? 24 : 53;
         return static_cast<T>(bits() >> (64 - keep)) *
@@ -37,6 +37,10 @@ struct Draws {
     T between(T low, T high) {
         return low + (high - low) * unit<T>();
     }
+    double between(double low, double high) { return between<double>(low, high); }
+
+    /// A whole number of [0, count).
+    int below(int count) { return static_cast<int>(unit() * count); }
 
     /// A point of the unit square.
     template <std::floating_point T>
@@ -50,6 +54,13 @@ struct Draws {
     ljus::Vec3T<T> cube() {
         const T x = unit<T>(), y = unit<T>();
         return {x, y, unit<T>()};
+    }
+
+    /// A point of the cube [-size, size)^3, made in double and rounded once.
+    template <std::floating_point T>
+    ljus::Vec3T<T> point(double size) {
+        const double x = between(-size, size), y = between(-size, size);
+        return {T(x), T(y), T(between(-size, size))};
     }
 
     /// A uniformly distributed direction, made in long double and rounded once.

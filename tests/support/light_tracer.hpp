@@ -4,7 +4,10 @@
 /// \brief An oracle that shares no step with the renderers: particles walk from the
 /// lights, and each matt surface they meet is joined to the pinhole.
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <optional>
 #include <random>
 
 #include "ljus/image/image.hpp"
@@ -39,11 +42,94 @@ std::vector<bool> matt_pixels(const Scene& scene, const ljus::CameraT<T>& camera
     return all;
 }
 
+/// Numbers that are not the library's.
+struct Uniform {
+    std::mt19937_64 engine;
+
+    double next() { return double(engine() >> 11) * 0x1p-53; }
+
+    template <typename T>
+    ljus::Vec3T<T> cube() {
+        const T last = T(1) - T(1e-7);
+        const T x = T(next()), y = T(next());
+        return {std::min(x, last), std::min(y, last), std::min(T(next()), last)};
+    }
+
+    /// A direction around an axis, uniform over the sphere or with density cos/pi.
+    template <typename T>
+    ljus::Vec3T<T> direction_around(const ljus::Vec3T<T>& axis, bool lambert) {
+        const double z = lambert ? std::sqrt(next()) : 2 * next() - 1;
+        const double phi = 2 * std::numbers::pi * next(), r = std::sqrt(1 - z * z);
+        const glm::dvec3 n(axis);
+        const glm::dvec3 help =
+            std::abs(n.x) < 0.5 ? glm::dvec3{1, 0, 0} : glm::dvec3{0, 1, 0};
+        const glm::dvec3 s = glm::normalize(glm::cross(n, help));
+        const glm::dvec3 t = glm::cross(n, s);
+        return ljus::Vec3T<T>(z * n + r * (std::cos(phi) * s + std::sin(phi) * t));
+    }
+};
+
+/// Light under way.
+template <std::floating_point T>
+struct Particle {
+    ljus::RayT<T> ray{};
+    glm::dvec3 flux{0};
+    ljus::RgbT<T> medium{T(0)}; ///< Absorption of what it is in.
+};
+
+/// A particle with a share of a light's flux.
+template <typename Scene, std::floating_point T>
+Particle<T> leave(const Scene& scene, const ljus::LightT<T>& light, double share,
+                  Uniform& uniform) {
+    constexpr double pi = std::numbers::pi;
+    if (!light.object)
+        return {{.origin = light.position,
+                 .direction =
+                     uniform.direction_around(ljus::Vec3T<T>{T(0), T(0), T(1)}, false)},
+                4 * pi * share * glm::dvec3(light.emission)};
+    const ljus::Vec3T<T> u = uniform.cube<T>();
+    ljus::SurfacePointT<T> point =
+        scene.visit_shape(*light.object, [&](const auto& shape) {
+            return sample_area(shape, {u.x, u.y});
+        });
+    const double size = scene.visit_shape(
+        *light.object, [&](const auto& shape) { return double(area(shape)); });
+    if (scene.object(*light.object).inside_out) point.normal = -point.normal;
+    return {spawn_ray(point, uniform.direction_around(point.normal, true)),
+            pi * size * share * glm::dvec3(light.emission)};
+}
+
+/// Where the pinhole shows a point, and how large one pixel is at the point.
+struct FilmPlace {
+    int x = 0, y = 0;
+    double area = 0; ///< Across the way to the pinhole.
+};
+
+/// The place of what lies at `way` before the pinhole; nothing beside the picture.
+///
+/// A pixel covers an area on the film at distance 1, of which a solid angle d omega
+/// covers d omega / cos^3.
+template <std::floating_point T>
+std::optional<FilmPlace> place_on_film(const ljus::CameraT<T>& camera, int width,
+                                       int height, const glm::dvec3& way) {
+    const double half = double(camera.half_height);
+    const double pixel_area = 4 * half * half / (double(height) * height);
+    const double d = glm::length(way);
+    const double cos_film = -glm::dot(way, glm::dvec3(camera.forward)) / d;
+    const double x = double(width) / 2 - glm::dot(way, glm::dvec3(camera.right)) /
+                                             (d * cos_film) / (2 * half) * height;
+    const double y = double(height) / 2 + glm::dot(way, glm::dvec3(camera.up)) /
+                                              (d * cos_film) / (2 * half) * height;
+    if (!(cos_film > 0 && x >= 0 && x < width && y >= 0 && y < height))
+        return std::nullopt;
+    return FilmPlace{int(x), int(y),
+                     d * d * cos_film * cos_film * cos_film * pixel_area};
+}
+
 /// The picture of all paths E D ... L, the first surface matt: light that mirrors and
 /// glass throw on it included, lamps themselves not.
 ///
-/// A pixel is the mean of L over its area on the film at distance 1, of which a solid
-/// angle d omega covers d omega / cos^3. A surface element dA at distance d covers
+/// A pixel is the mean of L over its area. A surface element dA at distance d covers
 /// d omega = cos_x dA / d^2, and L dA = sum of f dPhi.
 /// \param particles  How many leave the lights.
 template <typename Scene, std::floating_point T>
@@ -51,102 +137,60 @@ ljus::ImageT<double> trace_light(const Scene& scene, const ljus::CameraT<T>& cam
                                  int width, int height, long long particles,
                                  std::uint64_t seed) {
     using namespace ljus;
-    constexpr double pi = std::numbers::pi;
-    std::mt19937_64 engine(seed);
-    const auto uniform = [&] { return double(engine() >> 11) * 0x1p-53; };
-    const auto uniform3 = [&] {
-        const T x = T(uniform()), y = T(uniform());
-        return Vec3T<T>{std::min(x, T(1) - T(1e-7)), std::min(y, T(1) - T(1e-7)),
-                        std::min(T(uniform()), T(1) - T(1e-7))};
-    };
-    // A direction around an axis, uniform over the sphere or with density cos/pi.
-    const auto direction_around = [&](const Vec3T<T>& axis, bool lambert) {
-        const double z = lambert ? std::sqrt(uniform()) : 2 * uniform() - 1;
-        const double phi = 2 * pi * uniform(), r = std::sqrt(1 - z * z);
-        const glm::dvec3 n(axis);
-        const glm::dvec3 help =
-            std::abs(n.x) < 0.5 ? glm::dvec3{1, 0, 0} : glm::dvec3{0, 1, 0};
-        const glm::dvec3 s = glm::normalize(glm::cross(n, help));
-        const glm::dvec3 t = glm::cross(n, s);
-        return Vec3T<T>(z * n + r * (std::cos(phi) * s + std::sin(phi) * t));
-    };
-    const double half = double(camera.half_height);
-    const double pixel_area = 4 * half * half / (double(height) * height);
+    Uniform uniform{std::mt19937_64(seed)};
     auto image = make_image<double>(width, height);
 
-    for (long long particle = 0; particle < particles; ++particle) {
+    // What a surface sends to the pinhole of a particle that comes from `from`.
+    const auto join = [&](const auto& at, const auto& material, const Vec3T<T>& from,
+                          const glm::dvec3& flux) {
+        const glm::dvec3 way =
+            glm::dvec3(camera.position) - glm::dvec3(at.point.position);
+        const auto place = place_on_film(camera, width, height, way);
+        if (!place) return;
+        const Vec3T<T> to_camera = to_local(at.frame, Vec3T<T>(way / glm::length(way)));
+        const glm::dvec3 f(evaluate(material, to_camera, from));
+        if (f == glm::dvec3(0)) return;
+        const Vec3T<T> start = offset_ray_origin(at.point, Vec3T<T>(way));
+        const RayT<T> shadow{
+            .origin = start, .direction = camera.position - start, .t_max = T(1)};
+        if (!occluded(scene, shadow))
+            pixel(image, place->x, place->y) +=
+                flux * f * std::abs(double(to_camera.z)) / place->area;
+    };
+    // Sends a particle on; false if it is absorbed.
+    const auto scatter = [&](const auto& at, const auto& material, const Vec3T<T>& from,
+                             Particle<T>& particle) {
+        const auto next = sample(material, from, uniform.cube<T>(), Transport::flux);
+        if (!next) return false;
+        particle.flux *= glm::dvec3(next->weight);
+        if (from.z * next->wi.z < T(0))
+            particle.medium =
+                next->wi.z < T(0) ? RgbT<T>(absorption(material)) : RgbT<T>{T(0)};
+        particle.ray = spawn_ray(at.point, to_world(at.frame, next->wi));
+        return true;
+    };
+
+    const std::size_t lights = scene.lights.size();
+    for (long long number = 0; number < particles; ++number) {
         // Each light gets the same number of particles.
-        const auto count = scene.lights.size();
-        const auto& light = scene.lights[static_cast<std::size_t>(particle) % count];
-        glm::dvec3 flux(0);
-        RayT<T> ray;
-        const double share = double(count) / double(particles);
-        if (light.object) {
-            const auto u = uniform3();
-            SurfacePointT<T> point =
-                scene.visit_shape(*light.object, [&](const auto& shape) {
-                    return sample_area(shape, {u.x, u.y});
-                });
-            const double size = scene.visit_shape(
-                *light.object, [&](const auto& shape) { return double(area(shape)); });
-            if (scene.object(*light.object).inside_out) point.normal = -point.normal;
-            flux = pi * size * share * glm::dvec3(light.emission);
-            ray = spawn_ray(point, direction_around(point.normal, true));
-        } else {
-            flux = 4 * pi * share * glm::dvec3(light.emission);
-            ray = {.origin = light.position,
-                   .direction = direction_around({T(0), T(0), T(1)}, false)};
-        }
-
-        RgbT<T> medium{T(0)};
+        Particle<T> particle =
+            leave(scene, scene.lights[static_cast<std::size_t>(number) % lights],
+                  double(lights) / double(particles), uniform);
         for (int bounce = 0; bounce < 500; ++bounce) {
-            const auto hit = closest_hit(scene, ray);
+            const auto hit = closest_hit(scene, particle.ray);
             if (!hit) break;
-            const auto at = vertex_at(scene, ray, *hit);
-            flux *= glm::exp(-glm::dvec3(medium) * double(hit->at.t));
-            const Vec3T<T> from = to_local(at.frame, -ray.direction);
-
-            const glm::dvec3 way =
-                glm::dvec3(camera.position) - glm::dvec3(at.point.position);
-            const double d = glm::length(way);
-            const double cos_film = -glm::dot(way, glm::dvec3(camera.forward)) / d;
-            const double px =
-                double(width) / 2 - glm::dot(way, glm::dvec3(camera.right)) /
-                                        (d * cos_film) / (2 * half) * height;
-            const double py =
-                double(height) / 2 + glm::dot(way, glm::dvec3(camera.up)) /
-                                         (d * cos_film) / (2 * half) * height;
-            const bool on_film =
-                cos_film > 0 && px >= 0 && px < width && py >= 0 && py < height;
-
-            bool goes_on = false;
-            scene.visit_material(at.object.material, [&](const auto& material) {
-                const Vec3T<T> to_camera = to_local(at.frame, Vec3T<T>(way / d));
-                const glm::dvec3 f(evaluate(material, to_camera, from));
-                if (on_film && f != glm::dvec3(0)) {
-                    const SurfacePointT<T> pinhole{.position = camera.position};
-                    const Vec3T<T> start = offset_ray_origin(at.point, Vec3T<T>(way));
-                    const RayT<T> shadow{.origin = start,
-                                         .direction = pinhole.position - start,
-                                         .t_max = T(1)};
-                    if (!occluded(scene, shadow))
-                        pixel(image, int(px), int(py)) +=
-                            flux * f * std::abs(double(to_camera.z)) /
-                            (d * d * cos_film * cos_film * cos_film * pixel_area);
-                }
-                const auto next = sample(material, from, uniform3(), Transport::flux);
-                if (!next) return;
-                flux *= glm::dvec3(next->weight);
-                if (from.z * next->wi.z < T(0))
-                    medium = next->wi.z < T(0) ? RgbT<T>(absorption(material))
-                                               : RgbT<T>{T(0)};
-                ray = spawn_ray(at.point, to_world(at.frame, next->wi));
-                goes_on = true;
-            });
+            const auto at = vertex_at(scene, particle.ray, *hit);
+            particle.flux *= glm::exp(-glm::dvec3(particle.medium) * double(hit->at.t));
+            const Vec3T<T> from = to_local(at.frame, -particle.ray.direction);
+            const bool goes_on =
+                scene.visit_material(at.object.material, [&](const auto& material) {
+                    join(at, material, from, particle.flux);
+                    return scatter(at, material, from, particle);
+                });
             if (!goes_on) break;
             if (bounce >= 3) { // every fourth dies
-                if (uniform() < 0.25) break;
-                flux /= 0.75;
+                if (uniform.next() < 0.25) break;
+                particle.flux /= 0.75;
             }
         }
     }

@@ -3,12 +3,8 @@
 /// \file support/numbers.hpp
 /// \brief Numbers for tests: the same everywhere, and not the library's own.
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <utility>
-#include <vector>
 
 #include "ljus/math/vector.hpp"
 
@@ -25,6 +21,7 @@ struct Numbers {
     double power(double low, double high) { // 10^x
         return std::pow(10.0, between(low, high));
     }
+    double noise() { return std::sqrt(3.0) * between(-1, 1); } // mean 0, variance 1
     int below(int count) { return static_cast<int>(next() * count); }
     double sign() { return next() < 0.5 ? -1.0 : 1.0; }
     ljus::Vec3T<double> point(double size) {
@@ -42,43 +39,6 @@ struct Numbers {
     ljus::Vec2T<T> square() { // a point of [0, 1)^2
         const double x = below(1 << 24), y = below(1 << 24);
         return {static_cast<T>(x / 16777216.0), static_cast<T>(y / 16777216.0)};
-    }
-};
-
-/// Pearson's sum over cells that should all hold the same count.
-template <typename Counts>
-double chi_square(const Counts& counts) {
-    double sum = 0;
-    for (const auto count : counts) sum += static_cast<double>(count);
-    const double expected = sum / static_cast<double>(counts.size());
-    double result = 0;
-    for (const auto count : counts) {
-        const double off = static_cast<double>(count) - expected;
-        result += off * off / expected;
-    }
-    return result;
-}
-
-/// What a chi-square sum exceeds once in a million tests, by Wilson and Hilferty.
-inline double chi_square_limit(double degrees_of_freedom) {
-    const double v = 2.0 / (9.0 * degrees_of_freedom);
-    return degrees_of_freedom * std::pow(1.0 - v + 4.7534 * std::sqrt(v), 3);
-}
-
-/// A mean with its standard error.
-struct Mean {
-    double sum = 0, squares = 0;
-    int count = 0;
-    void add(double x) { sum += x, squares += x * x, ++count; }
-    double value() const { return sum / count; }
-    double error() const {
-        const double mean = value();
-        return std::sqrt(std::max(0.0, squares / count - mean * mean) / count);
-    }
-    /// Within 5 standard errors: a false alarm once in 1.7 million; and within a small
-    /// part besides, for a sample that hardly scatters.
-    bool agrees_with(double truth, double relative = 1e-6) const {
-        return std::abs(value() - truth) <= 5.0 * error() + relative * std::abs(truth);
     }
 };
 

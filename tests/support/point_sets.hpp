@@ -11,9 +11,9 @@
 #include <doctest/doctest.h>
 
 #include "ljus/accel/neighbor.hpp"
-#include "support/photon_samples.hpp"
+#include "support/draws.hpp"
 
-namespace photon_test {
+namespace ljus_test {
 
 using ljus::Neighbor;
 using ljus::Vec3T;
@@ -31,7 +31,7 @@ struct PointSet {
 /// The sets that photons really make, and the ones that break trees.
 template <typename T>
 std::vector<PointSet<T>> point_sets(std::size_t n, double size, double offset) {
-    Numbers numbers{n * 7 + 1};
+    Draws numbers{n * 7 + 1};
     const auto make = [&](const char* name, auto point) {
         PointSet<T> set{name, size, {}};
         for (std::size_t i = 0; i < n; ++i) {
@@ -112,7 +112,7 @@ std::vector<Neighbor> brute_force(const Tree& tree, const Vec3T<T>& center, T ra
 /// Every search of a tree over a set of points, at many places, against all points in
 /// turn.
 template <typename Tree, typename T>
-void compare_with_brute_force(const PointSet<T>& set, Numbers& numbers) {
+void compare_with_brute_force(const PointSet<T>& set, Draws& numbers) {
     CAPTURE(set.name);
     const Tree tree{std::span<const Vec3T<T>>(set.points)};
     const std::size_t n = set.points.size();
@@ -193,4 +193,4 @@ void compare_with_brute_force(const PointSet<T>& set, Numbers& numbers) {
     }
 }
 
-} // namespace photon_test
+} // namespace ljus_test

@@ -1,12 +1,18 @@
 #pragma once
 
+/// \file support/refusal.hpp
+/// \brief The sentences with which calls are refused.
+
+#include <concepts>
 #include <stdexcept>
 #include <string>
+
+#include <doctest/doctest.h>
 
 namespace ljus_test {
 
 /// The sentence with which a call is refused; empty if it is not.
-template <typename Call>
+template <std::invocable Call>
 std::string refusal(Call call) {
     try {
         call();
@@ -14,6 +20,20 @@ std::string refusal(Call call) {
         return error.what();
     }
     return "";
+}
+
+/// Why a call cannot read a file, behind "cannot read 'a.pfm': "; "loaded" if it can.
+template <std::invocable Load>
+std::string why_not_read(const std::string& path, Load load) {
+    try {
+        load();
+    } catch (const std::runtime_error& error) {
+        const std::string text = error.what();
+        const std::string start = "cannot read '" + path + "': ";
+        CHECK(text.starts_with(start));
+        return text.substr(start.size());
+    }
+    return "loaded";
 }
 
 } // namespace ljus_test

@@ -14,14 +14,14 @@
 #include "ljus/parallel.hpp"
 #include "support/point_sets.hpp"
 
-namespace photon_test {
+namespace ljus_test {
 
 using ljus::Vec3;
 
 /// Every search is what asking all points gives.
 template <template <typename> typename Tree>
 void every_search() {
-    Numbers numbers{5};
+    Draws numbers{5};
     for (const std::size_t n : {0u, 1u, 2u, 3u, 7u, 8u, 64u, 500u})
         for (const double size : {1e-18, 1e-3, 1.0, 1e6, 1e18})
             for (const auto& set : point_sets<float>(n, size, 0)) {
@@ -34,7 +34,7 @@ void every_search() {
 /// Also in double, and far from the origin.
 template <template <typename> typename Tree>
 void in_double() {
-    Numbers numbers{6};
+    Draws numbers{6};
     for (const std::size_t n : {0u, 1u, 2u, 10u, 500u}) {
         for (const double size : {1e-18, 1.0, 1e18})
             for (const auto& set : point_sets<double>(n, size, 0))
@@ -50,7 +50,7 @@ void in_double() {
 /// Ten thousand points at once.
 template <template <typename> typename Tree>
 void ten_thousand() {
-    Numbers numbers{7};
+    Draws numbers{7};
     for (const auto& set : point_sets<float>(10000, 1, 0))
         compare_with_brute_force<Tree<float>>(set, numbers);
 }
@@ -207,4 +207,4 @@ void many_threads() {
     CHECK(search(4) == search(1));
 }
 
-} // namespace photon_test
+} // namespace ljus_test

@@ -79,6 +79,21 @@ inline Triangles soup(Numbers& n, int count, double room, double size,
     return triangles;
 }
 
+/// Triangles of a scale that break trees: 64 equal ones, some in the plane x = 0, and
+/// some without an area.
+inline Triangles hard_soup(Numbers& n, double scale) {
+    Triangles triangles = soup(n, 100, 5 * scale, scale, Vec3{0});
+    for (int i = 0; i < 64; ++i) triangles.push_back(triangles[7]);
+    for (int i = 0; i < 20; ++i) {
+        Triangle flat = triangles[std::size_t(i)];
+        flat.v1.x = flat.v2.x = flat.v3.x = 0;
+        triangles.push_back(flat);
+        flat.v3 = flat.v1;
+        triangles.push_back(flat);
+    }
+    return triangles;
+}
+
 /// A ray of any kind: axis-parallel, with zeros of both signs, short, backwards.
 inline Ray some_ray(Numbers& n, double room, const Vec3& place) {
     const Vec3 origin = place + Vec3(n.point(2 * room));

@@ -16,8 +16,8 @@ namespace ljus {
 
 /// What a search tells of its way, if nobody listens.
 struct NoTrace {
-    /// A node was visited.
-    constexpr void operator()() const noexcept {}
+    /// A node was visited: its number.
+    constexpr void operator()(std::uint32_t) const noexcept {}
 };
 
 /// The nearest hit so far; of several that are as near, that of the primitive with the
@@ -99,7 +99,7 @@ public:
     /// \param test   Called as test(slot, ray) for primitives whose box the ray meets;
     ///               it may shorten the ray, as NearestHitT does, so that what lies
     ///               farther is left out; what is as far is still asked.
-    /// \param watch  Called for each node on the way.
+    /// \param watch  Called with the number of each node on the way.
     /// \cost In the mean O(log n) calls, in the worst case n.
     template <typename Test, typename Watch = NoTrace>
     void closest(RayT<T> ray, Test&& test, Watch&& watch = {}) const {
@@ -115,7 +115,7 @@ public:
     /// Whether any of the primitives that a ray may meet says yes.
     /// \param ray    The ray.
     /// \param test   Called as test(slot); true ends the search.
-    /// \param watch  Called for each node on the way.
+    /// \param watch  Called with the number of each node on the way.
     /// \return Whether one said true.
     template <typename Test, typename Watch = NoTrace>
     [[nodiscard]] bool any(const RayT<T>& ray, Test&& test, Watch&& watch = {}) const {
@@ -144,7 +144,7 @@ private:
         std::size_t waiting = 0;
         if (!entry(0)) return false;
         for (std::uint32_t at = 0;;) {
-            watch();
+            watch(at);
             const detail::BvhNodeT<T>& node = nodes[at];
             for (std::uint32_t i = 0; i < node.count; ++i)
                 if (test(node.first + i)) return true;

@@ -61,7 +61,8 @@ public:
         parts_.nodes = std::vector<detail::KdTree8NodeT<T>>(
             parts_.shape.first[std::size_t(parts_.shape.levels)]);
         parts_.blocks = std::vector<detail::Lanes3T<T>>(parts_.shape.blocks);
-        for (std::size_t i = 0; i < 8; ++i) parts_.blocks.back().set(i, Vec3T<T>{nan});
+        detail::for_lanes(
+            [&](int i) { parts_.blocks.back().set(std::size_t(i), Vec3T<T>{nan}); });
         point_ids_ = std::vector<std::uint32_t>(points.size());
         detail::KdTree8Builder<T>(parts_.shape, parts_.nodes, parts_.blocks, point_ids_)
             .build(points, threads);

@@ -4,6 +4,7 @@
 /// \brief The ray R(t) = O + tD, and the range of t that counts.
 
 #include <limits>
+#include <optional>
 
 #include "ljus/math/vector.hpp"
 
@@ -43,6 +44,29 @@ template <std::floating_point T>
     return ray.origin + t * ray.direction;
 }
 // [at]
+
+/// \name Mistakes
+/// \{
+
+/// A mistake does not compile, and says why.
+template <std::floating_point T, typename Other>
+requires(!std::same_as<T, Other>) Vec3T<T> point_at(const RayT<T>&, Other) {
+    static_assert(sizeof(Other) == 0, "A ray of floats takes a float: 2.0f, not 2.");
+    return {};
+}
+template <typename Test = void, typename Shape, std::floating_point T>
+std::optional<T> intersect(const Shape&, const RayT<T>&) {
+    static_assert(sizeof(T) == 0, "The ray comes first: intersect(ray, shape).");
+    return {};
+}
+template <typename Test = void, std::floating_point T,
+          template <std::floating_point> typename ShapeT, std::floating_point Other>
+requires(!std::same_as<T, Other>)
+std::optional<T> intersect(const RayT<T>&, const ShapeT<Other>&) {
+    static_assert(sizeof(T) == 0, "The ray and the shape have two precisions.");
+    return {};
+}
+/// \}
 
 /// \name What a test prepares
 /// A loop over many shapes is told its test once, as one template argument: a

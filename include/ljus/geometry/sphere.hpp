@@ -161,6 +161,13 @@ template <std::floating_point T>
                               const Vec3T<T>& point) noexcept {
     return glm::normalize(point - sphere.center);
 }
+/// A mistake: it does not compile, and says why.
+template <std::floating_point T, std::floating_point Other>
+requires(!std::same_as<T, Other>)
+Vec3T<T> normal(const SphereT<T>&, const Vec3T<Other>&) {
+    static_assert(sizeof(T) == 0, "The sphere and the point have two precisions.");
+    return {};
+}
 
 /// The area of a sphere.
 /// \param sphere  The sphere.

@@ -28,6 +28,21 @@ using SurfacePoint = SurfacePointT<float>; ///< SurfacePointT in float.
 
 namespace detail {
 
+/// Sets a point to another, number by number: a processor waits for a copy of what has
+/// just been written if the copy is made in wider pieces.
+template <std::floating_point T>
+inline void set_point(SurfacePointT<T>& to, const SurfacePointT<T>& from) noexcept {
+    const auto set = [](Vec3T<T>& a, const Vec3T<T>& b) {
+        a.x = b.x;
+        a.y = b.y;
+        a.z = b.z;
+    };
+    set(to.position, from.position);
+    set(to.error, from.error);
+    set(to.normal, from.normal);
+    to.tilt = from.tilt;
+}
+
 /// The relative error of n roundings in a row, n u / (1 - n u).
 /// \tparam T  The precision; u is its unit roundoff.
 /// \param n   How many roundings, at least 0.

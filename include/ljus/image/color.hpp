@@ -50,7 +50,7 @@ template <std::floating_point T>
 /// \param linear  Any number: NaN and negatives are 0, 1 and above are 255.
 /// \return floor(255 y + 1/2), y the encoded value.
 [[nodiscard]] inline unsigned char srgb_byte(double linear) noexcept {
-    return static_cast<unsigned char>(std::floor(255.0 * srgb_encode(linear) + 0.5));
+    return static_cast<unsigned char>(255.0 * srgb_encode(linear) + 0.5);
 }
 
 /// \}

@@ -128,6 +128,25 @@ inline std::string padded(std::string text, std::size_t width) {
     return text;
 }
 
+// "  E D L    shadow ray    0.31 0.30 0.28", without its end.
+inline std::string line_of(const std::string& letters, const std::string& what,
+                           const glm::dvec3& value) {
+    return "  " + padded(spaced(letters), 26) + " " + padded(what, 14) +
+           three_numbers(value);
+}
+
+// What happened at one place of a path.
+inline std::string line_of(const PathLogLine& step) {
+    if (step.what != "vertex") return line_of(step.path, step.what, step.value);
+    char place[96];
+    std::snprintf(place, sizeof place, "   at (%.4g, %.4g, %.4g)", step.position.x,
+                  step.position.y, step.position.z);
+    char density[32];
+    std::snprintf(density, sizeof density, ", pdf %.4g", step.pdf);
+    return line_of(step.path, "throughput", step.value) + place +
+           (step.pdf > 0 ? density : ", delta");
+}
+
 /// A pixel, taken apart, as a text.
 /// \param pixel  Of take_apart().
 /// \param most   The most sums to print; the rest is put together.
@@ -135,51 +154,29 @@ inline std::string padded(std::string text, std::size_t width) {
 template <std::floating_point T>
 [[nodiscard]] std::string describe(const ExplainedPixelT<T>& pixel,
                                    std::size_t most = 16) {
-    using detail::padded;
-    using detail::three_numbers;
     std::string text;
-    const auto line = [&](const std::string& letters, const std::string& what,
-                          const glm::dvec3& value) {
-        text.append("  ").append(padded(detail::spaced(letters), 26));
-        text.append(" ").append(padded(what, 14)).append(three_numbers(value));
-    };
     for (std::size_t i = 0; i < pixel.first_rays.size(); ++i) {
-        text.append("ray ").append(std::to_string(i + 1)).append("\n");
-        for (const PathLogLine& step : pixel.first_rays[i].lines) {
-            const bool vertex = step.what == "vertex";
-            line(step.path, vertex ? "throughput" : step.what, step.value);
-            if (vertex) {
-                char place[96];
-                std::snprintf(place, sizeof place, "   at (%.4g, %.4g, %.4g)",
-                              step.position.x, step.position.y, step.position.z);
-                text.append(place);
-                std::snprintf(place, sizeof place, ", pdf %.4g", step.pdf);
-                text.append(step.pdf > 0 ? place : ", delta");
-            }
-            text.append("\n");
-        }
-        if (pixel.first_rays[i].lines.empty()) text.append("  no light\n");
+        const auto& steps = pixel.first_rays[i].lines;
+        text += "ray " + std::to_string(i + 1) + "\n";
+        for (const PathLogLine& step : steps) text += line_of(step) + "\n";
+        if (steps.empty()) text += "  no light\n";
     }
-    text.append("sums over ").append(std::to_string(pixel.samples)).append(" rays\n");
+    text += "sums over " + std::to_string(pixel.samples) + " rays\n";
     glm::dvec3 rest{0};
     for (std::size_t i = 0; i < pixel.sums.size(); ++i) {
         const PathSum& sum = pixel.sums[i];
-        if (i < most) {
-            line(sum.path, sum.owner, sum.value);
-            text.append("\n");
-        } else {
+        if (i < most)
+            text += line_of(sum.path, sum.owner, sum.value) + "\n";
+        else
             rest += sum.value;
-        }
     }
-    if (pixel.sums.size() > most) {
-        line("", std::to_string(pixel.sums.size() - most) + " more", rest);
-        text.append("\n");
-    }
-    line("", "the pixel", glm::dvec3(pixel.radiance));
-    text.append("\n");
+    if (pixel.sums.size() > most)
+        text += line_of("", std::to_string(pixel.sums.size() - most) + " more", rest) +
+                "\n";
+    text += line_of("", "the pixel", glm::dvec3(pixel.radiance)) + "\n";
     if (pixel.rejected > 0)
-        text.append(std::to_string(pixel.rejected))
-            .append(" rays were not finite and are left out\n");
+        text +=
+            std::to_string(pixel.rejected) + " rays were not finite and are left out\n";
     return text;
 }
 

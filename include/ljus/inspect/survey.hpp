@@ -154,11 +154,12 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
     plan.thin_film = item("thin film", found.films,
                           found.films ? "paths pass through the listed films"
                                       : "no material is one");
-    const bool tree = detail::needs_tree(found.objects);
+    const bool tree = detail::needs_tree(found.objects) && !found.few;
     plan.tree = item("tree", tree,
                      std::to_string(found.objects) +
-                         (tree ? " objects, a tree finds the first on a ray"
-                               : " object(s), a loop asks each"));
+                         (tree        ? " objects, a tree finds the first on a ray"
+                          : found.few ? " objects, eight are asked at a time"
+                                      : " object(s), a loop asks each"));
     return plan;
 }
 #endif

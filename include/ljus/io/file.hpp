@@ -37,6 +37,17 @@ namespace detail {
         join({"cannot read '", shown_path(path), "': ", why, "."}));
 }
 
+// The folder of a file, with the slash; empty for a file of the folder that we are in.
+inline std::string folder_of(const std::string& path) {
+    return path.substr(0, path.find_last_of("/\\") + 1); // 0 if there is no slash
+}
+
+// The path of a file that another one names: beside that one, unless it begins at the
+// root.
+inline std::string path_beside(const std::string& file, const std::string& name) {
+    return name.starts_with('/') ? name : folder_of(file) + name;
+}
+
 } // namespace detail
 
 /// Writes a file: beside `path` first, and renamed once every write, the flush and the
@@ -73,7 +84,6 @@ inline void save_file(const std::string& path, const Bytes& bytes) {
         !S_ISDIR(status.st_mode))
         detail::fail_to_read(path, "it is a pipe or a device and no file");
 #endif
-    errno = 0;
     const Closed closed{std::fopen(path.c_str(), "rb")};
     if (closed.file == nullptr) detail::fail_to_read(path, std::strerror(errno));
 
@@ -86,7 +96,6 @@ inline void save_file(const std::string& path, const Bytes& bytes) {
         const std::size_t room = most - old_size;
         const std::size_t wanted = room < piece ? room + 1 : piece;
         bytes.resize(old_size + wanted);
-        errno = 0;
         const std::size_t got =
             std::fread(bytes.data() + old_size, 1, wanted, closed.file);
         const int error = errno;

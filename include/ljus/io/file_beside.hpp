@@ -66,8 +66,8 @@ namespace detail {
 }
 
 [[noreturn]] inline void fail_to_write(const std::string& path, int error) {
-    throw std::runtime_error(join({"cannot write '", shown_path(path), "': ",
-                                   std::strerror(error == 0 ? EIO : error), "."}));
+    throw std::runtime_error(
+        join({"cannot write '", shown_path(path), "': ", std::strerror(error), "."}));
 }
 
 // The file that a save replaces: behind a symbolic link its target, so that the link
@@ -91,16 +91,15 @@ inline std::string file_to_replace(const std::string& path) {
 }
 
 // A new file beside `path`, which goes again unless it is renamed to `path`. Where the
-// system has files without a name it gets one when it is whole: killed before, a
-// program leaves nothing.
+// system has files without a name (`nameless`: look for them) it gets one when it is
+// whole: killed before, a program leaves nothing.
 class FileBeside {
 public:
-    explicit FileBeside(const std::string& path) : path_(path) {
-        open_nameless();
+    explicit FileBeside(const std::string& path, bool nameless = true) : path_(path) {
+        if (nameless) open_nameless();
         // "x": never a file that is there already, e.g. of another process.
         for (long long number = 0; file_ == nullptr && number < most_names; ++number) {
             name_ = name_of(number);
-            errno = 0;
             file_ = std::fopen(name_.c_str(), "wbx");
             if (file_ == nullptr && errno != EEXIST) break;
         }
@@ -120,18 +119,15 @@ public:
 
     void write(const Bytes& bytes) {
         if (bytes.empty()) return;
-        errno = 0;
         if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size())
             fail_to_write(path_, errno);
     }
 
     void close() {
-        errno = 0;
         if (std::fflush(file_) != 0) fail_to_write(path_, errno);
 #if __has_include(<unistd.h>)
         // On the disk before it has the name: else a loss of power could leave the name
         // and not the bytes. Not every file system knows how.
-        errno = 0;
         if (::fsync(::fileno(file_)) != 0 && errno != EINVAL && errno != ENOTSUP)
             fail_to_write(path_, errno);
 #endif

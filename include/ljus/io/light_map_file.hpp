@@ -3,9 +3,9 @@
 /// \file ljus/io/light_map_file.hpp
 /// \brief A light map in a file, and back.
 
-#include <limits>
+#include <algorithm>
+#include <optional>
 #include <string>
-#include <string_view>
 
 #include "ljus/io/detail/map_key.hpp"
 #include "ljus/radiosity/radiosity.hpp"
@@ -23,10 +23,36 @@ namespace ljus {
 
 namespace detail {
 
-inline constexpr std::string_view light_map_magic = "ljus light map\n\n";
-inline constexpr std::uint32_t light_map_version = 2;
+inline constexpr MapFormat light_map_format{"ljus light map\n\n", 2};
 inline constexpr std::size_t grid_bytes = 20;
 inline constexpr std::size_t light_bytes = 24;
+
+inline void put_grid(Bytes& bytes, const PatchGrid& grid) {
+    const std::uint32_t how = static_cast<std::uint32_t>(grid.kind) +
+                              (grid.back ? 4u : 0u) + (grid.inward ? 8u : 0u);
+    for (const std::uint32_t number :
+         {grid.object.type, grid.object.index, how, grid.columns, grid.rows})
+        put_number(bytes, number);
+}
+
+// The next grid of a file, without its first patch; nothing if it is none.
+[[nodiscard]] inline std::optional<PatchGrid> take_grid(MapReader& file) {
+    PatchGrid grid;
+    grid.object.type = file.take<std::uint32_t>();
+    grid.object.index = file.take<std::uint32_t>();
+    const auto how = file.take<std::uint32_t>();
+    grid.columns = file.take<std::uint32_t>();
+    grid.rows = file.take<std::uint32_t>();
+    const bool square = grid.columns == grid.rows;
+    if (how % 4 > 2 || how > 15 || grid.columns < 1 || grid.rows < 1 ||
+        grid.columns > 65535 || grid.rows > 65535 || (how % 4 == 1 && !square) ||
+        (how % 4 == 2 && (grid.columns < 2 || grid.rows < 3)))
+        return std::nullopt;
+    grid.kind = static_cast<GridKind>(how % 4);
+    grid.back = (how & 4u) != 0;
+    grid.inward = (how & 8u) != 0;
+    return grid;
+}
 
 } // namespace detail
 
@@ -55,19 +81,11 @@ template <SceneLike S>
 inline void save_light_map(const std::string& path, const LightMap& map,
                            const MapKey& key) {
     Bytes bytes =
-        detail::map_front(detail::light_map_magic, detail::light_map_version,
+        detail::map_front(detail::light_map_format,
                           static_cast<std::uint32_t>(map.grids.size()), map.objects);
     detail::put_key(bytes, key);
-    for (const PatchGrid& grid : map.grids) {
-        const std::uint32_t how = static_cast<std::uint32_t>(grid.kind) +
-                                  (grid.back ? 4u : 0u) + (grid.inward ? 8u : 0u);
-        for (const std::uint32_t number :
-             {grid.object.type, grid.object.index, how, grid.columns, grid.rows})
-            detail::put_number(bytes, number);
-    }
-    for (const RgbT<double>& light : map.irradiance)
-        for (int channel = 0; channel < 3; ++channel)
-            detail::put_number(bytes, light[channel]);
+    for (const PatchGrid& grid : map.grids) detail::put_grid(bytes, grid);
+    for (const RgbT<double>& light : map.irradiance) detail::put_vector(bytes, light);
     detail::put_checksum(bytes);
     save_file(path, bytes);
 }
@@ -84,7 +102,7 @@ inline void save_light_map(const std::string& path, const LightMap& map,
                                              std::size_t most = 10'000'000) {
     detail::MapReader file = detail::open_map(
         path, detail::map_limit(most, detail::light_bytes + detail::grid_bytes),
-        detail::light_map_magic, detail::light_map_version);
+        detail::light_map_format);
     const auto grids = file.take<std::uint32_t>();
     LightMap map{.objects = file.take<std::uint64_t>()};
     detail::require_key(file, key);
@@ -94,33 +112,16 @@ inline void save_light_map(const std::string& path, const LightMap& map,
 
     std::size_t patches = 0;
     for (std::uint32_t i = 0; i < grids; ++i) {
-        PatchGrid grid;
-        grid.object.type = file.take<std::uint32_t>();
-        grid.object.index = file.take<std::uint32_t>();
-        const auto how = file.take<std::uint32_t>();
-        grid.columns = file.take<std::uint32_t>();
-        grid.rows = file.take<std::uint32_t>();
-        const bool square = grid.columns == grid.rows;
-        if (how % 4 > 2 || how > 15 || grid.columns < 1 || grid.rows < 1 ||
-            grid.columns > 65535 || grid.rows > 65535 || (how % 4 == 1 && !square) ||
-            (how % 4 == 2 && (grid.columns < 2 || grid.rows < 3)))
-            file.refuse("its grid " + std::to_string(i) + " is none");
-        grid.kind = static_cast<detail::GridKind>(how % 4);
-        grid.back = (how & 4u) != 0;
-        grid.inward = (how & 8u) != 0;
-        grid.first = static_cast<std::uint32_t>(patches);
-        patches += grid.size();
+        auto grid = detail::take_grid(file);
+        if (!grid) file.refuse("its grid " + std::to_string(i) + " is none");
+        grid->first = static_cast<std::uint32_t>(patches);
+        patches += grid->size();
         if (patches > most) file.refuse("it holds more patches than are allowed");
-        map.grids.push_back(grid);
+        map.grids.push_back(*grid);
     }
-    if (file.left() != patches * detail::light_bytes)
-        file.refuse("it says that it holds " + std::to_string(patches) +
-                    " patches, which does not go with its " +
-                    std::to_string(file.bytes.size()) + " bytes");
+    file.require_left(patches, detail::light_bytes, "patches");
     for (std::size_t i = 0; i < patches; ++i) {
-        RgbT<double> light;
-        for (int channel = 0; channel < 3; ++channel)
-            light[channel] = file.take<double>();
+        const auto light = file.take_vector<RgbT<double>>();
         const double least = std::min(light.x, std::min(light.y, light.z));
         if (!is_finite(light) || !(least >= 0))
             file.refuse("it has light that is not finite, or below 0");

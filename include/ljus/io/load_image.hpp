@@ -157,17 +157,16 @@ inline const char* jpeg_trouble(const Bytes& file) {
     return nullptr;
 }
 
-/// A picture from the bytes of a file.
-/// \param bytes  The file.
-/// \param path   What messages call it.
-/// \return Linear colours in [0, 1]; a transparent file's own, without its alpha.
-/// \throws std::runtime_error  with path and reason, if it is no picture.
-template <std::floating_point T = float>
-[[nodiscard]] ImageT<T> decode_image(const Bytes& bytes, const std::string& path) {
-    const auto refuse = [&](std::string_view why) {
-        throw std::runtime_error(join({shown_path(path), " ", why, "."}));
-    };
 #ifdef LJUS_HAS_STB_IMAGE
+// A picture as a file has it: sRGB, three bytes a pixel.
+struct DecodedBytes {
+    int width = 0, height = 0;
+    std::unique_ptr<stbi_uc, void (*)(void*)> pixels{nullptr, stbi_image_free};
+};
+
+// The bytes of a picture; why there is none is said by calling refuse(why).
+template <typename Refuse>
+DecodedBytes decode_bytes(const Bytes& bytes, Refuse refuse) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
                                 bytes.size());
     const bool png = text.starts_with("\x89PNG\r\n\x1a\n");
@@ -184,11 +183,11 @@ template <std::floating_point T = float>
         const char* const why = stbi_failure_reason();
         return join({what, why == nullptr ? "unknown" : shown(std::string(why))});
     };
-    int width = 0;
-    int height = 0;
+    DecodedBytes picture;
     int channels = 0;
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const auto size = static_cast<int>(bytes.size());
+    int &width = picture.width, &height = picture.height;
     if (!stbi_info_from_memory(data, size, &width, &height, &channels))
         refuse(reason("is no picture that can be read: "));
     if (width < 1 || height < 1) refuse("has no pixels");
@@ -200,16 +199,30 @@ template <std::floating_point T = float>
     const std::size_t most = png ? 8256 : jpeg ? 1024 : 8;
     if (std::size_t(width) * std::size_t(height) / most > bytes.size())
         refuse("is damaged: it ends in the middle of its pixels");
-    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
-        stbi_load_from_memory(data, size, &width, &height, &channels, 3),
-        stbi_image_free);
-    if (!pixels) refuse(reason("is damaged: "));
+    picture.pixels.reset(
+        stbi_load_from_memory(data, size, &width, &height, &channels, 3));
+    if (!picture.pixels) refuse(reason("is damaged: "));
+    return picture;
+}
+#endif
 
+/// A picture from the bytes of a file.
+/// \param bytes  The file.
+/// \param path   What messages call it.
+/// \return Linear colours in [0, 1]; a transparent file's own, without its alpha.
+/// \throws std::runtime_error  with path and reason, if it is no picture.
+template <std::floating_point T = float>
+[[nodiscard]] ImageT<T> decode_image(const Bytes& bytes, const std::string& path) {
+    const auto refuse = [&](std::string_view why) {
+        throw std::runtime_error(join({shown_path(path), " ", why, "."}));
+    };
+#ifdef LJUS_HAS_STB_IMAGE
+    const DecodedBytes picture = decode_bytes(bytes, refuse);
     std::array<T, 256> linear{};
     for (std::size_t i = 0; i < 256; ++i)
         linear[i] = static_cast<T>(srgb_decode(static_cast<double>(i) / 255.0));
-    ImageT<T> image = make_image<T>(width, height);
-    const stbi_uc* next = pixels.get();
+    ImageT<T> image = make_image<T>(picture.width, picture.height);
+    const stbi_uc* next = picture.pixels.get();
     for (RgbT<T>& color : image.pixels)
         for (T* const channel : {&color.x, &color.y, &color.z})
             *channel = linear[*next++];

@@ -69,6 +69,51 @@ CameraT<T> read_camera(const JsonField& field) {
     }
 }
 
+template <std::floating_point T>
+void read_image_size(const JsonField& image, LoadedSceneT<T>& loaded) {
+    require_object(image, {"width", "height", "pixel_filter"});
+    const auto size = [&](const char* name) {
+        return static_cast<int>(whole_number(member(image, name), 1, max_pixels));
+    };
+    loaded.width = size("width");
+    loaded.height = size("height");
+    if (loaded.width > max_pixels / loaded.height)
+        refuse(image, std::string("has more than ").append(std::to_string(max_pixels)) +
+                          " pixels");
+    if (const auto filter = find(image, "pixel_filter");
+        filter && text(*filter).substr(0, 3) != "box")
+        refuse_value(*filter, "\"box\", the only filter that there is");
+}
+
+// The materials of a scene, by their names.
+template <typename Scene>
+std::map<std::string, MaterialId> read_materials(const JsonField& list, Scene& scene) {
+    if (!list.value.is_object()) refuse_value(list, "an object");
+    std::size_t films = 0;
+    for (const auto& value : list.value)
+        if (const auto type = value.find("type"); type != value.end())
+            films += *type == "soap-film" ? 1u : 0u;
+    if (films > max_soap_films)
+        refuse(list, "has more than 16 soap films, whose colours take long to make");
+
+    std::map<std::string, MaterialId> materials;
+    for (const auto& [name, value] : list.value.items())
+        materials[name] =
+            read_material({value, list.file, path_of_member(list.path, name)}, scene);
+    return materials;
+}
+
+// Refuses a scene of too few or too many lights; `objects` are among them.
+inline void require_lights(const JsonField& objects, std::size_t lights) {
+    if (lights == 0)
+        refuse(objects, "has no light; at least one needs an emission above 0, or "
+                        "there must be lights");
+    if (lights > 65535)
+        refuse(objects, std::string("has ")
+                            .append(std::to_string(lights))
+                            .append(" lights; it must have at most 65535"));
+}
+
 template <std::floating_point T, typename LoadMeshes>
 LoadedSceneT<T> read_scene(const JsonField& top, LoadMeshes& load_meshes) {
     require_object(top, {"format", "name", "description", "camera", "image",
@@ -78,46 +123,15 @@ LoadedSceneT<T> read_scene(const JsonField& top, LoadMeshes& load_meshes) {
     LoadedSceneT<T> loaded;
     loaded.name = shown(remark(top, "name"), 200);
     loaded.camera = read_camera<T>(member(top, "camera"));
-
-    const JsonField image = member(top, "image");
-    require_object(image, {"width", "height", "pixel_filter"});
-    loaded.width =
-        static_cast<int>(whole_number(member(image, "width"), 1, max_pixels));
-    loaded.height =
-        static_cast<int>(whole_number(member(image, "height"), 1, max_pixels));
-    if (loaded.width > max_pixels / loaded.height)
-        refuse(image, std::string("has more than ").append(std::to_string(max_pixels)) +
-                          " pixels");
-    if (const auto filter = find(image, "pixel_filter");
-        filter && text(*filter).substr(0, 3) != "box")
-        refuse_value(*filter, "\"box\", the only filter that there is");
-
-    std::map<std::string, MaterialId> materials;
-    const JsonField list = member(top, "materials");
-    if (!list.value.is_object()) refuse_value(list, "an object");
-    std::size_t films = 0;
-    for (const auto& value : list.value)
-        if (const auto type = value.find("type"); type != value.end())
-            films += *type == "soap-film" ? 1u : 0u;
-    if (films > max_soap_films)
-        refuse(list, "has more than 16 soap films, whose colours take long to make");
-    for (const auto& [name, value] : list.value.items())
-        materials[name] = read_material(
-            {value, top.file, path_of_member(list.path, name)}, loaded.scene);
-
+    read_image_size(member(top, "image"), loaded);
+    const auto materials = read_materials(member(top, "materials"), loaded.scene);
     const JsonField objects = member(top, "objects");
     for (std::size_t i = 0; i < list_size(objects); ++i)
         read_object(entry(objects, i), materials, loaded.scene, load_meshes);
     if (const auto lights = find(top, "lights"))
         for (std::size_t i = 0; i < list_size(*lights); ++i)
             read_light(entry(*lights, i), loaded.scene);
-    if (loaded.scene.lights.empty())
-        refuse(objects, "has no light; at least one needs an emission above 0, or "
-                        "there must be lights");
-    if (loaded.scene.lights.size() > 65535)
-        refuse(objects, std::string("has ")
-                            .append(std::to_string(loaded.scene.lights.size()))
-                            .append(" lights; it must have at most 65535"));
+    require_lights(objects, loaded.scene.lights.size());
     return loaded;
 }
 
@@ -132,7 +146,7 @@ LoadedSceneT<T> read_scene(const JsonField& top, LoadMeshes& load_meshes) {
 /// \throws std::runtime_error  with one sentence that names the file, the path of the
 ///         field, its value and what would be right: "scene.json: objects[3].radius is
 ///         -1; it must be above 0."
-template <std::floating_point T = float, typename LoadMeshes = detail::NoMeshes>
+template <std::floating_point T = float, typename LoadMeshes = detail::NoMeshesT<T>>
 [[nodiscard]] LoadedSceneT<T> read_json_scene(std::string_view source,
                                               const std::string& file,
                                               LoadMeshes load_meshes = {}) {
@@ -146,7 +160,7 @@ template <std::floating_point T = float, typename LoadMeshes = detail::NoMeshes>
 /// \return The scene.
 /// \throws std::runtime_error  as read_json_scene(); or, if the file cannot be read,
 ///         with its name and the reason.
-template <std::floating_point T = float, typename LoadMeshes = detail::NoMeshes>
+template <std::floating_point T = float, typename LoadMeshes = detail::NoMeshesT<T>>
 [[nodiscard]] LoadedSceneT<T> load_json(const std::string& path,
                                         LoadMeshes load_meshes = {}) {
     const Bytes bytes = load_file(path, detail::max_scene_file);

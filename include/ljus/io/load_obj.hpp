@@ -57,6 +57,58 @@ template <std::floating_point T>
 using ObjPictureT = Textured<LambertianT<T>, PictureTextureT<T, UvMapT<T>>>;
 using ObjPicture = ObjPictureT<float>; ///< ObjPictureT in float.
 
+namespace detail {
+
+// What tinyobjloader calls while it reads: the reader, which finds the numbers itself.
+template <std::floating_point T>
+tinyobj::callback_t calls_of_reader() {
+    using Reader = ObjReader<T>;
+    using Real = tinyobj::real_t;
+    tinyobj::callback_t calls;
+    calls.vertex_cb = [](void* reader, Real, Real, Real, Real) {
+        static_cast<Reader*>(reader)->vertex();
+    };
+    calls.normal_cb = [](void* reader, Real, Real, Real) {
+        static_cast<Reader*>(reader)->normal();
+    };
+    calls.texcoord_cb = [](void* reader, Real, Real, Real) {
+        static_cast<Reader*>(reader)->texture();
+    };
+    calls.index_cb = [](void* reader, tinyobj::index_t* corners, int count) {
+        static_cast<Reader*>(reader)->face(corners, static_cast<std::size_t>(count));
+    };
+    calls.usemtl_cb = [](void* reader, const char* name, int) {
+        static_cast<Reader*>(reader)->use(name);
+    };
+    return calls;
+}
+
+[[noreturn]] inline void refuse_without_faces(const std::string& file,
+                                              const ObjReport& report) {
+    const std::string troubles = to_text(report);
+    const std::string why =
+        troubles.empty()
+            ? "; a mesh file has lines such as 'v 0 0 1' and 'f 1 2 3'."
+            : "; the first trouble: " + troubles.substr(0, troubles.find('\n'));
+    throw std::runtime_error(shown_path(file) + ": there is no face that can be used" +
+                             why);
+}
+
+// Loads the picture of a material, if it has one that is not there yet.
+template <std::floating_point T>
+void load_picture(const ObjMaterial& material, LoadedObjT<T>& loaded) {
+    const std::string& path = material.picture;
+    if (path.empty() || loaded.pictures.contains(path)) return;
+    try {
+        loaded.pictures.emplace(path, load_image<T>(path));
+    } catch (const std::runtime_error& wrong) {
+        loaded.report.pictures.push_back(
+            (material.picture_at + ": ").append(wrong.what()));
+    }
+}
+
+} // namespace detail
+
 /// Reads meshes from the text of an OBJ file. Faces of one material, wherever they
 /// stand, are one mesh; those of more than three corners are cut by cut_polygon().
 /// \param text      The text.
@@ -75,60 +127,19 @@ template <std::floating_point T = float>
     require_positive("the scale of a mesh file", settings.scale);
     detail::blunt_exponents(text);
     std::istringstream stream(std::move(text));
-    using Reader = detail::ObjReader<T>;
-    Reader reader{.settings = settings, .line{.stream = stream}};
-    const std::size_t slash = file.find_last_of("/\\");
-    reader.materials = detail::read_materials(
-        stream.view(), slash == file.npos ? std::string() : file.substr(0, slash + 1),
-        reader.report);
+    detail::ObjReader<T> reader{.settings = settings, .line{.stream = stream}};
+    reader.materials =
+        detail::read_materials(stream.view(), detail::folder_of(file), reader.report);
+    std::string warning, error; // ours are in the report
+    tinyobj::LoadObjWithCallback(stream, detail::calls_of_reader<T>(), &reader, nullptr,
+                                 &warning, &error);
+    if (reader.parts.empty()) detail::refuse_without_faces(file, reader.report);
 
-    using Real = tinyobj::real_t;
-    tinyobj::callback_t calls;
-    calls.vertex_cb = [](void* data, Real, Real, Real, Real) {
-        static_cast<Reader*>(data)->vertex();
-    };
-    calls.normal_cb = [](void* data, Real, Real, Real) {
-        static_cast<Reader*>(data)->normal();
-    };
-    calls.texcoord_cb = [](void* data, Real, Real, Real) {
-        static_cast<Reader*>(data)->texture();
-    };
-    calls.index_cb = [](void* data, tinyobj::index_t* corners, int count) {
-        static_cast<Reader*>(data)->face(corners, static_cast<std::size_t>(count));
-    };
-    calls.usemtl_cb = [](void* data, const char* name, int) {
-        static_cast<Reader*>(data)->use(name);
-    };
-    std::string warning, error;
-    tinyobj::LoadObjWithCallback(stream, calls, &reader, nullptr, &warning, &error);
-
-    if (reader.parts.empty()) {
-        const std::string report = to_text(reader.report);
-        throw std::runtime_error(
-            detail::shown_path(file) + ": there is no face that can be used" +
-            (report.empty()
-                 ? std::string("; a mesh file has lines such as 'v 0 0 1' and "
-                               "'f 1 2 3'.")
-                 : "; the first trouble: " + report.substr(0, report.find('\n'))));
-    }
-    detail::count_edges(reader.whole, reader.lines, reader.report);
-    LoadedObjT<T> loaded;
-    for (auto& part : reader.parts) {
-        if (!part.smooth) part.data.normals.clear();
-        if (!part.has_uv) part.data.uv.clear();
-        if (part.has_uv)
-            for (const long long line : part.without_uv)
-                reader.report.add(ObjTrouble::no_uv, line);
-        if (settings.normals == ObjNormals::smooth)
-            detail::smooth_across_seams<T>(part);
-        const std::string& picture = part.material.picture;
-        if (settings.pictures && !picture.empty() && !loaded.pictures.contains(picture))
-            try {
-                loaded.pictures.emplace(picture, load_image<T>(picture));
-            } catch (const std::runtime_error& wrong) {
-                reader.report.pictures.push_back(
-                    (part.material.picture_at + ": ").append(wrong.what()));
-            }
+    LoadedObjT<T> loaded{.report = std::move(reader.report)};
+    detail::count_edges(reader.whole, reader.lines, loaded.report);
+    for (detail::ObjFacesT<T>& part : reader.parts) {
+        detail::finish(part, settings.normals, loaded.report);
+        if (settings.pictures) detail::load_picture(part.material, loaded);
         try {
             loaded.parts.push_back(
                 {MeshT<T>(std::move(part.data)), std::move(part.material)});
@@ -136,7 +147,6 @@ template <std::floating_point T = float>
             throw std::runtime_error(detail::shown_path(file) + ": " + wrong.what());
         }
     }
-    loaded.report = std::move(reader.report);
     return loaded;
 }
 
@@ -166,14 +176,12 @@ void add_obj(Scene& scene, const LoadedObjT<T>& loaded) {
         const GlassT<T> glass{.index = static_cast<T>(is.index)};
         const MirrorT<T> mirror{.reflectance = RgbT<T>(is.specular)};
         MaterialId id = [&] {
-            if constexpr (requires { scene.add(glass); })
+            if constexpr (Scene::template lists<GlassT<T>>)
                 if (is.is_glass()) return scene.add(glass);
-            if constexpr (requires { scene.add(mirror); })
+            if constexpr (Scene::template lists<MirrorT<T>>)
                 if (is.is_mirror()) return scene.add(mirror);
             const LambertianT<T> matt{.albedo = RgbT<T>(is.diffuse)};
-            if constexpr (requires(const ObjPictureT<T>& painted) {
-                              scene.add(painted);
-                          })
+            if constexpr (Scene::template lists<ObjPictureT<T>>)
                 if (const auto picture = loaded.pictures.find(is.picture);
                     picture != loaded.pictures.end())
                     return scene.add(ObjPictureT<T>{matt, {.image = picture->second}});

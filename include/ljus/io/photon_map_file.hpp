@@ -39,8 +39,7 @@ template <std::floating_point T>
     return photons;
 }
 
-inline constexpr std::string_view map_magic = "ljus photon map\n";
-inline constexpr std::uint32_t map_version = 2;
+inline constexpr MapFormat photon_map_format{"ljus photon map\n", 2};
 
 } // namespace detail
 
@@ -91,17 +90,17 @@ template <SceneLike S>
 template <std::floating_point T>
 void save_photon_map(const std::string& path, const PhotonMapT<T>& map,
                      const MapKey& key) {
-    Bytes bytes = detail::map_front(detail::map_magic, detail::map_version,
+    Bytes bytes = detail::map_front(detail::photon_map_format,
                                     static_cast<std::uint32_t>(sizeof(T)),
                                     static_cast<std::uint64_t>(map.records.size()));
     detail::put_key(bytes, key);
     for (const PhotonT<T>& photon : detail::photons_of(map)) {
-        for (const Vec3T<T>& v : {photon.position, photon.direction, photon.flux})
-            for (int axis = 0; axis < 3; ++axis) detail::put_number(bytes, v[axis]);
+        detail::put_vector(bytes, photon.position);
+        detail::put_vector(bytes, photon.direction);
+        detail::put_vector(bytes, photon.flux);
         detail::put_number(bytes, photon.light);
         detail::put_number(bytes, static_cast<std::uint8_t>(photon.kind));
-        for (int axis = 0; axis < 3; ++axis)
-            detail::put_number(bytes, photon.normal[axis]);
+        detail::put_vector(bytes, photon.normal);
     }
     detail::put_checksum(bytes);
     save_file(path, bytes);
@@ -122,30 +121,26 @@ template <std::floating_point T = float>
                                             std::size_t most = 100'000'000,
                                             int threads = 0) {
     constexpr std::size_t photon_bytes = 9 * sizeof(T) + 6;
-    detail::MapReader file =
-        detail::open_map(path, detail::map_limit(most, photon_bytes), detail::map_magic,
-                         detail::map_version);
+    detail::MapReader file = detail::open_map(
+        path, detail::map_limit(most, photon_bytes), detail::photon_map_format);
     const auto number_bytes = file.take<std::uint32_t>();
     const auto count = file.take<std::uint64_t>();
     if (number_bytes != sizeof(T))
         file.refuse("its numbers have " + std::to_string(number_bytes) +
                     " bytes; those asked for have " + std::to_string(sizeof(T)));
     detail::require_key(file, key);
-    if (file.left() / photon_bytes != count || file.left() % photon_bytes != 0)
-        file.refuse("it says that it holds " + std::to_string(count) +
-                    " photons, which does not go with its " +
-                    std::to_string(file.bytes.size()) + " bytes");
+    file.require_left(count, photon_bytes, "photons");
 
     std::vector<PhotonT<T>> photons(count);
     for (PhotonT<T>& photon : photons) {
-        for (Vec3T<T>* v : {&photon.position, &photon.direction, &photon.flux})
-            for (int axis = 0; axis < 3; ++axis) (*v)[axis] = file.take<T>();
+        photon.position = file.take_vector<Vec3T<T>>();
+        photon.direction = file.take_vector<Vec3T<T>>();
+        photon.flux = file.take_vector<RgbT<T>>();
         photon.light = file.take<std::uint16_t>();
         const auto kind = file.take<std::uint8_t>();
         if (kind > 3) file.refuse("it has a photon of kind " + std::to_string(kind));
         photon.kind = static_cast<PhotonKind>(kind);
-        for (int axis = 0; axis < 3; ++axis)
-            photon.normal[axis] = file.take<std::int8_t>();
+        photon.normal = file.take_vector<decltype(photon.normal)>();
         if (!is_finite(photon.position) || !is_finite(photon.direction) ||
             !is_finite(photon.flux))
             file.refuse("it has a photon that is not finite");

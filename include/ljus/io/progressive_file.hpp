@@ -20,8 +20,7 @@ namespace ljus {
 
 namespace detail {
 
-inline constexpr std::string_view checkpoint_magic = "ljus progressive";
-inline constexpr std::uint32_t checkpoint_version = 1;
+inline constexpr MapFormat checkpoint_format{"ljus progressive", 1};
 
 // Calls `each` with every number behind the header, in the order of the file.
 template <typename State, typename Each>
@@ -35,6 +34,40 @@ void each_checkpoint_number(State& state, Each each) {
             for (int channel = 0; channel < 3; ++channel) each(color[channel]);
 }
 
+// A state with room for the numbers of a file, of the size that its header says.
+[[nodiscard]] inline ProgressiveState empty_state_of(MapReader& file) {
+    const auto side = file.take<std::uint32_t>();
+    const auto width = file.take<std::uint32_t>();
+    const auto height = file.take<std::uint32_t>();
+    constexpr auto most = static_cast<std::uint32_t>(max_pixels);
+    const bool sized = side >= 1 && side <= most && width >= 1 && height >= 1 &&
+                       width <= most / height;
+    if (!sized) file.refuse("its picture has no size that a picture can have");
+    const std::uint32_t columns = (width - 1) / side + 1;
+    const std::uint32_t rows = (height - 1) / side + 1;
+    const std::size_t numbers =
+        4 + 6 * std::size_t(width) * height + 3 * std::size_t(columns) * rows;
+    if (file.bytes.size() != map_header + 8 * numbers)
+        file.refuse("its " + std::to_string(file.bytes.size()) +
+                    " bytes do not go with its picture's size");
+    ProgressiveState state{.block_side = int(side)};
+    state.sum = state.squares = make_image<double>(int(width), int(height));
+    state.block_squares = make_image<double>(int(columns), int(rows));
+    return state;
+}
+
+// Refuses numbers that no pass can have made, though the checksum is right.
+inline void require_sense(const MapReader& file, const ProgressiveState& state) {
+    if (state.passes < 1 || !(state.alpha > 0 && state.alpha <= 1) ||
+        !(state.shrink > 0 && state.shrink <= 1))
+        file.refuse("its number of passes, alpha or radius is out of range");
+    // Beyond the range of a picture's numbers its mean would be infinite.
+    const double largest = double(state.passes) * std::numeric_limits<float>::max();
+    for (const auto& color : state.sum.pixels)
+        if (max_component(glm::abs(color)) > largest)
+            file.refuse("it has light that no picture can hold");
+}
+
 } // namespace detail
 
 /// Saves a checkpoint.
@@ -45,9 +78,8 @@ void each_checkpoint_number(State& state, Each each) {
 inline void save_checkpoint(const std::string& path, const ProgressiveState& state) {
     require(state.passes >= 1, "the number of passes", state.passes, "at least 1");
     Bytes bytes = detail::map_front(
-        detail::checkpoint_magic, detail::checkpoint_version,
-        std::uint32_t(state.block_side), std::uint32_t(state.sum.width),
-        std::uint32_t(state.sum.height));
+        detail::checkpoint_format, std::uint32_t(state.block_side),
+        std::uint32_t(state.sum.width), std::uint32_t(state.sum.height));
     detail::each_checkpoint_number(
         state, [&](const auto& number) { detail::put_number(bytes, number); });
     detail::put_checksum(bytes);
@@ -62,42 +94,15 @@ inline void save_checkpoint(const std::string& path, const ProgressiveState& sta
 [[nodiscard]] inline ProgressiveState load_checkpoint(const std::string& path) {
     detail::MapReader file =
         detail::open_map(path, detail::map_limit(std::size_t(detail::max_pixels), 96),
-                         detail::checkpoint_magic, detail::checkpoint_version);
-    const auto side = file.take<std::uint32_t>();
-    const auto width = file.take<std::uint32_t>();
-    const auto height = file.take<std::uint32_t>();
-
-    // What has the right checksum and yet no sense was made to mislead.
-    constexpr auto most = static_cast<std::uint32_t>(detail::max_pixels);
-    const bool sized = side >= 1 && side <= most && width >= 1 && height >= 1 &&
-                       width <= most / height;
-    if (!sized) file.refuse("its picture has no size that a picture can have");
-    ProgressiveState state{.block_side = int(side)};
-    const auto blocks = [&](std::uint32_t pixels) {
-        return int((pixels - 1) / side + 1);
-    };
-    const int columns = blocks(width), rows = blocks(height);
-    const std::size_t numbers = 4 + 6 * std::size_t(width) * height +
-                                3 * std::size_t(columns) * std::size_t(rows);
-    if (file.bytes.size() != detail::map_header + 8 * numbers)
-        file.refuse("its " + std::to_string(file.bytes.size()) +
-                    " bytes do not go with its picture's size");
-    state.sum = state.squares = make_image<double>(int(width), int(height));
-    state.block_squares = make_image<double>(columns, rows);
+                         detail::checkpoint_format);
+    ProgressiveState state = detail::empty_state_of(file);
     detail::each_checkpoint_number(state, [&]<typename Number>(Number& number) {
         number = file.take<Number>();
         if constexpr (std::is_floating_point_v<Number>)
             if (!std::isfinite(number))
                 file.refuse("it has a number that is not finite");
     });
-    if (state.passes < 1 || !(state.alpha > 0 && state.alpha <= 1) ||
-        !(state.shrink > 0 && state.shrink <= 1))
-        file.refuse("its number of passes, alpha or radius is out of range");
-    // Beyond the range of a picture's numbers its mean would be infinite.
-    const double largest = double(state.passes) * std::numeric_limits<float>::max();
-    for (const auto& color : state.sum.pixels)
-        if (max_component(glm::abs(color)) > largest)
-            file.refuse("it has light that no picture can hold");
+    detail::require_sense(file, state);
     return state;
 }
 

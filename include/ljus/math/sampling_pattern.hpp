@@ -68,7 +68,8 @@ struct Strata {
         i ^= i >> 7;
     } while (i >= count);
     const std::uint64_t step = ((mix_bits(~bits) >> 32) * count) >> 32; // in [0, count)
-    return static_cast<std::uint32_t>((i + step) % count);
+    const std::uint64_t place = i + step; // a remainder would take a division
+    return static_cast<std::uint32_t>(place < count ? place : place - count);
 }
 
 /// The place of one ray within its pixel.

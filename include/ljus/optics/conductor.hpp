@@ -71,10 +71,11 @@ template <std::floating_point T>
     const T b = real >= T(0) ? smaller : larger;
 
     const auto square = [](T x) { return x * x; };
-    const T r_s = (square(c - a) + square(b)) / (square(c + a) + square(b));
-    const T p = square(a * c + sin2) + square(b * c);
-    // At grazing incidence onto nothing, n = 1 and k = 0, both are 0.
-    const T ratio = p > T(0) ? (square(a * c - sin2) + square(b * c)) / p : T(1);
+    // At grazing incidence onto nothing, n = 1 and k = 0, both parts are 0.
+    const auto share = [](T part, T all) { return all > T(0) ? part / all : T(1); };
+    const T r_s = share(square(c - a) + square(b), square(c + a) + square(b));
+    const T ratio = share(square(a * c - sin2) + square(b * c),
+                          square(a * c + sin2) + square(b * c));
     return r_s * (T(1) + ratio) / T(2);
 }
 // [fresnel_conductor]

@@ -39,6 +39,40 @@ struct FilmTableSize {
     double longest = 4000; ///< In nm.
 };
 
+// Wavelengths that are evenly spaced over the visible ones, in nm, and what the eye
+// makes of each.
+struct FilmSpectrum {
+    std::vector<double> wavelengths{};
+    std::vector<Vec3T<double>> eye{};
+    Vec3T<double> white{0}; // the sum of `eye`
+};
+
+// As close to each other as the fringes of the longest path ask for: see
+// film_spectral().
+[[nodiscard]] inline FilmSpectrum film_spectrum(double longest) {
+    const double first = visible<double>[0], last = visible<double>[1];
+    const double finest = first * first / (4 * std::numbers::pi * longest);
+    const int count =
+        static_cast<int>(std::ceil((last - first) / std::min(2.0, finest)));
+    const double step = (last - first) / count;
+    FilmSpectrum spectrum;
+    for (int i = 0; i < count; ++i) {
+        spectrum.wavelengths.push_back(first + (i + 0.5) * step);
+        spectrum.white +=
+            spectrum.eye.emplace_back(cie_observer(spectrum.wavelengths.back()));
+    }
+    return spectrum;
+}
+
+// Appends a colour to a table, made one that a screen shows.
+template <std::floating_point T>
+void add_cell(FilmTableT<T>& table, const RgbT<double>& color) {
+    const RgbT<double> shown = into_gamut(color);
+    if (shown != color) ++table.greyed;
+    table.worst = std::min(table.worst, static_cast<T>(-max_component(-color)));
+    table.cells.push_back(RgbT<T>(shown));
+}
+
 } // namespace detail
 
 /// Makes the table of one index, in double.
@@ -57,58 +91,37 @@ template <std::floating_point T = float>
     require(size.paths >= 2, "paths", static_cast<long long>(size.paths), "at least 2");
     require_positive("longest", size.longest);
 
-    // As close as the fringes of the longest path ask for, see film_spectral().
     const double n = double(index);
-    const double finest = detail::visible<double>[0] * detail::visible<double>[0] /
-                          (4 * std::numbers::pi * size.longest);
-    const int count = static_cast<int>(
-        std::ceil((detail::visible<double>[1] - detail::visible<double>[0]) /
-                  std::min(2.0, finest)));
-    const double step =
-        (detail::visible<double>[1] - detail::visible<double>[0]) / count;
-    std::vector<Vec3T<double>> eye;
-    Vec3T<double> white{0};
-    const auto wavelength = [&](int i) {
-        return detail::visible<double>[0] + (i + 0.5) * step;
-    };
-    for (int i = 0; i < count; ++i)
-        white += eye.emplace_back(cie_observer(wavelength(i)));
-
+    const detail::FilmSpectrum spectrum = detail::film_spectrum(size.longest);
     FilmTableT<T> table{.index = index,
                         .cosines = size.cosines,
                         .paths = size.paths,
                         .longest = static_cast<T>(size.longest)};
     table.cells.reserve(static_cast<std::size_t>(size.cosines) *
                         static_cast<std::size_t>(size.paths + 1));
-    const auto add = [&](const RgbT<double>& color) {
-        const RgbT<double> shown = into_gamut(color);
-        if (shown != color) ++table.greyed;
-        table.worst = std::min(table.worst, static_cast<T>(-max_component(-color)));
-        table.cells.push_back(RgbT<T>(shown));
-    };
-    const auto cosine = [&](int i) {
-        const double root = double(i) / (size.cosines - 1);
+    const auto cosine = [&](int column) {
+        const double root = double(column) / (size.cosines - 1);
         return root * root;
     };
-    std::vector<double> sines(eye.size());
+    std::vector<double> sines(spectrum.eye.size());
     for (int row = 0; row < size.paths; ++row) {
         const double root = double(row) / (size.paths - 1);
         const double path = size.longest * root * root;
-        for (int i = 0; i < count; ++i)
-            sines[static_cast<std::size_t>(i)] =
-                std::sin(2 * std::numbers::pi * path / wavelength(i));
+        for (std::size_t i = 0; i < sines.size(); ++i)
+            sines[i] = std::sin(2 * std::numbers::pi * path / spectrum.wavelengths[i]);
         for (int column = 0; column < size.cosines; ++column) {
             const double c = cosine(column);
             const double g = std::sqrt(film_cosine2(c, n));
             const double strength = g > 0 ? (n - 1) * (n + 1) / g : 0.0;
             Vec3T<double> sum{0};
-            for (std::size_t i = 0; i < eye.size(); ++i)
-                sum += eye[i] * film_shares(c, n, strength * sines[i]).reflected;
-            add(detail::xyz_to_rgb(sum / white));
+            for (std::size_t i = 0; i < sines.size(); ++i)
+                sum +=
+                    spectrum.eye[i] * film_shares(c, n, strength * sines[i]).reflected;
+            detail::add_cell(table, detail::xyz_to_rgb(sum / spectrum.white));
         }
     }
     for (int column = 0; column < size.cosines; ++column)
-        add(RgbT<double>{thick_film(cosine(column), n)});
+        detail::add_cell(table, RgbT<double>{thick_film(cosine(column), n)});
     return table;
 }
 

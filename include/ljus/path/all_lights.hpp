@@ -188,10 +188,11 @@ template <SceneLike S, std::floating_point T, Material M, typename Stream,
                                           place, counts, verdict);
                     continue;
                 }
-        for (int i = 0; i < rays; ++i)
-            sum += direct_light(scene, light, vertex, material, place(i), weigh, counts,
-                                verdict) /
-                   T(rays);
+        for (int i = 0; i < rays; ++i) {
+            const RgbT<T> found = direct_light(scene, light, vertex, material, place(i),
+                                               weigh, counts, verdict);
+            sum += rays == 1 ? found : found / T(rays);
+        }
     }
     if (both) sum += found_light(scene, vertex, material, rays, stream, counts);
     return sum;

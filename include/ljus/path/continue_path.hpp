@@ -131,8 +131,14 @@ template <std::floating_point T, Material M, typename Stream>
 [[nodiscard]] bool continue_path(PathStateT<T>& path, const VertexT<T>& vertex,
                                  const M& material, Transport transport, Lobes which,
                                  Stream& stream) {
-    const auto scattered =
-        scatter(vertex, material, next_3d<T>(stream), transport, which);
+    const Vec3T<T> u = next_3d<T>(stream);
+    if (!vertex.smooth) { // as scatter() does it, without its copies
+        const auto next = sample(material, vertex.wo, u, transport, which);
+        if (!next) return false;
+        detail::follow(path, vertex, material, *next, to_world(vertex.frame, next->wi));
+        return true;
+    }
+    const auto scattered = scatter(vertex, material, u, transport, which);
     if (!scattered) return false;
     detail::follow(path, vertex, material, scattered->sample, scattered->wi);
     return true;

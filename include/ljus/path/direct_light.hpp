@@ -78,8 +78,11 @@ template <SceneLike S, std::floating_point T, Material M, typename Weigh>
         visible = visibility(scene, point, sampled->point, vertex.time);
         if (is_black(visible)) return share;
     }
-    const T distance = glm::distance(point.position, sampled->point.position);
-    share.arrived = share.sent * transmittance(vertex.medium, distance) * visible;
+    share.arrived = share.sent;
+    if (!is_black(vertex.medium))
+        share.arrived *= transmittance(
+            vertex.medium, glm::distance(point.position, sampled->point.position));
+    share.arrived *= visible;
     return share;
 }
 

@@ -33,7 +33,7 @@ struct PathLogLine {
     std::string path;       ///< Heckbert's letters from the camera, E first.
     std::string what;       ///< "vertex", or who carried the light.
     glm::dvec3 value{0};    ///< Throughput at a vertex; radiance of a term.
-    glm::dvec3 position{0}; ///< Of the vertex.
+    glm::dvec3 position{0}; ///< Of the vertex; of a term, where the path has come to.
     double pdf = 0;         ///< Per steradian, of the direction it went on; 0: delta.
 };
 
@@ -41,9 +41,16 @@ struct PathLogLine {
 struct PathLog {
     std::vector<PathLogLine> lines; ///< In the order of the path.
     std::string letters = "E";      ///< Of the path so far.
+    glm::dvec3 here{0};             ///< Where it has come to.
 
     /// A path begins.
     void begin() { letters.assign(1, 'E'); } // g++ 12 warns of = "E" (its bug 105651)
+
+    /// The path has come to a surface, from which it may not go on.
+    template <std::floating_point T>
+    void arrive(const Vec3T<T>& position) {
+        here = glm::dvec3(position);
+    }
 
     /// The path was scattered at a vertex.
     /// \param letter      D or S, by the lobe that was chosen.
@@ -68,12 +75,20 @@ struct PathLog {
         lines.push_back({letters + std::string(suffix),
                          std::string(owner),
                          glm::dvec3(value),
-                         {},
+                         here,
                          0});
     }
 };
 
 namespace detail {
+
+/// Tells a log where a path has come to, if it has a function for that.
+/// \param log       The log; most add up radiance, and need no places.
+/// \param position  Of the surface.
+template <typename Log, std::floating_point T>
+void log_arrival(Log& log, const Vec3T<T>& position) {
+    if constexpr (requires { log.arrive(position); }) log.arrive(position);
+}
 
 /// Tells a log of the last scattering of a path.
 /// \param log   The log.

@@ -58,6 +58,15 @@ inline constexpr bool has_frames = requires(const S& scene) {
     scene.frames;
 };
 
+/// The frame of a flat shape, from a scene that knows it. (By its own name: clang 14
+/// would look for `frames` in every scene that fill_vertex() is called with.)
+/// \param scene  A scene with frames.
+/// \param id     A flat shape of it.
+template <std::floating_point T, typename S>
+[[nodiscard]] FrameT<T> known_frame(const S& scene, const ObjectId& id) {
+    return scene.frames[id.type][id.index];
+}
+
 /// Sets the frame of a vertex where two normals may differ.
 /// \param vertex  Its point and its object are set.
 /// \param ray     The ray that hit.
@@ -97,10 +106,11 @@ inline void fill_vertex(VertexT<T>& vertex, const S& scene, const RayT<T>& ray,
     scene.visit_shape(hit.object, [&]<typename G>(const G& shape) {
         constexpr bool one_frame = has_frames<S> && is_plane<G>;
         if constexpr (one_frame) {
-            vertex.frame = scene.frames[hit.object.type][hit.object.index];
-            vertex.point = point_at(shape, hit.at.u, hit.at.v, vertex.frame.normal);
+            vertex.frame = known_frame<T>(scene, hit.object);
+            set_point(vertex.point,
+                      point_at(shape, hit.at.u, hit.at.v, vertex.frame.normal));
         } else {
-            vertex.point = surface_point(shape, ray, hit.at);
+            set_point(vertex.point, surface_point(shape, ray, hit.at));
         }
         if (detail::uses_uv(scene, vertex.object.material))
             vertex.uv = texture_coordinates(shape, hit.at, vertex.point);

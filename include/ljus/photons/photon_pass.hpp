@@ -44,10 +44,10 @@ struct PhotonPassSettings {
     std::uint64_t seed = 1;      ///< Of the random streams.
     std::uint64_t iteration = 0; ///< Which repetition of the pass.
     int max_bounces = 1000; ///< Surfaces a photon may meet; roulette ends it before.
-    bool shadow_photons = true; ///< Whether the general map keeps them.
+    bool shadow_photons = true;     ///< Whether the general map keeps them.
     PhotonKinds keep = light_kinds; ///< Which others it keeps.
-    bool equal_lights = false;  ///< As many from each light, not as its power: for
-                                ///< what each light hides rather than what it sends.
+    bool equal_lights = false;      ///< As many from each light, not as its power: for
+        ///< what each light hides rather than what it sends.
     PhotonSampling numbers = PhotonSampling::random; ///< Chance, or better than chance.
     /// Of the caustics' photons: an object each, in the order of specular_objects(),
     /// with the sum 1; none: as lights see them. See \ref budget.

@@ -184,29 +184,31 @@ template <SceneLike S>
         // A wall that sees something on one side only stands between nothing.
         all.convex =
             all.convex && (Flat<G> ? !(open[0] && open[1]) : object.inside_out);
-        const bool matt = scene.visit_material(object.material, [&](const auto& m) {
-            using M = std::remove_cvref_t<decltype(m)>;
-            if constexpr (Matt<M> && requires { patch_grid(shape, 1.0); }) {
-                for (const bool back : {false, true}) {
-                    if (!open[back]) continue;
-                    PatchGrid grid = patch_grid(shape, settings.size);
-                    grid.object = id;
-                    grid.back = back;
-                    grid.inward = back != object.inside_out;
-                    sides[back] = static_cast<std::uint32_t>(all.grids.size());
-                    const double shine = back ? 0 : std::numbers::pi;
-                    detail::add_side(all, shape, grid,
-                                     {.albedo = diffuse_albedo(m),
-                                      .emitted = shine * RgbT<double>(object.emission)},
-                                     settings.most);
-                }
-            }
-            return Matt<M>;
+        const bool matt = scene.visit_material(object.material, [](const auto& m) {
+            return Matt<std::remove_cvref_t<decltype(m)>>;
         });
-        if (!matt)
-            ++shiny;
-        else if (!requires { patch_grid(shape, 1.0); })
+        if constexpr (requires { patch_grid(shape, 1.0); }) {
+            scene.visit_material(object.material, [&](const auto& m) {
+                if constexpr (Matt<std::remove_cvref_t<decltype(m)>>)
+                    for (const bool back : {false, true}) {
+                        if (!open[back]) continue;
+                        PatchGrid grid = patch_grid(shape, settings.size);
+                        grid.object = id;
+                        grid.back = back;
+                        grid.inward = back != object.inside_out;
+                        sides[back] = static_cast<std::uint32_t>(all.grids.size());
+                        const double shine = back ? 0 : std::numbers::pi;
+                        detail::add_side(
+                            all, shape, grid,
+                            {.albedo = diffuse_albedo(m),
+                             .emitted = shine * RgbT<double>(object.emission)},
+                            settings.most);
+                    }
+            });
+        } else if (matt) {
             ++unknown;
+        }
+        shiny += !matt;
         lamps += !is_black(object.emission);
         all.grid_of[id.type].push_back(sides);
     };

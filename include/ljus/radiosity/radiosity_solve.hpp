@@ -77,6 +77,32 @@ multiply(const FormFactors& factors, const std::vector<RgbT<double>>& radiosity,
     return share;
 }
 
+// Refuses patches of which one gets all its light back: its radiosity has no end.
+inline void require_loss(const FormFactors& factors,
+                         const std::vector<Patch>& patches) {
+    double most = 0;
+    for (std::size_t i = 0; i < patches.size(); ++i)
+        most = std::max(most, max_component(patches[i].albedo) * factors.row_sum(i));
+    require(most < 1 - 1e-12, "the largest share of its light that a patch gets back",
+            most, "below 1: take smaller albedos, more rays, or `closed` factors");
+}
+
+/// Sends the waiting light of all patches at once: one bounce.
+/// \param factors  The form factors.
+/// \param patches  Albedo.
+/// \param threads  As in ParallelSettings.
+/// \param solution The radiosity grows by what is sent.
+/// \param unsent   Radiosity that waits on each patch: what the others have sent.
+/// \cost n^2 multiplications for each channel.
+inline void relax_all(const FormFactors& factors, const std::vector<Patch>& patches,
+                      int threads, std::vector<RgbT<double>>& solution,
+                      std::vector<RgbT<double>>& unsent) {
+    for (std::size_t i = 0; i < unsent.size(); ++i) solution[i] += unsent[i];
+    const auto arrives = multiply(factors, unsent, threads);
+    for (std::size_t i = 0; i < unsent.size(); ++i)
+        unsent[i] = patches[i].albedo * arrives[i];
+}
+
 /// Sends the waiting light of one patch to all others. Gauss-Seidel and shooting are
 /// this step, in different orders.
 /// \param factors  The form factors.
@@ -133,49 +159,45 @@ inline void relax(const FormFactors& factors, const std::vector<Patch>& patches,
 [[nodiscard]] inline RadiositySolution
 solve_radiosity(const FormFactors& factors, const std::vector<Patch>& patches,
                 const SolveSettings& settings = {}) {
+    detail::require_loss(factors, patches);
     const std::size_t n = patches.size();
     RadiositySolution solution{.radiosity = std::vector<RgbT<double>>(n)};
     std::vector<RgbT<double>> unsent(n);
     RgbT<double> flux(0);
-    double most = 0;
     for (std::size_t i = 0; i < n; ++i) {
         unsent[i] = patches[i].emitted;
         flux += factors.area[i] * unsent[i];
-        most = std::max(most, max_component(patches[i].albedo) * factors.row_sum(i));
     }
-    require(most < 1 - 1e-12, "the largest share of its light that a patch gets back",
-            most, "below 1: take smaller albedos, more rays, or `closed` factors");
+    const auto keep_residual = [&] {
+        solution.residual.push_back(detail::unsent_share(factors, unsent, flux));
+    };
     if (settings.solver == RadiositySolver::lu) {
         solution.radiosity = detail::solve_lu(factors, patches);
         const auto irradiance =
             detail::multiply(factors, solution.radiosity, settings.threads);
         for (std::size_t i = 0; i < n; ++i)
             unsent[i] += patches[i].albedo * irradiance[i] - solution.radiosity[i];
-        solution.residual.push_back(detail::unsent_share(factors, unsent, flux));
+        keep_residual();
         return solution;
     }
-    const auto jacobi = [&] {
-        for (std::size_t i = 0; i < n; ++i) solution.radiosity[i] += unsent[i];
-        const auto arrives = detail::multiply(factors, unsent, settings.threads);
-        for (std::size_t i = 0; i < n; ++i) unsent[i] = patches[i].albedo * arrives[i];
+    const auto sweep = [&] {
+        if (settings.solver == RadiositySolver::jacobi)
+            return detail::relax_all(factors, patches, settings.threads,
+                                     solution.radiosity, unsent);
+        const bool shoot = settings.solver == RadiositySolver::shooting;
+        for (std::size_t step = 0; step < n; ++step)
+            detail::relax(factors, patches,
+                          shoot ? detail::brightest(factors, unsent) : step,
+                          solution.radiosity, unsent);
     };
-    const auto rest = [&] { return detail::unsent_share(factors, unsent, flux); };
-    solution.residual.push_back(rest());
-    for (int sweep = 0; solution.residual.back() > settings.tolerance; ++sweep) {
-        if (sweep == settings.max_sweeps) {
+    keep_residual();
+    for (int sweeps = 0; solution.residual.back() > settings.tolerance; ++sweeps) {
+        if (sweeps == settings.max_sweeps) {
             solution.converged = false;
             break;
         }
-        if (settings.solver == RadiositySolver::jacobi)
-            jacobi();
-        else
-            for (std::size_t step = 0; step < n; ++step)
-                detail::relax(factors, patches,
-                              settings.solver == RadiositySolver::shooting
-                                  ? detail::brightest(factors, unsent)
-                                  : step,
-                              solution.radiosity, unsent);
-        solution.residual.push_back(rest());
+        sweep();
+        keep_residual();
     }
     return solution;
 }

@@ -34,6 +34,41 @@ struct AdaptiveT {
     bool complete = true; ///< False if the progress callback stopped it.
 };
 
+namespace detail {
+
+/// Sends the batches through a block that it is to have in this round.
+/// \param samples   Takes what they find; the pixels' places are those in the picture.
+/// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
+/// \param camera    A CameraT, or anything with a camera_ray().
+/// \param picture   Size, seed, pattern.
+/// \param rule      Rays in a batch.
+/// \param block     The block; its batches and rays are counted.
+/// \param cost      Counts the rays.
+template <typename R, template <std::floating_point> typename AnyCamera,
+          std::floating_point T>
+void trace_block(SampleSums<R, T>& samples, const R& renderer,
+                 const AnyCamera<T>& camera, const RenderSettings& picture,
+                 const AdaptiveSettings& rule, AdaptiveBlock& block, Counts& cost) {
+    for (; block.wanted > 0; --block.wanted) {
+        const int batch = block.batches++;
+        RenderSettings part = picture; // a whole pattern of its own
+        part.samples = rays_in_batch(rule, batch);
+        if (batch > 0)
+            part.seed = mix_bits(picture.seed + mix_bits(std::uint64_t(batch)));
+        const Pattern pattern = make_pattern(part.sampling, part.samples);
+        for (int y = block.y; y < block.bottom; ++y)
+            for (int x = block.x; x < block.right; ++x)
+                for (int i = 0; i < part.samples; ++i)
+                    samples.add(place_of(picture.width, x, y), [&](auto& log) {
+                        return trace_pixel(renderer, camera, part, pattern, x, y, i,
+                                           cost, log);
+                    });
+        block.rays += part.samples;
+    }
+}
+
+} // namespace detail
+
 /// Renders a picture with more rays where they differ more, by several threads.
 ///
 /// *Trap*: which pixels get more depends on what their rays have found, and the same
@@ -62,53 +97,43 @@ requires Renderer<R, T>
                         .rays = make_image<T>(picture.width, picture.height)};
     std::vector<detail::PixelSums> sums(result.image.pixels.size());
     auto blocks = detail::adaptive_blocks(picture, rule.block);
-
-    // Adds rays to the pixels of a block: a whole pattern of its own each time.
-    const auto add = [&](detail::AdaptiveBlock& block, int batch, Counts& cost) {
-        RenderSettings part = picture;
-        part.samples = batch == 0 ? rule.first : rule.more;
-        if (batch > 0)
-            part.seed =
-                detail::mix_bits(picture.seed + detail::mix_bits(std::uint64_t(batch)));
-        const Pattern pattern = make_pattern(picture.sampling, part.samples);
-        for (int y = block.y; y < block.bottom; ++y)
-            for (int x = block.x; x < block.right; ++x) {
-                const auto place = detail::pixel_index(result.image, x, y);
-                detail::PixelSums found = sums[place]; // threads share no cache line
-                for (int i = 0; i < part.samples; ++i) {
-                    const RgbT<double> sample(detail::sample_pixel(
-                        renderer, camera, part, pattern, x, y, i, cost));
-                    if (!is_finite(sample)) {
-                        ++cost.rejected;
-                        continue;
-                    }
-                    found.sum += sample;
-                    found.squares += sample * sample;
-                }
-                sums[place] = found;
-            }
-        block.rays += part.samples;
-    };
     double traced = 0; // rays, of all that are allowed
     const double allowed = double(picture.samples) * double(sums.size());
-    // Runs `body(block, counts)` for all blocks.
-    const auto for_blocks = [&](double rays, const auto& body) {
-        std::vector<Counts> counts(blocks.size());
-        const auto progress = [&](long long done, long long all) {
-            const double now = traced + rays * double(done) / double(all);
+
+    // Sends the batches that the blocks want, through 64 pixels or more at a time: what
+    // their samples ask later is asked together.
+    const auto trace_round = [&] {
+        std::vector<detail::AdaptiveBlock*> work;
+        double rays = 0;
+        for (auto& block : blocks)
+            if (block.wanted > 0) {
+                rays += detail::rays_wanted(block, rule);
+                work.push_back(&block);
+            }
+        const int side = std::min(rule.block, 8);
+        const long long size = 64 / (side * side);
+        const auto all = static_cast<long long>(work.size());
+        std::vector<Counts> counts(std::size_t(detail::block_count(all, size)));
+        const auto some = [&](long long number) {
+            Counts cost;
+            detail::SampleSums<R, T> samples(renderer, sums, cost);
+            const auto range = detail::block_range(number, size, all);
+            for (auto k = std::size_t(range.first); k < std::size_t(range.last); ++k)
+                detail::trace_block(samples, renderer, camera, picture, rule, *work[k],
+                                    cost);
+            samples.finish();
+            for (auto k = std::size_t(range.first); k < std::size_t(range.last); ++k)
+                work[k]->variance = detail::relative_variance(
+                    *work[k], sums, picture.width, rule.epsilon);
+            counts[std::size_t(number)] = cost;
+        };
+        const auto progress = [&](long long done, long long of) {
+            const double now = traced + rays * double(done) / double(of);
             return picture.progress(static_cast<long long>(now),
                                     static_cast<long long>(allowed));
         };
         const bool done =
-            parallel_blocks(static_cast<long long>(blocks.size()),
-                            [&](long long i) {
-                                const auto k = static_cast<std::size_t>(i);
-                                Counts cost;
-                                body(blocks[k], cost);
-                                counts[k] = cost;
-                                blocks[k].variance = detail::relative_variance(
-                                    blocks[k], sums, picture.width, rule.epsilon);
-                            },
+            parallel_blocks(static_cast<long long>(counts.size()), some,
                             {.threads = picture.threads, .progress = progress});
         for (const Counts& cost : counts) result.counts += cost;
         traced += rays;
@@ -122,23 +147,17 @@ requires Renderer<R, T>
     };
 
     // [rounds]
-    result.complete =
-        for_blocks(double(rule.first) * double(sums.size()),
-                   [&](auto& block, Counts& cost) { add(block, 0, cost); });
+    result.complete = trace_round(); // the first rays
     double limit = picture.samples;
     if (rule.two_stage) limit -= rule.first;
     while (result.complete &&
            !(rule.target > 0 && estimate() <= rule.target && !rule.two_stage) &&
            detail::plan_round(blocks, rule, limit)) {
-        double rays = 0;
-        for (auto& block : blocks) rays += block.pixels() * block.wanted * rule.more;
         if (rule.two_stage) {
             sums.assign(sums.size(), {}); // the first rays have done their duty
             for (auto& block : blocks) block.rays = 0;
         }
-        result.complete = for_blocks(rays, [&](auto& block, Counts& cost) {
-            for (; block.wanted > 0; --block.wanted) add(block, ++block.batches, cost);
-        });
+        result.complete = trace_round();
         if (rule.two_stage) break;
     }
     // [rounds]
@@ -150,7 +169,7 @@ requires Renderer<R, T>
     for (const auto& block : blocks)
         for (int y = block.y; y < block.bottom; ++y)
             for (int x = block.x; x < block.right; ++x) {
-                const auto i = detail::pixel_index(result.image, x, y);
+                const auto i = detail::place_of(picture.width, x, y);
                 const int rays = block.rays + (rule.two_stage ? rule.first : 0);
                 result.image.pixels[i] =
                     RgbT<T>(sums[i].sum / double(std::max(block.rays, 1)));

@@ -100,6 +100,7 @@ template <SceneLike S, std::floating_point T, typename Stream, typename Log = No
     auto path = detail::camera_path(scene, ray, stream);
     log.begin();
     while (const auto vertex = next_vertex(scene, path, stream)) {
+        detail::log_arrival(log, vertex->point.position);
         const auto add = [&](const char* owner, const char* letters,
                              const RgbT<T>& light) {
             log.term(owner, letters, path.throughput * light);

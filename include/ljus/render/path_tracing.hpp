@@ -174,6 +174,7 @@ template <SceneLike S, std::floating_point T, typename Log = NoLog>
     auto path = detail::camera_path(scene, ray, stream);
     log.begin();
     while (const auto vertex = next_vertex(scene, path, stream)) {
+        detail::log_arrival(log, vertex->point.position);
         if (vertex->emits())
             add("emission", "L", detail::emitted(tracer, path, *vertex));
         if (detail::cut_if(path.depth > settings.max_depth, counts)) break;

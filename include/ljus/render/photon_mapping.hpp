@@ -180,6 +180,7 @@ template <SceneLike S, typename Stream, std::floating_point T, typename Log = No
         while (path.depth < settings.max_depth) {
             const auto vertex = next_vertex(mapper.scene, path, stream);
             if (!vertex) return;
+            detail::log_arrival(log, vertex->point.position);
             if (vertex->emits() && !path.met_diffuse)
                 add("emission", "L", vertex->object.emission);
 

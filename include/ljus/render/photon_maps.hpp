@@ -61,7 +61,7 @@ caustic_shares(const S& scene, const PhotonMappingSettings& settings) {
 /// \param scene     The scene.
 /// \param settings  Photons, seed, threads.
 /// \return The maps, the same for any number of threads.
-/// \throws std::invalid_argument  if there is no light, or a setting is out of range.
+/// \throws std::invalid_argument  if a setting is out of range.
 template <SceneLike S>
 [[nodiscard]] PhotonMapsT<typename S::Scalar>
 make_photon_maps(const S& scene, const PhotonMappingSettings& settings = {}) {

@@ -61,7 +61,9 @@ template <SceneLike S, std::floating_point T, typename Log = NoLog>
         if (!hit) break;
         const VertexT<T> vertex = vertex_at(scene, ray, *hit);
         if (lamps_count && vertex.emits()) sum += throughput * vertex.object.emission;
+        // [plain]
 
+        // [plain bounce]
         const bool goes_on = visit_material_at(scene, vertex, [&](const auto& m) {
             // One shadow ray, to a point of a light.
             const auto lights = static_cast<T>(scene.lights.size());
@@ -85,7 +87,7 @@ template <SceneLike S, std::floating_point T, typename Log = NoLog>
     }
     return sum;
 }
-// [plain]
+// [plain bounce]
 
 /// \}
 

@@ -11,7 +11,7 @@
 #include "ljus/math/sampling_pattern.hpp"
 #include "ljus/parallel.hpp"
 #include "ljus/path/renderer.hpp"
-#include "ljus/render/detail/strip_sums.hpp"
+#include "ljus/render/detail/sample_sums.hpp"
 #include "ljus/scene/camera.hpp"
 
 namespace ljus {
@@ -55,6 +55,9 @@ constexpr void start_ray(RandomStream& stream, std::uint64_t seed, std::uint64_t
 }
 
 namespace detail {
+
+/// So many pixels beside each other are rendered at a time.
+inline constexpr int strip_width = 16;
 
 /// Where one ray of a pixel goes through the picture, and what it counts there.
 /// \param picture  Size, rays, seed, filter.
@@ -170,17 +173,18 @@ requires Renderer<R, T>
         const int first = static_cast<int>(number % tiles) * detail::strip_width;
         const int last = std::min(first + detail::strip_width, picture.width);
         Counts cost; // of its own: two threads do not share a cache line
-        detail::StripSums<R, T> sums(renderer, cost);
+        std::array<detail::PixelSums, detail::strip_width> sums{};
+        detail::SampleSums<R, T> samples(renderer, sums, cost);
         for (int x = first; x < last; ++x)
             for (int i = 0; i < picture.samples; ++i)
-                sums.add(x - first, [&](auto& log) {
+                samples.add(std::size_t(x - first), [&](auto& log) {
                     return detail::trace_pixel(renderer, camera, picture, pattern, x,
                                                rows.first + row, i, cost, log);
                 });
-        sums.finish();
+        samples.finish();
         for (int x = first; x < last; ++x)
             pixel(result.image, x, row) =
-                RgbT<T>(sums.of(x - first) / double(picture.samples));
+                RgbT<T>(sums[std::size_t(x - first)].sum / double(picture.samples));
         counts[static_cast<std::size_t>(number)] = cost;
     };
     // [strip]
@@ -200,13 +204,16 @@ requires Renderer<R, T>
 /// \throws std::invalid_argument  if the size or the number of rays is below 1.
 template <typename R, template <std::floating_point> typename AnyCamera,
           std::floating_point T>
-requires Renderer<R, T>
 [[nodiscard]] RenderedT<T> render(const R& renderer, const AnyCamera<T>& camera,
                                   const RenderSettings& picture) {
+    constexpr bool renders = Renderer<R, T>;
+    static_assert(renders, "It is no renderer: make_path_tracer(scene) makes one.");
     detail::require_image_size(picture.width, picture.height);
-    return render_rows(renderer, camera, picture, {0, picture.height});
+    if constexpr (renders)
+        return render_rows(renderer, camera, picture, {0, picture.height});
+    else
+        return {};
 }
-
 /// \}
 
 } // namespace ljus

@@ -104,6 +104,7 @@ void trace_branch(const WhittedTracer<S>& tracer, PathStateT<T> path, Stream& st
                   Counts& counts, Log& log, RgbT<T>& sum) {
     const auto vertex = next_vertex(tracer.scene, path, stream);
     if (!vertex) return;
+    log_arrival(log, vertex->point.position);
     const auto add = [&, throughput = path.throughput](
                          const char* owner, const char* letters, const RgbT<T>& light) {
         log.term(owner, letters, throughput * light);

@@ -4,6 +4,7 @@
 /// \brief The numbers by which a scene knows its shapes and materials.
 
 #include <cstdint>
+#include <type_traits>
 
 #include "ljus/math/vector.hpp"
 
@@ -34,6 +35,22 @@ namespace detail {
 
 /// The number of the light that an object is, if it is none.
 inline constexpr std::uint32_t no_light = 0xffffffffu;
+
+/// The place of a type in a list; of the last one, no matter which it is.
+template <typename X, typename First, typename... List>
+inline constexpr std::uint32_t type_number = 0;
+/// There is more than one left.
+template <typename X, typename First, typename Second, typename... List>
+inline constexpr std::uint32_t type_number<X, First, Second, List...> =
+    std::is_same_v<X, First> ? 0 : 1 + type_number<X, Second, List...>;
+
+/// Whether no type is listed twice.
+template <typename... T>
+inline constexpr bool each_once = true;
+/// The first is not among the rest, and neither is any of them listed twice.
+template <typename First, typename... T>
+inline constexpr bool each_once<First, T...> =
+    !(std::is_same_v<First, T> || ...) && each_once<T...>;
 
 /// What a scene knows of a shape besides its geometry.
 template <std::floating_point T>

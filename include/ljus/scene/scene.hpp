@@ -25,18 +25,6 @@ struct Shapes {};
 template <Material... M>
 struct Materials {};
 
-namespace detail {
-
-/// Whether no type is listed twice.
-template <typename... T>
-inline constexpr bool each_once = true;
-/// The first is not among the rest, and neither is any of them listed twice.
-template <typename First, typename... T>
-inline constexpr bool each_once<First, T...> =
-    !(std::is_same_v<First, T> || ...) && each_once<T...>;
-
-} // namespace detail
-
 /// A scene; see the specialisation.
 template <typename ShapeList, typename MaterialList>
 struct Scene;
@@ -60,6 +48,12 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
     static_assert(detail::each_once<FirstShape, S...> && detail::each_once<M...>,
                   "A scene lists each type once.");
 
+    /// Whether a type of shape or of material is listed.
+    template <typename X>
+    static constexpr bool lists = std::is_same_v<X, FirstShape> ||
+                                  (std::is_same_v<X, S> || ...) ||
+                                  (std::is_same_v<X, M> || ...);
+
     std::tuple<std::vector<FirstShape>, std::vector<S>...> shapes; ///< An array a type.
     /// What each shape is made of, in the order of `shapes`.
     std::array<std::vector<detail::ObjectT<Scalar>>, 1 + sizeof...(S)> objects;
@@ -74,11 +68,12 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
     /// \return Its number, for the shapes that are made of it.
     /// \throws std::invalid_argument  if a value lies outside the material's range.
     template <Material B>
-    requires(std::same_as<B, M> || ...) MaterialId add(const B& material) {
+    requires lists<B> MaterialId add(const B& material) {
         check(material);
         auto& array = std::get<std::vector<B>>(materials);
         array.push_back(material);
-        return {type_of<B, M...>(), static_cast<std::uint32_t>(array.size() - 1)};
+        return {detail::type_number<B, M...>,
+                static_cast<std::uint32_t>(array.size() - 1)};
     }
 
     /// Adds a shape.
@@ -92,13 +87,13 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
     /// \throws std::invalid_argument  if a value is out of range, or the material
     ///                                unknown.
     template <Shape G>
-    requires(std::same_as<G, FirstShape> || (std::same_as<G, S> || ...)) ObjectId
-        add(const G& shape, MaterialId material, RgbT<Scalar> radiance = {},
-            bool inside_out = false) {
+    requires lists<G> ObjectId add(const G& shape, MaterialId material,
+                                   RgbT<Scalar> radiance = {},
+                                   bool inside_out = false) {
         check(shape);
         radiance = emitted_radiance(material, radiance);
         auto& array = std::get<std::vector<G>>(shapes);
-        const ObjectId id{type_of<G, FirstShape, S...>(),
+        const ObjectId id{detail::type_number<G, FirstShape, S...>,
                           static_cast<std::uint32_t>(array.size())};
         if constexpr (!HasArea<G>)
             require(is_black(radiance), "the radiance of a shape of unknown area",
@@ -117,6 +112,23 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
                                         : static_cast<std::uint32_t>(lights.size() - 1);
         objects[id.type].push_back({material, radiance, inside_out, light});
         return id;
+    }
+
+    /// A mistake: it does not compile, and says why.
+    template <typename X>
+    requires(!((std::is_same_v<X, M> || ...) ||
+               std::is_convertible_v<X, detail::AnyLightT<Scalar>>)) MaterialId
+        add(const X&) {
+        static_assert(sizeof(X) == 0,
+                      "Neither a light nor listed: Scene<..., Materials<...>>.");
+        return {};
+    }
+    /// Another one.
+    template <typename G, typename Made>
+    ObjectId add(const G&, const Made&, RgbT<Scalar> = {}, bool = false) {
+        static_assert(lists<G>, "List the shape: Scene<Shapes<...>, ...>.");
+        static_assert(!lists<G>, "Add the material first: add(shape, add(material)).");
+        return {};
     }
 
     /// Adds a light that is no object. A sun's flux is what falls into a sphere around
@@ -146,7 +158,6 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
     decltype(auto) visit_shape(ObjectId id, F&& f) const {
         return visit<0>(shapes, id.type, id.index, f);
     }
-
     /// Calls f(material) with the material of a number, as its own type.
     template <typename F>
     decltype(auto) visit_material(MaterialId id, F&& f) const {
@@ -174,13 +185,6 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>> {
     }
 
 private:
-    template <typename X, typename... List>
-    static constexpr std::uint32_t type_of() noexcept {
-        std::uint32_t place = 0;
-        (void)((std::is_same_v<X, List> ? true : (++place, false)) || ...);
-        return place;
-    }
-
     // What an object emits, with what its material does: the same for all shapes.
     RgbT<Scalar> emitted_radiance(MaterialId material, RgbT<Scalar> radiance) const {
         require_radiance("emission", radiance);
@@ -221,14 +225,11 @@ private:
 
     bool has(MaterialId id) const noexcept {
         std::uint32_t place = 0;
-        bool found = false;
-        std::apply(
+        return std::apply(
             [&](const auto&... array) {
-                ((found = found || (place++ == id.type && id.index < array.size())),
-                 ...);
+                return ((place++ == id.type && id.index < array.size()) || ...);
             },
             materials);
-        return found;
     }
 
     // The last type needs no comparison: with one type listed, none is made at all.

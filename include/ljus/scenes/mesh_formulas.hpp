@@ -20,19 +20,21 @@ namespace ljus {
 /// \brief Vertices that lie on a surface which is known. Chapter: \ref ch_triangle.
 /// \{
 
-/// A sphere of triangles: an icosahedron, each triangle cut in four again and again,
-/// its vertices on the sphere, with the sphere's normals.
-/// \param sphere  The sphere; check() holds for it.
-/// \param cuts    How often, 0 to 10: 20 * 4^cuts triangles.
-/// \return The data.
-/// \throws std::invalid_argument  for another number of cuts.
-template <std::floating_point T>
-[[nodiscard]] MeshDataT<T> icosphere(const SphereT<T>& sphere, int cuts) {
-    require(cuts >= 0 && cuts <= 10, "the number of cuts", static_cast<long long>(cuts),
-            "within [0, 10]");
+namespace detail {
+
+// Triangles whose corners lie on the unit sphere.
+struct UnitTriangles {
     using Triple = std::array<std::uint32_t, 3>;
+    std::vector<glm::dvec3> points{};
+    std::vector<Triple> triangles{}; // counter-clockwise, from outside
+};
+
+// Its corners are those of three rectangles whose sides are in the golden ratio g, each
+// in the plane of two axes.
+[[nodiscard]] inline UnitTriangles icosahedron() {
+    UnitTriangles solid;
+    auto& n = solid.points;
     const double g = std::numbers::phi;
-    std::vector<glm::dvec3> n;
     for (const double a : {-1.0, 1.0})
         for (const double b : {-g, g})
             for (const glm::dvec3& v :
@@ -44,33 +46,53 @@ template <std::floating_point T>
     const auto near = [&](std::uint32_t a, std::uint32_t b) {
         return std::abs(glm::distance(n[a], n[b]) - edge) < 1e-9;
     };
-    std::vector<Triple> triangles;
     for (std::uint32_t a = 0; a < 12; ++a)
         for (std::uint32_t b = a + 1; b < 12; ++b)
             for (std::uint32_t c = b + 1; c < 12; ++c)
                 if (near(a, b) && near(b, c) && near(c, a)) {
                     const bool outward = glm::dot(glm::cross(n[a], n[b]), n[c]) > 0;
-                    triangles.push_back(outward ? Triple{a, b, c} : Triple{a, c, b});
+                    solid.triangles.push_back({a, outward ? b : c, outward ? c : b});
                 }
-    for (int cut = 0; cut < cuts; ++cut) {
-        std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
-        const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-            const auto [at, fresh] = middles.try_emplace(
-                std::minmax(a, b), static_cast<std::uint32_t>(n.size()));
-            if (fresh) n.push_back(glm::normalize(n[a] + n[b]));
-            return at->second;
-        };
-        std::vector<Triple> finer;
-        for (const auto& [a, b, c] : triangles) {
-            const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-            for (const Triple& part : {Triple{a, ab, ca}, Triple{ab, b, bc},
-                                       Triple{ca, bc, c}, Triple{ab, bc, ca}})
-                finer.push_back(part);
-        }
-        triangles = std::move(finer);
+    return solid;
+}
+
+// Cuts each triangle in four, at the middles of its edges.
+inline void cut_in_four(UnitTriangles& mesh) {
+    using Triple = UnitTriangles::Triple;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+        auto& n = mesh.points;
+        const auto [at, fresh] = middles.try_emplace(
+            std::minmax(a, b), static_cast<std::uint32_t>(n.size()));
+        if (fresh) n.push_back(glm::normalize(n[a] + n[b]));
+        return at->second;
+    };
+    std::vector<Triple> finer;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+        for (const Triple& part : {Triple{a, ab, ca}, Triple{ab, b, bc},
+                                   Triple{ca, bc, c}, Triple{ab, bc, ca}})
+            finer.push_back(part);
     }
-    MeshDataT<T> data{.triangles = std::move(triangles)};
-    for (const glm::dvec3& normal : n) {
+    mesh.triangles = std::move(finer);
+}
+
+} // namespace detail
+
+/// A sphere of triangles: an icosahedron, each triangle cut in four again and again,
+/// its vertices on the sphere, with the sphere's normals.
+/// \param sphere  The sphere; check() holds for it.
+/// \param cuts    How often, 0 to 10: 20 * 4^cuts triangles.
+/// \return The data.
+/// \throws std::invalid_argument  for another number of cuts.
+template <std::floating_point T>
+[[nodiscard]] MeshDataT<T> icosphere(const SphereT<T>& sphere, int cuts) {
+    require(cuts >= 0 && cuts <= 10, "the number of cuts", static_cast<long long>(cuts),
+            "within [0, 10]");
+    detail::UnitTriangles ball = detail::icosahedron();
+    for (int cut = 0; cut < cuts; ++cut) detail::cut_in_four(ball);
+    MeshDataT<T> data{.triangles = std::move(ball.triangles)};
+    for (const glm::dvec3& normal : ball.points) {
         data.positions.emplace_back(glm::dvec3(sphere.center) +
                                     double(sphere.radius) * normal);
         data.normals.emplace_back(normal);

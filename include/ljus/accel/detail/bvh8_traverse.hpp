@@ -70,7 +70,7 @@ inline std::uint64_t enter(Lanes& t, const Bvh8Nodes& wide, std::uint32_t node,
 /// \param ray    The ray; a search may shorten it.
 /// \param leaf   Called as leaf(first slot, count, ready ray). For a ray that cannot
 ///               be made ready, once, with a null pointer.
-/// \param watch  Called for each node on the way.
+/// \param watch  Called with the number of each node on the way.
 template <typename Leaf, typename Watch>
 void walk_nearest(const Bvh8Nodes& wide, const Ray& ray, Leaf&& leaf, Watch&& watch) {
     const Bvh8Start start = begin_walk(wide, ray, leaf);
@@ -90,7 +90,7 @@ void walk_nearest(const Bvh8Nodes& wide, const Ray& ray, Leaf&& leaf, Watch&& wa
         if ((at & Bvh8Child::leaf) != 0) {
             leaf(at & Bvh8Child::first, Bvh8Child::count(at), &start.ray);
         } else {
-            watch();
+            watch(at / Bvh8Child::stride);
             Lanes t;
             std::uint64_t entered =
                 enter<Leaf>(t, wide, at, start.ray, ray.t_min, ray.t_max);
@@ -135,7 +135,7 @@ void walk_nearest(const Bvh8Nodes& wide, const Ray& ray, Leaf&& leaf, Watch&& wa
 /// \param wide   The tree.
 /// \param ray    The ray.
 /// \param leaf   As for walk_nearest(); true ends the search.
-/// \param watch  Called for each node on the way.
+/// \param watch  Called with the number of each node on the way.
 /// \return Whether a leaf said true.
 template <typename Leaf, typename Watch>
 [[nodiscard]] bool walk_any(const Bvh8Nodes& wide, const Ray& ray, Leaf&& leaf,
@@ -158,7 +158,7 @@ template <typename Leaf, typename Watch>
             later[waiting] = {entered, at};
             waiting += entered != 0 ? 1 : 0;
             at = child;
-            watch();
+            watch(at / Bvh8Child::stride);
             Lanes t;
             entered = enter<Leaf>(t, wide, at, start.ray, ray.t_min, ray.t_max);
         }

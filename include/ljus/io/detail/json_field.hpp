@@ -187,10 +187,7 @@ inline void require_one_of(const JsonField& field,
 
 // The path of a file that a scene file names: beside the scene's own.
 [[nodiscard]] inline std::string path_beside(const JsonField& field) {
-    const std::string& name = text(field);
-    const std::size_t slash = field.file.find_last_of("/\\");
-    if (slash == std::string::npos || name.substr(0, 1) == "/") return name;
-    return field.file.substr(0, slash + 1) + name;
+    return path_beside(field.file, text(field));
 }
 
 } // namespace ljus::detail

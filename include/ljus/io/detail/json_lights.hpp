@@ -27,8 +27,7 @@ void read_light(const JsonField& field, Scene& scene) {
     const JsonField type = member(field, "type");
     require_one_of(type, {"point", "spot", "sun"});
     const auto strength = [&](const char* what) {
-        return RgbT<T>{
-            vector_field(member(field, what), 0, max_radiance, "within [0, 1e12]")};
+        return RgbT<T>{light_field(member(field, what))};
     };
     const auto vector = [&](const char* what, auto read) {
         return Vec3T<T>{read(member(field, what))};

@@ -37,16 +37,35 @@ using FileSceneT =
     Scene<Shapes<QuadT<T>, SphereT<T>, TriangleT<T>, MeshT<T>>, FileMaterialsT<T>>;
 
 /// Reads no meshes: what load_json() does unless it is given an ObjMeshes.
-struct NoMeshes {
+template <std::floating_point T>
+struct NoMeshesT {
     /// \throws std::runtime_error  always.
-    [[noreturn]] void operator()(const std::string& file, double,
-                                 const std::string&) const {
+    [[noreturn]] std::vector<MeshT<T>> operator()(const std::string& file, double,
+                                                  const std::string&) const {
         throw std::runtime_error(
-            detail::shown_path(file) +
+            shown_path(file) +
             ": meshes are not read here; load_json() must be given ObjMeshes, of "
             "ljus/io/load_obj.hpp, which needs tinyobjloader.");
     }
 };
+
+// Three numbers of points that are a triangle.
+inline std::array<std::uint32_t, 3>
+read_triangle(const JsonField& field, const std::vector<glm::dvec3>& points) {
+    if (list_size(field) != 3) refuse_value(field, "a list of three numbers");
+    std::array<std::uint32_t, 3> corners{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const JsonField index = entry(field, k);
+        if (points.empty()) refuse(index, "names a vertex, but there are none");
+        corners[k] = static_cast<std::uint32_t>(
+            whole_number(index, 0, static_cast<long long>(points.size()) - 1));
+    }
+    const glm::dvec3& a = points[corners[0]];
+    const glm::dvec3 normal =
+        glm::cross(points[corners[1]] - a, points[corners[2]] - a);
+    if (!(glm::dot(normal, normal) > 0)) refuse(field, "is a triangle without an area");
+    return corners;
+}
 
 // The triangles of an object, as quads where two of them are one.
 template <std::floating_point T>
@@ -58,23 +77,8 @@ FlatShapesT<T> read_triangles(const JsonField& field) {
 
     const JsonField indices = member(field, "indices");
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    for (std::size_t i = 0; i < list_size(indices); ++i) {
-        const JsonField triple = entry(indices, i);
-        if (list_size(triple) != 3) refuse_value(triple, "a list of three numbers");
-        std::array<std::uint32_t, 3> corners{};
-        for (std::size_t k = 0; k < 3; ++k) {
-            const JsonField index = entry(triple, k);
-            if (points.empty()) refuse(index, "names a vertex, but there are none");
-            corners[k] = static_cast<std::uint32_t>(
-                whole_number(index, 0, static_cast<long long>(points.size()) - 1));
-        }
-        const glm::dvec3& a = points[corners[0]];
-        const glm::dvec3 normal =
-            glm::cross(points[corners[1]] - a, points[corners[2]] - a);
-        if (!(glm::dot(normal, normal) > 0))
-            refuse(triple, "is a triangle without an area");
-        triangles.push_back(corners);
-    }
+    for (std::size_t i = 0; i < list_size(indices); ++i)
+        triangles.push_back(read_triangle(entry(indices, i), points));
     return pair_triangles<T>(points, triangles);
 }
 
@@ -86,10 +90,40 @@ std::vector<MeshT<T>> read_meshes(const JsonField& field, LoadMeshes& load_meshe
     const auto normals = find(field, "normals");
     if (normals) require_one_of(*normals, {"file", "smooth", "flat"});
     const double factor = scale ? number(*scale, 1e-9, 1e9, "within [1e-9, 1e9]") : 1.0;
-    if constexpr (std::is_same_v<std::remove_cvref_t<LoadMeshes>, NoMeshes>)
-        load_meshes(path, factor, normals ? text(*normals) : "file");
-    else
-        return load_meshes(path, factor, normals ? text(*normals) : "file");
+    return load_meshes(path, factor, normals ? text(*normals) : "file");
+}
+
+template <std::floating_point T>
+SphereT<T> read_sphere(const JsonField& field) {
+    const JsonField radius = member(field, "radius");
+    const double length = number(radius, -max_length, max_length, "at most 1e9");
+    if (!(static_cast<T>(length) > T(0))) refuse_value(radius, "above 0");
+    return {.center{point_field(member(field, "center"))},
+            .radius = static_cast<T>(length)};
+}
+
+// The material that an object names.
+inline MaterialId material_of(const JsonField& field,
+                              const std::map<std::string, MaterialId>& materials) {
+    const JsonField material = member(field, "material");
+    const auto known = materials.find(text(material));
+    if (known != materials.end()) return known->second;
+    std::vector<std::string> names;
+    for (const auto& [name, id] : materials) names.push_back(name);
+    refuse_value(material,
+                 std::string("one of the materials ") + in_a_row(names, "or"));
+}
+
+// Refuses fields that objects of this type do not have.
+inline void require_fields_of_object(const JsonField& field, const std::string& type) {
+    std::vector<std::string> known{"type", "name", "material", "emission"};
+    const auto add = [&](std::initializer_list<const char*> own) {
+        known.insert(known.end(), own.begin(), own.end());
+    };
+    if (type == "sphere") add({"center", "radius"});
+    if (type == "mesh") add({"file", "scale", "normals"});
+    if (type == "triangles") add({"vertices", "indices"});
+    require_object(field, known);
 }
 
 template <std::floating_point T, typename LoadMeshes>
@@ -98,43 +132,19 @@ void read_object(const JsonField& field,
                  FileSceneT<T>& scene, LoadMeshes& load_meshes) {
     const JsonField type = member(field, "type");
     require_one_of(type, {"sphere", "triangles", "mesh"});
-    const bool sphere = text(type) == "sphere";
-    const bool mesh = text(type) == "mesh";
-    if (sphere)
-        require_object(field,
-                       {"type", "name", "material", "emission", "center", "radius"});
-    else if (mesh)
-        require_object(field, {"type", "name", "material", "emission", "file", "scale",
-                               "normals"});
-    else
-        require_object(field,
-                       {"type", "name", "material", "emission", "vertices", "indices"});
+    require_fields_of_object(field, text(type));
     (void)remark(field, "name");
-
-    const JsonField material = member(field, "material");
-    const auto known = materials.find(text(material));
-    if (known == materials.end()) {
-        std::vector<std::string> names;
-        for (const auto& [name, id] : materials) names.push_back(name);
-        refuse_value(material,
-                     std::string("one of the materials ") + in_a_row(names, "or"));
-    }
-    RgbT<T> emission{T(0)};
-    const auto emitted = find(field, "emission");
-    if (emitted)
-        emission = RgbT<T>{vector_field(*emitted, 0, max_radiance, "within [0, 1e12]")};
+    const MaterialId material = material_of(field, materials);
+    const auto emission = find(field, "emission");
+    const RgbT<T> radiance{emission ? light_field(*emission) : glm::dvec3(0)};
 
     const auto add = [&](const auto& shape) {
-        made_of(field, [&] { scene.add(shape, known->second, emission); });
+        made_of(field, [&] { scene.add(shape, material, radiance); });
     };
-    if (sphere) {
-        const JsonField radius = member(field, "radius");
-        const double length = number(radius, -max_length, max_length, "at most 1e9");
-        if (!(static_cast<T>(length) > T(0))) refuse_value(radius, "above 0");
-        add(SphereT<T>{.center{point_field(member(field, "center"))},
-                       .radius = static_cast<T>(length)});
-    } else if (mesh) {
-        for (const MeshT<T>& part : read_meshes<T>(field, load_meshes)) add(part);
+    if (text(type) == "sphere") {
+        add(read_sphere<T>(field));
+    } else if (text(type) == "mesh") {
+        for (const MeshT<T>& mesh : read_meshes<T>(field, load_meshes)) add(mesh);
     } else {
         const FlatShapesT<T> shapes = read_triangles<T>(field);
         for (const QuadT<T>& quad : shapes.quads) add(quad);

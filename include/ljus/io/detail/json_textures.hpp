@@ -35,6 +35,11 @@ inline glm::dvec3 direction_field(const JsonField& field) {
     return way;
 }
 
+// Radiance, intensity or irradiance.
+inline glm::dvec3 light_field(const JsonField& field) {
+    return vector_field(field, 0, max_radiance, "within [0, 1e12]");
+}
+
 inline glm::dvec3 share_field(const JsonField& field) {
     return vector_field(field, 0, 1, "within [0, 1]");
 }
@@ -56,14 +61,16 @@ void check(const FileMapT<T>& any) {
     std::visit([](const auto& map) { check(map); }, any.map);
 }
 
-// The map of a texture: a plane, unless its `map` says another one.
-template <std::floating_point T>
-FileMapT<T> read_map(const JsonField& field) {
-    std::string kind = "plane";
-    if (const auto map = find(field, "map")) {
-        require_one_of(*map, {"plane", "globe", "uv"});
-        kind = text(*map);
-    }
+// The kind of a texture's map: a plane, unless `map` says another one.
+inline std::string kind_of_map(const JsonField& field) {
+    const auto map = find(field, "map");
+    if (!map) return "plane";
+    require_one_of(*map, {"plane", "globe", "uv"});
+    return text(*map);
+}
+
+// Refuses the fields of other kinds of maps than a texture's own.
+inline void require_fields_of_map(const JsonField& field, const std::string& kind) {
     constexpr const char* owners[][2]{{"origin", "plane"},
                                       {"edge_u", "plane"},
                                       {"edge_v", "plane"},
@@ -76,28 +83,42 @@ FileMapT<T> read_map(const JsonField& field) {
                                .append("\", and the map here is \"")
                                .append(kind)
                                .append("\""));
+}
+
+template <std::floating_point T>
+PlaneMapT<T> read_plane_map(const JsonField& field) {
+    const auto edge = [&](const char* name) {
+        const JsonField vector = member(field, name);
+        const Vec3T<T> found{point_field(vector)};
+        if (!std::isnormal(glm::dot(found, found)))
+            refuse_value(vector, "a vector that is not 0");
+        return found;
+    };
+    return {.origin{point_field(member(field, "origin"))},
+            .edge_u = edge("edge_u"),
+            .edge_v = edge("edge_v")};
+}
+
+template <std::floating_point T>
+UvMapT<T> read_uv_map(const JsonField& field) {
+    UvMapT<T> map;
+    const auto scale = find(field, "scale");
+    if (!scale) return map;
+    if (list_size(*scale) != 2) refuse_value(*scale, "a list of two numbers");
+    for (int i = 0; i < 2; ++i)
+        map.scale[i] = static_cast<T>(
+            number(entry(*scale, std::size_t(i)), -1e6, 1e6, "within [-1e6, 1e6]"));
+    return map;
+}
+
+template <std::floating_point T>
+FileMapT<T> read_map(const JsonField& field) {
+    const std::string kind = kind_of_map(field);
+    require_fields_of_map(field, kind);
     if (kind == "globe")
         return {GlobeMapT<T>{.center{point_field(member(field, "center"))}}};
-    if (kind == "plane") {
-        const auto edge = [&](const char* name) {
-            const JsonField vector = member(field, name);
-            const Vec3T<T> found{point_field(vector)};
-            if (!std::isnormal(glm::dot(found, found)))
-                refuse_value(vector, "a vector that is not 0");
-            return found;
-        };
-        return {PlaneMapT<T>{.origin{point_field(member(field, "origin"))},
-                             .edge_u = edge("edge_u"),
-                             .edge_v = edge("edge_v")}};
-    }
-    UvMapT<T> map;
-    if (const auto scale = find(field, "scale")) {
-        if (list_size(*scale) != 2) refuse_value(*scale, "a list of two numbers");
-        for (int i = 0; i < 2; ++i)
-            map.scale[i] = static_cast<T>(
-                number(entry(*scale, std::size_t(i)), -1e6, 1e6, "within [-1e6, 1e6]"));
-    }
-    return {map};
+    if (kind == "uv") return {read_uv_map<T>(field)};
+    return {read_plane_map<T>(field)};
 }
 
 template <std::floating_point T>

@@ -3,6 +3,8 @@
 /// \file ljus/io/detail/map_bytes.hpp
 /// \brief The files of maps: numbers, the same on every machine, behind one header.
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <type_traits>
@@ -11,8 +13,15 @@
 
 namespace ljus::detail {
 
-// A map's file begins with 16 letters that say what it is, its version, 12 bytes of its
-// own, and the checksum of all but these letters and itself.
+// A kind of file: the 16 letters that it begins with, and the version that is written
+// and read.
+struct MapFormat {
+    std::string_view magic;
+    std::uint32_t version = 1;
+};
+
+// These letters are followed by the version, 12 bytes of the format's own, and the
+// checksum of all but the letters and itself.
 inline constexpr std::size_t map_checksum_place = 32;
 inline constexpr std::size_t map_header = 40;
 inline constexpr std::size_t map_key_bytes = 16; // behind the header, if there is one
@@ -24,21 +33,45 @@ inline std::size_t map_limit(std::size_t most, std::size_t bytes_of_one) noexcep
     return most < (all - front) / bytes_of_one ? front + most * bytes_of_one : all;
 }
 
-// The bits of a number, behind zeros.
+// The unsigned number of the same size.
 template <typename Number>
-[[nodiscard]] std::uint64_t bits_of(Number value) noexcept {
-    using Bits = std::conditional_t<sizeof(Number) == 8, std::uint64_t, std::uint32_t>;
+using BitsOf = std::conditional_t<sizeof(Number) == 8, std::uint64_t, std::uint32_t>;
+
+// The bytes of a number, the lowest first, on every machine.
+template <typename Number>
+[[nodiscard]] std::array<unsigned char, sizeof(Number)>
+bytes_of(Number value) noexcept {
+    std::uint64_t bits = 0;
     if constexpr (std::is_floating_point_v<Number>)
-        return std::bit_cast<Bits>(value);
+        bits = std::bit_cast<BitsOf<Number>>(value);
     else
-        return static_cast<std::uint64_t>(value);
+        bits = static_cast<std::uint64_t>(value);
+    std::array<unsigned char, sizeof(Number)> bytes{};
+    for (std::size_t i = 0; i < sizeof(Number); ++i)
+        bytes[i] = static_cast<unsigned char>(bits >> (8 * i) & 255u);
+    return bytes;
 }
 
-// Appends a number, its lowest byte first.
+// The number whose bytes begin at a place, where there are enough.
+template <typename Number>
+[[nodiscard]] Number number_at(const Bytes& bytes, std::size_t place) noexcept {
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < sizeof(Number); ++i)
+        bits |= std::uint64_t(bytes[place + i]) << (8 * i);
+    if constexpr (std::is_floating_point_v<Number>)
+        return std::bit_cast<Number>(static_cast<BitsOf<Number>>(bits));
+    else
+        return static_cast<Number>(bits);
+}
+
 template <typename Number>
 void put_number(Bytes& bytes, Number value) {
-    for (std::size_t i = 0; i < sizeof(Number); ++i)
-        bytes.push_back(static_cast<unsigned char>(bits_of(value) >> (8 * i) & 255u));
+    for (const unsigned char byte : bytes_of(value)) bytes.push_back(byte);
+}
+
+template <typename Vector>
+void put_vector(Bytes& bytes, const Vector& v) {
+    for (int axis = 0; axis < 3; ++axis) put_number(bytes, v[axis]);
 }
 
 // FNV-1a, with 64 bits: a byte after those that the hash is of.
@@ -57,11 +90,10 @@ inline std::uint64_t map_checksum(const Bytes& bytes) noexcept {
 
 // The header of a file, whose checksum put_checksum() writes when all is there.
 template <typename... Own>
-[[nodiscard]] Bytes map_front(std::string_view magic, std::uint32_t version,
-                              Own... own) {
+[[nodiscard]] Bytes map_front(const MapFormat& format, Own... own) {
     static_assert((sizeof(Own) + ...) == 12);
-    Bytes bytes(magic.begin(), magic.end());
-    put_number(bytes, version);
+    Bytes bytes(format.magic.begin(), format.magic.end());
+    put_number(bytes, format.version);
     (put_number(bytes, own), ...);
     put_number(bytes, std::uint64_t(0));
     return bytes;
@@ -69,10 +101,8 @@ template <typename... Own>
 
 // Writes the checksum into its place.
 inline void put_checksum(Bytes& bytes) {
-    const std::uint64_t sum = map_checksum(bytes);
-    for (std::size_t i = 0; i < 8; ++i)
-        bytes[map_checksum_place + i] =
-            static_cast<unsigned char>(sum >> (8 * i) & 255u);
+    const auto sum = bytes_of(map_checksum(bytes));
+    std::copy(sum.begin(), sum.end(), bytes.begin() + map_checksum_place);
 }
 
 // What is left of a map's file.
@@ -84,36 +114,45 @@ struct MapReader {
     [[noreturn]] void refuse(const std::string& why) const { fail_to_read(path, why); }
     std::size_t left() const noexcept { return bytes.size() - position; }
 
+    // Refuses a file unless so many entries are all that is left of it.
+    void require_left(std::uint64_t count, std::size_t bytes_of_one,
+                      const char* entries) const {
+        if (left() / bytes_of_one == count && left() % bytes_of_one == 0) return;
+        refuse("it says that it holds " + std::to_string(count) + " " + entries +
+               ", which does not go with its " + std::to_string(bytes.size()) +
+               " bytes");
+    }
+
     // The next number, which must be there; the checksum is none of them.
     template <typename Number>
     [[nodiscard]] Number take() {
         if (position == map_checksum_place) position = map_header;
-        std::uint64_t bits = 0;
-        for (std::size_t i = 0; i < sizeof(Number); ++i)
-            bits |= std::uint64_t(bytes[position++]) << (8 * i);
-        using Bits =
-            std::conditional_t<sizeof(Number) == 8, std::uint64_t, std::uint32_t>;
-        if constexpr (std::is_floating_point_v<Number>)
-            return std::bit_cast<Number>(static_cast<Bits>(bits));
-        else
-            return static_cast<Number>(bits);
+        position += sizeof(Number);
+        return number_at<Number>(bytes, position - sizeof(Number));
+    }
+
+    template <typename Vector>
+    [[nodiscard]] Vector take_vector() {
+        Vector v;
+        for (int axis = 0; axis < 3; ++axis)
+            v[axis] = take<typename Vector::value_type>();
+        return v;
     }
 };
 
 // Opens a map's file: what is cut short, damaged, of another version or another kind
 // is refused.
 [[nodiscard]] inline MapReader open_map(const std::string& path, std::size_t most,
-                                        std::string_view magic, std::uint32_t version) {
-    MapReader file{path, load_file(path, most, magic), magic.size()};
+                                        const MapFormat& format) {
+    MapReader file{path, load_file(path, most, format.magic), format.magic.size()};
     if (file.bytes.size() < map_header)
         file.refuse("it ends in the middle of its header");
     const auto found = file.take<std::uint32_t>();
-    if (found != version)
+    if (found != format.version)
         file.refuse("it is of version " + std::to_string(found) +
-                    ", and this library reads version " + std::to_string(version));
-    std::uint64_t checksum = 0;
-    for (std::size_t i = 0; i < 8; ++i)
-        checksum |= std::uint64_t(file.bytes[map_checksum_place + i]) << (8 * i);
+                    ", and this library reads version " +
+                    std::to_string(format.version));
+    const auto checksum = number_at<std::uint64_t>(file.bytes, map_checksum_place);
     if (checksum != map_checksum(file.bytes))
         file.refuse("its checksum is wrong, so that it is damaged or cut short");
     return file;

@@ -67,58 +67,54 @@ inline ObjMaterial material_of(const tinyobj::material_t& from) {
 
 // The line of a material file that names a picture, from 1; 0 for none.
 inline long long line_of_picture(std::string_view text, std::string_view picture) {
-    LineEnd end{};
-    for (long long number = 1; end.next < text.size(); ++number) {
-        const std::size_t begin = end.next;
-        end = line_end(text, begin);
-        const auto line = text.substr(begin, end.last - begin);
+    long long first = 0;
+    each_line(text, [&](std::string_view line, long long number) {
         const auto words = words_of(line);
-        if (!words.empty() && words[0] == "map_Kd" && line.find(picture) != line.npos)
-            return number;
+        const bool names =
+            !words.empty() && words[0] == "map_Kd" && line.find(picture) != line.npos;
+        if (names && first == 0) first = number;
+    });
+    return first;
+}
+
+// Adds the materials of one material file; of a name that is there the first one stays.
+inline void add_library(std::map<std::string, ObjMaterial>& materials,
+                        const std::string& path) {
+    const Bytes bytes = load_file(path, max_obj_file);
+    std::string text(bytes.begin(), bytes.end());
+    blunt_exponents(text);
+    std::istringstream stream(text);
+    std::map<std::string, int> names;
+    std::vector<tinyobj::material_t> found;
+    std::string warning, error;
+    tinyobj::LoadMtl(&names, &found, &stream, &warning, &error);
+    for (const tinyobj::material_t& from : found) {
+        ObjMaterial material = material_of(from);
+        if (std::string picture = from.diffuse_texname; !picture.empty()) {
+            material.picture_at = shown_path(path) + ", line " +
+                                  std::to_string(line_of_picture(text, picture));
+            std::replace(picture.begin(), picture.end(), '\\', '/');
+            material.picture = path_beside(path, picture);
+        }
+        materials.try_emplace(from.name, std::move(material));
     }
-    return 0;
 }
 
 // The materials of all files that a mesh file names; the first of a name counts.
 inline std::map<std::string, ObjMaterial>
 read_materials(std::string_view text, const std::string& folder, ObjReport& report) {
     std::map<std::string, ObjMaterial> materials;
-    LineEnd end{};
-    for (long long number = 1; end.next < text.size(); ++number) {
-        const std::size_t begin = end.next;
-        end = line_end(text, begin);
-        const auto words = words_of(text.substr(begin, end.last - begin));
-        if (words.empty() || words[0] != "mtllib") continue;
+    each_line(text, [&](std::string_view line, long long number) {
+        const auto words = words_of(line);
+        if (words.empty() || words[0] != "mtllib") return;
         for (std::size_t i = 1; i < words.size(); ++i) {
             try {
-                const std::string path = folder + std::string(words[i]);
-                const Bytes bytes = load_file(path, max_obj_file);
-                std::string lines(bytes.begin(), bytes.end());
-                blunt_exponents(lines);
-                std::istringstream stream(lines);
-                std::map<std::string, int> names;
-                std::vector<tinyobj::material_t> found;
-                std::string warning, error;
-                tinyobj::LoadMtl(&names, &found, &stream, &warning, &error);
-                for (const auto& material : found) {
-                    ObjMaterial made = material_of(material);
-                    if (std::string picture = material.diffuse_texname;
-                        !picture.empty()) {
-                        made.picture_at =
-                            shown_path(path) + ", line " +
-                            std::to_string(line_of_picture(lines, picture));
-                        std::replace(picture.begin(), picture.end(), '\\', '/');
-                        const bool whole = picture[0] == '/';
-                        const std::size_t slash = path.find_last_of("/\\") + 1;
-                        made.picture = (whole ? "" : path.substr(0, slash)) + picture;
-                    }
-                    materials.try_emplace(material.name, std::move(made));
-                }
+                add_library(materials, folder + std::string(words[i]));
             } catch (const std::runtime_error&) {
                 report.add(ObjTrouble::no_library, number);
             }
         }
-    }
+    });
     return materials;
 }
 

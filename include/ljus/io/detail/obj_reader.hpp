@@ -4,16 +4,16 @@
 /// \brief How load_obj() reads: line by line, trusting no number.
 
 #include <cmath>
+#include <compare>
 #include <map>
 #include <optional>
-#include <sstream>
 
 #ifndef TINY_OBJ_LOADER_H_ // it guards its names, and not what it implements
 #include <tiny_obj_loader.h>
 #endif
 
+#include "ljus/geometry/detail/polygon.hpp"
 #include "ljus/io/detail/obj_material.hpp"
-#include "ljus/io/detail/polygon.hpp"
 
 namespace ljus {
 
@@ -38,58 +38,40 @@ struct ObjSettings {
 
 namespace detail {
 
-// The line that a stream has read last, and its number; asked after each line, so that
-// lines are counted once.
-struct LastLine {
-    std::istringstream& stream;
-    std::size_t begin = 0;
-    LineEnd end{};
-    long long number = 0;
+// A corner of a face: the numbers, from 0, of what the file says of it.
+struct ObjCorner {
+    std::uint32_t position = 0;
+    std::optional<std::uint32_t> normal{};
+    std::optional<std::uint32_t> uv{};
 
-    [[nodiscard]] std::string_view text() {
-        std::string_view all = stream.view();
-        const auto at = stream.tellg(); // -1 at the end
-        if (at >= 0) all = all.substr(0, static_cast<std::size_t>(at));
-        while (end.next < all.size()) {
-            begin = end.next;
-            end = line_end(all, begin);
-            ++number;
-        }
-        return all.substr(begin, end.last - begin);
-    }
+    friend auto operator<=>(const ObjCorner&, const ObjCorner&) = default;
 };
 
-// A number of a vertex: from 1, or from the end if negative; none if it is not there.
-inline std::optional<std::uint32_t> place_of(int number, std::size_t count) {
-    const auto all = static_cast<long long>(count);
-    const long long place = number > 0 ? number - 1LL : number + all;
-    if (number == 0 || place < 0 || place >= all) return std::nullopt;
-    return static_cast<std::uint32_t>(place);
-}
+// The faces of one material, as far as they have been read.
+template <std::floating_point T>
+struct ObjFacesT {
+    ObjMaterial material{};
+    MeshDataT<T> data{};
+    std::map<ObjCorner, std::uint32_t> vertices{}; // of `data`: one for equal corners
+    bool smooth = false;                           // whether any face has normals
+    bool has_uv = false;                 // whether any face has texture coordinates
+    std::vector<long long> without_uv{}; // lines of faces that have none
+};
 
 // What is known while a file is read.
 template <std::floating_point T>
 struct ObjReader {
-    struct Part {
-        ObjMaterial material{};
-        MeshDataT<T> data{};
-        // By the numbers of position, normal and texture coordinates; -1: none.
-        std::map<std::array<long long, 3>, std::uint32_t> vertices{};
-        bool smooth = false;                 // whether any face has normals
-        bool has_uv = false;                 // whether any face has texture coordinates
-        std::vector<long long> without_uv{}; // lines of faces that have none
-    };
     const ObjSettings& settings;
     LastLine line;
     ObjReport report{};
     MeshDataT<T> whole{};            // all vertices of the file, NaN for a bad one
     std::vector<glm::dvec3> exact{}; // the same, in the file's own units
     std::vector<long long> lines{};  // of the triangles of `whole`
-    std::vector<Vec3T<T>> normals{};
-    std::vector<Vec2T<T>> uv{}; // NaN for a bad one
+    std::vector<Vec3T<T>> normals{}; // 0 for a bad one
+    std::vector<Vec2T<T>> uv{};      // NaN for a bad one
     std::map<std::string, ObjMaterial> materials{};
-    std::map<std::string, std::size_t> numbers{}; // of the parts
-    std::vector<Part> parts{};
+    std::map<std::string, std::size_t> numbers{}; // of the parts, by material
+    std::vector<ObjFacesT<T>> parts{};
     std::string material{}; // that faces have from here on
 
     void vertex() {
@@ -123,60 +105,56 @@ struct ObjReader {
         if (!known) report.add(ObjTrouble::no_material, line.number);
         material = known ? name : std::string();
     }
-    // No digit but of a number that tinyobjloader, which stops at other characters and
-    // at 2^31 without a word, has read to its end.
-    bool all_read(std::size_t corners) {
-        const auto words = words_of(line.text());
-        bool good = words.size() == corners + 1;
-        for (std::size_t i = 1; i < words.size(); ++i) {
-            int digits = 0;
-            for (const char c : words[i]) {
-                digits = c >= '0' && c <= '9' ? digits + 1 : 0;
-                good = good && digits < 10 && (digits > 0 || c == '/' || c == '-');
-            }
-        }
-        return good;
+    // A corner as a face names it; nothing if it names what is not there.
+    std::optional<ObjCorner> corner_of(const tinyobj::index_t& named) const {
+        const auto position = place_of(named.vertex_index, exact.size());
+        const auto normal = place_of(named.normal_index, normals.size());
+        const auto place = place_of(named.texcoord_index, uv.size());
+        if (!position || (named.normal_index != 0 && !normal) ||
+            (named.texcoord_index != 0 && !place))
+            return std::nullopt;
+        return ObjCorner{*position, normal, place};
     }
-    void face(const tinyobj::index_t* corners, std::size_t count) {
-        const bool good = all_read(count);
+    void face(const tinyobj::index_t* named, std::size_t count) {
+        const bool good = all_read(line.text(), count);
         if (count < 3) return report.add(ObjTrouble::few_corners, line.number);
         if (count > 1000) return report.add(ObjTrouble::many_corners, line.number);
-        std::vector<std::uint32_t> places;
-        std::vector<long long> own;     // normals, -1: none
-        std::vector<long long> painted; // texture coordinates, -1: none
+        std::vector<ObjCorner> corners;
         std::vector<glm::dvec3> points;
-        bool has_normals = settings.normals == ObjNormals::file;
-        bool has_uv = true;
         for (std::size_t i = 0; i < count; ++i) {
-            const auto place = place_of(corners[i].vertex_index, exact.size());
-            const int n = corners[i].normal_index;
-            const auto of_normal = place_of(n, normals.size());
-            const int t = corners[i].texcoord_index;
-            const auto of_uv = place_of(t, uv.size());
-            if (!good || !place || (n != 0 && !of_normal) || (t != 0 && !of_uv))
-                return report.add(ObjTrouble::bad_index, line.number);
-            if (!is_finite(whole.positions[*place])) return; // said at the vertex
-            has_normals =
-                has_normals && of_normal && normals[*of_normal] != Vec3T<T>{0};
-            has_uv = has_uv && of_uv && has_place(uv[*of_uv]);
-            places.push_back(*place);
-            painted.push_back(of_uv ? static_cast<long long>(*of_uv) : -1);
-            own.push_back(of_normal ? static_cast<long long>(*of_normal) : -1);
-            points.push_back(exact[*place]);
+            const auto corner = corner_of(named[i]);
+            if (!good || !corner) return report.add(ObjTrouble::bad_index, line.number);
+            if (!is_finite(whole.positions[corner->position]))
+                return; // said at the vertex
+            corners.push_back(*corner);
+            points.push_back(exact[corner->position]);
         }
-        if (!has_uv) painted.assign(count, -1);
+        keep_what_all_have(corners);
         const auto triangles = cut_polygon(points);
         bool empty = triangles.empty();
-        for (const auto& corner : triangles)
-            empty = !add(places, own, painted, corner, has_normals) || empty;
+        for (const auto& [a, b, c] : triangles)
+            empty = !add({corners[a], corners[b], corners[c]}) || empty;
         if (empty) report.add(ObjTrouble::no_area, line.number);
     }
+    // Normals and texture coordinates that are not good at every corner of a face are
+    // used at none.
+    void keep_what_all_have(std::vector<ObjCorner>& corners) const {
+        bool all_normals = settings.normals == ObjNormals::file;
+        bool all_uv = true;
+        for (const ObjCorner& corner : corners) {
+            all_normals =
+                all_normals && corner.normal && normals[*corner.normal] != Vec3T<T>{0};
+            all_uv = all_uv && corner.uv && has_place(uv[*corner.uv]);
+        }
+        for (ObjCorner& corner : corners) {
+            if (!all_normals) corner.normal.reset();
+            if (!all_uv) corner.uv.reset();
+        }
+    }
     // One triangle of a face; false if it has no area.
-    bool add(const std::vector<std::uint32_t>& places,
-             const std::vector<long long>& own, const std::vector<long long>& painted,
-             const std::array<std::uint32_t, 3>& corner, bool has_normals) {
+    bool add(std::array<ObjCorner, 3> corners) {
         whole.triangles.push_back(
-            {places[corner[0]], places[corner[1]], places[corner[2]]});
+            {corners[0].position, corners[1].position, corners[2].position});
         const auto across =
             cross_of_edges(triangle_of(whole, whole.triangles.size() - 1));
         if (!(glm::dot(across, across) > 0)) {
@@ -184,54 +162,58 @@ struct ObjReader {
             return false;
         }
         lines.push_back(line.number);
-        if (has_normals) {
-            Vec3T<T> sum{0};
-            for (const std::uint32_t k : corner)
-                sum += normals[static_cast<std::size_t>(own[k])];
-            has_normals = glm::dot(Vec3T<WideT<T>>(sum), across) > 0;
-            if (!has_normals) report.add(ObjTrouble::turned, line.number);
+        if (corners[0].normal && !normals_point_along(across, corners)) {
+            report.add(ObjTrouble::turned, line.number);
+            for (ObjCorner& corner : corners) corner.normal.reset();
         }
+        ObjFacesT<T>& part = part_in_use();
+        part.smooth = part.smooth || corners[0].normal;
+        part.has_uv = part.has_uv || corners[0].uv;
+        auto& without = part.without_uv;
+        if (!corners[0].uv && (without.empty() || without.back() != line.number))
+            without.push_back(line.number);
+        part.data.triangles.push_back({vertex_of(part, corners[0]),
+                                       vertex_of(part, corners[1]),
+                                       vertex_of(part, corners[2])});
+        return true;
+    }
+    bool normals_point_along(const Vec3T<WideT<T>>& across,
+                             const std::array<ObjCorner, 3>& corners) const {
+        Vec3T<T> sum{0};
+        for (const ObjCorner& corner : corners) sum += normals[*corner.normal];
+        return glm::dot(Vec3T<WideT<T>>(sum), across) > 0;
+    }
+    ObjFacesT<T>& part_in_use() {
         const auto [at, fresh] = numbers.try_emplace(material, parts.size());
         if (fresh) {
             parts.emplace_back();
             if (!material.empty()) parts.back().material = materials[material];
         }
-        Part& part = parts[at->second];
-        part.smooth = part.smooth || has_normals;
-        const bool has_uv = painted[0] >= 0;
-        part.has_uv = part.has_uv || has_uv;
-        auto& without = part.without_uv;
-        if (!has_uv && (without.empty() || without.back() != line.number))
-            without.push_back(line.number);
-        std::array<std::uint32_t, 3> triangle{};
-        for (std::size_t k = 0; k < 3; ++k) {
-            const long long n = has_normals ? own[corner[k]] : -1;
-            const long long t = painted[corner[k]];
-            const auto [vertex, unseen] = part.vertices.try_emplace(
-                {places[corner[k]], n, t},
-                static_cast<std::uint32_t>(part.data.positions.size()));
-            triangle[k] = vertex->second;
-            if (!unseen) continue;
-            part.data.positions.push_back(whole.positions[places[corner[k]]]);
-            part.data.normals.push_back(n < 0 ? Vec3T<T>{0}
-                                              : normals[static_cast<std::size_t>(n)]);
-            part.data.uv.push_back(t < 0 ? Vec2T<T>{0}
-                                         : uv[static_cast<std::size_t>(t)]);
+        return parts[at->second];
+    }
+    // The vertex of a part that a corner is.
+    std::uint32_t vertex_of(ObjFacesT<T>& part, const ObjCorner& corner) const {
+        const auto [at, fresh] = part.vertices.try_emplace(
+            corner, static_cast<std::uint32_t>(part.data.positions.size()));
+        if (fresh) {
+            part.data.positions.push_back(whole.positions[corner.position]);
+            part.data.normals.push_back(corner.normal ? normals[*corner.normal]
+                                                      : Vec3T<T>{0});
+            part.data.uv.push_back(corner.uv ? uv[*corner.uv] : Vec2T<T>{0});
         }
-        part.data.triangles.push_back(triangle);
-        return true;
+        return at->second;
     }
 };
 
 // smooth_normals(), to which a seam of the texture coordinates is no edge.
 template <std::floating_point T>
-void smooth_across_seams(typename ObjReader<T>::Part& part) {
+void smooth_across_seams(ObjFacesT<T>& part) {
     MeshDataT<T> seamless{.triangles = part.data.triangles};
-    std::map<long long, std::uint32_t> numbers;
+    std::map<std::uint32_t, std::uint32_t> numbers; // by position in the file
     std::vector<std::uint32_t> of(part.data.positions.size());
-    for (const auto& [key, vertex] : part.vertices) {
+    for (const auto& [corner, vertex] : part.vertices) {
         const auto [at, fresh] = numbers.try_emplace(
-            key[0], static_cast<std::uint32_t>(seamless.positions.size()));
+            corner.position, static_cast<std::uint32_t>(seamless.positions.size()));
         if (fresh) seamless.positions.push_back(part.data.positions[vertex]);
         of[vertex] = at->second;
     }
@@ -241,6 +223,16 @@ void smooth_across_seams(typename ObjReader<T>::Part& part) {
     part.data.normals.clear();
     for (const std::uint32_t vertex : of)
         part.data.normals.push_back(seamless.normals[vertex]);
+}
+
+// Drops the normals or texture coordinates of a part in which no face has any, and
+// reports the faces that lack what others have.
+template <std::floating_point T>
+void finish(ObjFacesT<T>& part, ObjNormals normals, ObjReport& report) {
+    if (!part.smooth) part.data.normals.clear();
+    if (normals == ObjNormals::smooth) smooth_across_seams(part);
+    if (!part.has_uv) return part.data.uv.clear();
+    for (const long long line : part.without_uv) report.add(ObjTrouble::no_uv, line);
 }
 
 } // namespace detail

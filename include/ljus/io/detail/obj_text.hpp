@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <limits>
+#include <optional>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +31,38 @@ inline LineEnd line_end(std::string_view text, std::size_t begin) {
     const std::size_t next = last + (text.substr(last, 2) == "\r\n" ? 2 : 1);
     return {last, std::min(next, text.size())};
 }
+
+// Calls use(line, number) for each line of a text; the first is number 1.
+template <typename Use>
+void each_line(std::string_view text, Use use) {
+    std::size_t begin = 0;
+    for (long long number = 1; begin < text.size(); ++number) {
+        const LineEnd end = line_end(text, begin);
+        use(text.substr(begin, end.last - begin), number);
+        begin = end.next;
+    }
+}
+
+// The line that a stream has read last, and its number; asked after each line, so that
+// lines are counted once.
+struct LastLine {
+    std::istringstream& stream;
+    std::size_t begin = 0;
+    LineEnd end{};
+    long long number = 0;
+
+    [[nodiscard]] std::string_view text() {
+        std::string_view all = stream.view();
+        const auto at = stream.tellg(); // -1 at the end
+        if (at >= 0) all = all.substr(0, static_cast<std::size_t>(at));
+        while (end.next < all.size()) {
+            begin = end.next;
+            end = line_end(all, begin);
+            ++number;
+        }
+        return all.substr(begin, end.last - begin);
+    }
+};
 
 // The words of a line, as tinyobjloader sees them: up to a 0.
 inline std::vector<std::string_view> words_of(std::string_view line) {
@@ -58,6 +93,29 @@ inline glm::dvec3 numbers_of(std::string_view line) {
             result[static_cast<glm::length_t>(i)] = value;
     }
     return result;
+}
+
+// Whether tinyobjloader has read the numbers of a line "f 1/2/3 4/5/6 ...", of so many
+// corners, to their ends. It stops at other characters and at 2^31 without a word.
+inline bool all_read(std::string_view line, std::size_t corners) {
+    const auto words = words_of(line);
+    bool good = words.size() == corners + 1;
+    for (std::size_t i = 1; i < words.size(); ++i) {
+        int digits = 0;
+        for (const char c : words[i]) {
+            digits = c >= '0' && c <= '9' ? digits + 1 : 0;
+            good = good && digits < 10 && (digits > 0 || c == '/' || c == '-');
+        }
+    }
+    return good;
+}
+
+// A number of a vertex: from 1, or from the end if negative; none if it is not there.
+inline std::optional<std::uint32_t> place_of(int number, std::size_t count) {
+    const auto all = static_cast<long long>(count);
+    const long long place = number > 0 ? number - 1LL : number + all;
+    if (number == 0 || place < 0 || place >= all) return std::nullopt;
+    return static_cast<std::uint32_t>(place);
 }
 
 // tinyobjloader's exponents overflow from ten digits on. In what begins as a number and

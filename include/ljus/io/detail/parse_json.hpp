@@ -65,8 +65,8 @@ struct JsonBuilder {
         std::string why = error.what();
         if (error.id == 406) { // a number beyond the range of double
             why = path() + " is " + token + "; it must be finite";
-        } else if (const auto at = why.find(" - "); at != std::string::npos) {
-            why = why.substr(at + 3);
+        } else { // "... while parsing value - unexpected end of input"
+            why.erase(0, why.find(" - ") + 3);
         }
         for (char& c : why)
             if (static_cast<unsigned char>(c) >= 0x80) c = '?';

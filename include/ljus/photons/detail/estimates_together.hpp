@@ -23,22 +23,24 @@ struct EstimatePlaceT {
     std::uint32_t item = 0;   ///< A number that the caller knows it by.
 };
 
-/// What estimate_radiance() takes of a vertex.
+/// Sets a place to what estimate_radiance() takes of a vertex. Where it will stand: a
+/// copy of what has just been written makes a processor wait.
+/// \param place       A new one; its estimate is that of estimate_radiance() with the
+///                    vertex's wo.
 /// \param vertex      The place.
 /// \param material    What it is made of.
 /// \param throughput  Of the path.
 /// \param item        A number that the caller knows it by.
-/// \return The place; its estimate is that of estimate_radiance() with the vertex's wo.
 template <std::floating_point T>
-[[nodiscard]] EstimatePlaceT<T>
-estimate_place(const VertexT<T>& vertex, const LambertianT<T>& material,
-               const RgbT<T>& throughput, std::uint32_t item) noexcept {
-    return {.center = vertex.point.position,
-            .normal = vertex.point.normal,
-            .from = std::copysign(T(1), vertex.wo.z) * vertex.frame.normal,
-            .brdf = evaluate(material, vertex.wo, vertex.wo),
-            .throughput = throughput,
-            .item = item};
+void set_place(EstimatePlaceT<T>& place, const VertexT<T>& vertex,
+               const LambertianT<T>& material, const RgbT<T>& throughput,
+               std::uint32_t item) noexcept {
+    place.center = vertex.point.position;
+    place.normal = vertex.point.normal;
+    place.from = std::copysign(T(1), vertex.wo.z) * vertex.frame.normal;
+    place.brdf = evaluate(material, vertex.wo, vertex.wo);
+    place.throughput = throughput;
+    place.item = item;
 }
 
 /// What estimate_radiance() gives at many places, to the last bit. An estimate waits

@@ -58,19 +58,13 @@ inline void check(const AdaptiveSettings& rule, int samples) {
                            : "at least as many as first rays");
 }
 
-/// What the rays of a pixel have found.
-struct PixelSums {
-    RgbT<double> sum{0};     ///< Of their radiance.
-    RgbT<double> squares{0}; ///< Of its squares.
-};
-
 /// A square of pixels; all of them have the same number of rays.
 struct AdaptiveBlock {
     int x = 0, y = 0;          ///< Its upper left pixel.
     int right = 0, bottom = 0; ///< One past its last column and row.
     int rays = 0;              ///< A pixel, that count.
-    int batches = 0;           ///< A pixel, after the first rays.
-    int wanted = 0;            ///< Batches in this round.
+    int batches = 0;           ///< That it has had; the first rays are one.
+    int wanted = 1;            ///< Batches in this round.
     double variance = 0;       ///< Relative, of one ray; mean over the pixels.
 
     /// How many pixels it has.
@@ -92,6 +86,25 @@ adaptive_blocks(const RenderSettings& picture, int size) {
     return blocks;
 }
 
+/// Where a pixel's sums stand, of a picture of this width.
+[[nodiscard]] constexpr std::size_t place_of(int width, int x, int y) noexcept {
+    return std::size_t(y) * std::size_t(width) + std::size_t(x);
+}
+
+/// How many rays a pixel gets by a batch.
+/// \param rule   The rule.
+/// \param batch  0: the first rays.
+[[nodiscard]] constexpr int rays_in_batch(const AdaptiveSettings& rule,
+                                          int batch) noexcept {
+    return batch == 0 ? rule.first : rule.more;
+}
+
+/// How many rays a block is to have in this round.
+[[nodiscard]] constexpr double rays_wanted(const AdaptiveBlock& block,
+                                           const AdaptiveSettings& rule) noexcept {
+    return block.pixels() * block.wanted * rays_in_batch(rule, block.batches);
+}
+
 /// How much the rays of a block differ, from what they have found.
 ///
 /// Relative to the mean of the block, which is surer than that of a pixel. The rays of
@@ -108,8 +121,7 @@ adaptive_blocks(const RenderSettings& picture, int size) {
     RgbT<double> mean{0}, variance{0};
     for (int y = block.y; y < block.bottom; ++y)
         for (int x = block.x; x < block.right; ++x) {
-            const PixelSums& found =
-                sums[std::size_t(y) * std::size_t(width) + std::size_t(x)];
+            const PixelSums& found = sums[place_of(width, x, y)];
             mean += found.sum / (n * count);
             variance += (found.squares - found.sum * found.sum / n) / ((n - 1) * count);
         }
@@ -141,6 +153,7 @@ inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSetting
         return parts[a].variance / parts[a].rays > parts[b].variance / parts[b].rays;
     });
     const int begun = rule.two_stage ? 1 : 0; // the batch that each has
+    const int most_batches = 1 + rule.batches - begun;
     bool any = false;
     for (const std::size_t i : order) {
         double batches = 0;
@@ -153,7 +166,7 @@ inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSetting
             batches = std::ceil(lacking / rule.more - 1e-6);
         }
         const double cost = rule.more * parts[i].pixels;
-        batches = std::min({batches, double(rule.batches - blocks[i].batches - begun),
+        batches = std::min({batches, double(most_batches - blocks[i].batches),
                             std::floor(spare / cost * (1 + 1e-9))});
         blocks[i].wanted = static_cast<int>(std::max(batches, 0.0));
         spare -= cost * blocks[i].wanted;

@@ -77,8 +77,8 @@ template <typename Add, std::floating_point T, typename M, typename K>
                            const DensityEstimateOf<K>& how) {
     if constexpr (std::same_as<M, LambertianT<T>> && requires { add.log.places; })
         if (how.nearest == 0 && in_lanes<M>(how)) {
-            add.log.places.push_back(
-                estimate_place(vertex, material, add.throughput, add.log.item));
+            set_place(add.log.places.emplace_back(), vertex, material, add.throughput,
+                      add.log.item);
             return true;
         }
     return false;

@@ -99,6 +99,9 @@ template <SceneLike S>
 [[nodiscard]] std::vector<std::string>
 scene_remarks(const S& scene, const PhotonMappingSettings& settings) {
     std::vector<std::string> remarks;
+    if (scene.lights.empty())
+        remarks.push_back("the scene has no light, and the picture will be black: add "
+                          "an object with a radiance, or a point light");
     if (std::string digits = digits_remark(scene); !digits.empty())
         remarks.push_back(std::move(digits));
     const std::size_t narrow =

@@ -1,0 +1,155 @@
+// smoke: --quality draft
+/// \file 17_drawings.cpp
+/// \brief Chapter 17: the tree of a ray, in the scene and on paper.
+
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include <ljus/geometry/sphere.hpp>
+#include <ljus/math/frame.hpp>
+#include <ljus/optics/reflection.hpp>
+#include <ljus/optics/refraction.hpp>
+
+#include "common/command_line.hpp"
+#include "common/drawing.hpp"
+
+namespace {
+
+using examples::Drawing;
+using examples::flat;
+using examples::Point;
+using Vec = ljus::Vec3T<double>;
+namespace colors = examples::colors;
+
+/// The ray that is refracted at a point of the ball, where there is one.
+std::optional<Vec> refracted(const Vec& d, const Vec& n, double eta) {
+    const auto frame = ljus::frame_around(n);
+    const auto wt = ljus::refract(to_local(frame, -d), eta);
+    if (!wt) return std::nullopt;
+    return to_world(frame, *wt);
+}
+
+/// A camera ray at a ball of glass between a diffuse floor and a diffuse wall.
+void draw_tree_in_scene(const std::string& folder) {
+    Drawing drawing{.name = "whitted-scene",
+                    .description = "A camera ray at a ball of glass: one ray is "
+                                   "reflected to a wall, another passes through "
+                                   "the ball to the floor, and from both ends shadow "
+                                   "rays go to the lamp",
+                    .low{-0.2, -0.3},
+                    .high{7.7, 4.3},
+                    .scale = 95};
+    const ljus::SphereT<double> ball{.center{4.0, 1.5, 0}, .radius = 0.95};
+    const Point lamp{5.4, 4.0};
+    draw_line(drawing, {{0.2, 0}, {7.4, 0}}, {.width = 2.5});
+    draw_line(drawing, {{7.4, 0}, {7.4, 4}}, {.width = 2.5});
+    draw_area(drawing, examples::circle(flat(ball.center), ball.radius), colors::blue);
+    draw_line(drawing, examples::circle(flat(ball.center), ball.radius));
+    draw_line(drawing, {{5.0, 4.0}, {5.8, 4.0}}, {.color = colors::orange, .width = 6});
+
+    const auto to_floor = [&](const Vec& from, const Vec& d) {
+        return Vec{from.x - d.x * from.y / d.y, 0, 0};
+    };
+    const auto shadow = [&](const Vec& from) {
+        draw_line(drawing, {flat(from), lamp},
+                  {.color = colors::orange, .dashed = true});
+        draw_dot(drawing, flat(from), 4, "currentColor");
+    };
+    const Vec eye{0.4, 2.7, 0};
+    const Vec d = glm::normalize(Vec{3.85, 2.44, 0} - eye);
+    const double t =
+        intersect(ljus::RayT<double>{.origin = eye, .direction = d}, ball).value();
+    const Vec hit = eye + t * d, n = normal(ball, hit);
+    draw_arrow(drawing, flat(eye), flat(hit), {.width = 2.5});
+
+    // Reflected: to the wall.
+    const Vec up = ljus::reflect(d, n);
+    const Vec high = hit + (7.4 - hit.x) / up.x * up;
+    draw_arrow(drawing, flat(hit), flat(high), {colors::red, 2});
+    shadow(high);
+
+    // Refracted into the ball and out of it.
+    const Vec inside = refracted(d, n, 1 / 1.5).value();
+    const double way =
+        intersect(ljus::RayT<double>{.origin = hit, .direction = inside, .t_min = 1e-6},
+                  ball)
+            .value();
+    const Vec leave = hit + way * inside, out_normal = normal(ball, leave);
+    draw_arrow(drawing, flat(hit), flat(leave), {colors::blue, 2});
+    const Vec out = refracted(inside, -out_normal, 1.5).value();
+    const Vec end = to_floor(leave, out);
+    draw_arrow(drawing, flat(leave), flat(end), {colors::blue, 2});
+    shadow(end);
+    // What is reflected within the ball leaves it further on.
+    const Vec back = ljus::reflect(inside, out_normal);
+    const double more =
+        intersect(ljus::RayT<double>{.origin = leave, .direction = back, .t_min = 1e-6},
+                  ball)
+            .value();
+    draw_arrow(drawing, flat(leave), flat(leave + more * back), {colors::red, 2});
+    draw_dot(drawing, flat(eye), 4, "currentColor");
+    draw_dot(drawing, flat(hit), 4, "currentColor");
+    draw_dot(drawing, flat(leave), 4, "currentColor");
+    draw_label(drawing, {0.25, 2.95}, "E");
+    draw_label(drawing, {1.6, 2.35}, "camera ray");
+    draw_label(drawing, {4.7, 3.75}, "lamp", colors::orange);
+    save_drawing(folder, drawing);
+}
+
+/// The same as a tree: each node a hit, each branch with its weight.
+void draw_tree_on_paper(const std::string& folder) {
+    Drawing drawing{.name = "whitted-tree",
+                    .description = "The tree of a ray: at each hit on glass it divides "
+                                   "into a reflected and a refracted ray; leaves ask "
+                                   "the lamp",
+                    .low{-0.4, -0.3},
+                    .high{8.4, 3.7},
+                    .scale = 85};
+    const struct {
+        Point from, to;
+        const char* color;
+        const char* weight;
+    } branches[] = {{{4, 3.4}, {4, 2.6}, "currentColor", "1"},
+                    {{4, 2.6}, {1.8, 1.6}, colors::red, "R"},
+                    {{4, 2.6}, {6.2, 1.6}, colors::blue, "T"},
+                    {{6.2, 1.6}, {4.9, 0.6}, colors::red, "TR"},
+                    {{6.2, 1.6}, {7.5, 0.6}, colors::blue, "TT"}};
+    for (const auto& branch : branches) {
+        draw_arrow(drawing, branch.from, branch.to, {branch.color, 2});
+        draw_label(drawing,
+                   {(branch.from.x + branch.to.x) / 2 +
+                        (branch.to.x < branch.from.x ? -0.3 : 0.3),
+                    (branch.from.y + branch.to.y) / 2 + 0.15},
+                   branch.weight, branch.color);
+    }
+    for (const Point& glass : {Point{4, 2.6}, Point{6.2, 1.6}, Point{4.9, 0.6}}) {
+        draw_area(drawing, examples::circle(glass, 0.22), colors::blue);
+        draw_line(drawing, examples::circle(glass, 0.22), {.width = 1.2});
+    }
+    for (const Point& leaf : {Point{1.8, 1.6}, Point{7.5, 0.6}}) {
+        draw_dot(drawing, leaf, 8, "#808080");
+        draw_line(drawing, {leaf, {leaf.x + 0.5, leaf.y + 0.75}},
+                  {.color = colors::orange, .width = 1.5, .dashed = true});
+    }
+    draw_line(drawing, {{4.9, 0.38}, {4.5, -0.1}},
+              {.color = colors::red, .dashed = true});
+    draw_line(drawing, {{4.9, 0.38}, {5.3, -0.1}},
+              {.color = colors::blue, .dashed = true});
+    draw_label(drawing, {0.7, 1.55}, "diffuse");
+    draw_label(drawing, {4.65, 2.75}, "glass");
+    draw_label(drawing, {7.5, 0.2}, "diffuse");
+    save_drawing(folder, drawing);
+}
+
+} // namespace
+
+/// Makes the chapter's drawings.
+int main(int argc, char** argv) {
+    return examples::run_main(argc, argv, [](examples::CommandLine& line) {
+        line.about("Chapter 17, Whitted: drawings.");
+        const examples::Options options = line.parse({});
+        draw_tree_in_scene(options.path(""));
+        draw_tree_on_paper(options.path(""));
+    });
+}

@@ -1,0 +1,152 @@
+// smoke: --quality draft
+/// \file 26_drawings.cpp
+/// \brief Chapter 26: how a ball of glass gathers light, and the disc of the estimate.
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <ljus/geometry/sphere.hpp>
+#include <ljus/math/frame.hpp>
+#include <ljus/optics/refraction.hpp>
+
+#include "common/command_line.hpp"
+#include "common/drawing.hpp"
+
+namespace {
+
+using examples::Drawing;
+using examples::Point;
+using Vec = ljus::Vec3T<double>;
+namespace colors = examples::colors;
+
+const ljus::SphereT<double> ball{.center{0, 1.6, 0}, .radius = 1};
+
+/// The way of a ray from above through the ball to the floor.
+std::vector<Vec> through_ball(const Vec& start, const Vec& direction) {
+    std::vector<Vec> way{start};
+    Vec at = start, d = direction;
+    double eta = 1 / 1.5;
+    for (int surface = 0; surface < 2; ++surface) {
+        const auto t = intersect(
+            ljus::RayT<double>{.origin = at, .direction = d, .t_min = 1e-6}, ball);
+        if (!t) break;
+        at = at + *t * d;
+        way.push_back(at);
+        const Vec n = (surface == 0 ? 1.0 : -1.0) * normal(ball, at);
+        const auto frame = ljus::frame_around(n);
+        const auto wt = ljus::refract(to_local(frame, -d), eta);
+        if (!wt) return way;
+        d = to_world(frame, *wt);
+        eta = 1.5;
+    }
+    way.push_back(at - at.y / d.y * d);
+    return way;
+}
+
+/// Rays of equal flux from a lamp above: where they land, many are close together.
+void draw_gathering(const std::string& folder) {
+    Drawing drawing{.name = "caustics-rays",
+                    .description =
+                        "Rays from a small lamp through a ball of glass: "
+                        "they land close together on the floor, at the rim of "
+                        "the caustic closest of all",
+                    .low{-3.2, -0.55},
+                    .high{3.2, 5.2},
+                    .scale = 85};
+    draw_line(drawing, {{-3.2, 0}, {3.2, 0}}, {.width = 2});
+    draw_area(drawing, examples::circle({0, 1.6}, 1), colors::blue);
+    draw_line(drawing, examples::circle({0, 1.6}, 1));
+    const Vec lamp{0, 5, 0};
+    for (int i = -32; i <= 32; ++i) {
+        const double angle = i * 0.016;
+        const auto way = through_ball(lamp, {std::sin(angle), -std::cos(angle), 0});
+        std::vector<Point> points;
+        for (const Vec& v : way) points.push_back({v.x, v.y});
+        if (std::abs(points.back().x) > 3.2) continue;
+        const bool bent = way.size() > 2;
+        draw_line(drawing, points,
+                  {.color = bent ? colors::orange : "#80808060", .width = 0.9});
+        draw_dot(drawing, points.back(), 2.5, bent ? colors::red : "#808080");
+    }
+    draw_dot(drawing, {lamp.x, lamp.y}, 6, colors::orange);
+    draw_label(drawing, {0, -0.32}, "caustic", colors::red);
+    draw_label(drawing, {1.75, -0.32}, "shadow of the glass");
+    save_drawing(folder, drawing);
+}
+
+/// The estimate: the flux of the photons in a disc over its area, with a kernel.
+void draw_estimate(const std::string& folder) {
+    Drawing drawing{.name = "caustics-disc",
+                    .description =
+                        "Photons in a disc around a point, and three kernels "
+                        "that weight them by their distance",
+                    .low{-2.1, -0.75},
+                    .high{7.0, 2.5},
+                    .scale = 95};
+    const auto seen = [](double x, double y) { return Point{x, 0.42 * y + 0.55}; };
+    std::vector<Point> disc;
+    for (int i = 0; i <= 72; ++i)
+        disc.push_back(
+            seen(1.6 * std::cos(i * 0.0872665), 1.6 * std::sin(i * 0.0872665)));
+    draw_area(drawing, disc, colors::blue);
+    draw_line(drawing, disc, {colors::blue, 2});
+    for (int i = 0; i < 40; ++i) { // a spiral that fills a square evenly enough
+        const double radius = 2.3 * std::sqrt((i + 0.5) / 40), turn = 2.399963 * i;
+        const double x = radius * std::cos(turn), y = radius * std::sin(turn);
+        if (std::abs(x) > 2 || std::abs(y) > 2.2) continue;
+        const bool is_in = std::hypot(x, y) < 1.6;
+        const Point at = seen(x, y);
+        draw_dot(drawing, at, 3.2, is_in ? colors::red : "#808080");
+        if (is_in)
+            draw_line(drawing, {{at.x - 0.12, at.y + 0.42}, at}, {colors::red, 0.9});
+    }
+    draw_arrow(drawing, seen(0, 0), {0, 2.3}, {.width = 2});
+    draw_line(drawing, {seen(0, 0), seen(1.6, 0)}, {.width = 1.5});
+    draw_label(drawing, {0.8, 0.72}, "r");
+    draw_label(drawing, {0.2, 2.3}, "n");
+    draw_label(drawing, {-0.18, 0.38}, "x");
+    // The kernels over the distance, each with the same volume over the disc.
+    const Point o{4.6, 0};
+    draw_arrow(drawing, {o.x - 1.9, 0}, {o.x + 1.95, 0}, {.width = 1});
+    const struct {
+        const char* name;
+        const char* color;
+        double top;
+    } kernels[] = {
+        {"box", colors::blue, 1}, {"cone", colors::orange, 3}, {"", colors::green, 2}};
+    for (const auto& kernel : kernels) {
+        std::vector<Point> curve;
+        for (int i = -60; i <= 60; ++i) {
+            const double s = i / 60.0, size = std::abs(s);
+            const double shape = kernel.top == 1   ? 1
+                                 : kernel.top == 3 ? 1 - size
+                                                   : 1 - size * size;
+            curve.push_back({o.x + 1.6 * s, 0.68 * kernel.top * shape});
+        }
+        if (kernel.top == 1) {
+            curve.insert(curve.begin(), {o.x - 1.6, 0});
+            curve.push_back({o.x + 1.6, 0});
+        }
+        draw_line(drawing, curve, {kernel.color, 2});
+    }
+    draw_label(drawing, {o.x - 1.35, 0.88}, "box", colors::blue);
+    draw_label(drawing, {o.x + 0.75, 1.85}, "cone", colors::orange);
+    draw_label(drawing, {o.x + 1.5, 1.05}, "Epanechnikov", colors::green);
+    draw_label(drawing, {o.x + 1.6, -0.28}, "r");
+    draw_label(drawing, {o.x, -0.28}, "0");
+    save_drawing(folder, drawing);
+}
+
+} // namespace
+
+/// Makes the chapter's drawings.
+int main(int argc, char** argv) {
+    return examples::run_main(argc, argv, [](examples::CommandLine& line) {
+        line.about("Chapter 26, caustics: drawings.");
+        const examples::Options options = line.parse({});
+        draw_gathering(options.path(""));
+        draw_estimate(options.path(""));
+    });
+}

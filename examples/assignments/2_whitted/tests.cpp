@@ -1,0 +1,159 @@
+// Assignment 2: a test is a sentence that must hold. Points stand in its name. Nothing
+// here is left to chance: all comparisons are with closed forms.
+#include <answer.hpp> // first: it must bring what it needs
+
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include <doctest/doctest.h>
+
+#include "course/check.hpp"
+
+namespace course_tests { // its names come before yours
+
+using namespace answer;
+
+namespace {
+
+constexpr float pi = std::numbers::pi_v<float>;
+
+Vec3 at_angle(double theta) { // comes down onto a surface with the normal +z
+    return {float(std::sin(theta)), 0, float(-std::cos(theta))};
+}
+
+/// A diffuse ball of radius 1 at the origin, and the ray down its z axis.
+const Object diffuse_ball{ljus::Sphere{{0, 0, 0}, 1}, {.color{0.9f, 0.6f, 0.3f}}};
+const Ray down{.origin{0, 0, 5}, .direction{0, 0, -1}};
+
+} // namespace
+
+TEST_CASE("2.1 (1 point) a mirror turns the part of a ray along the normal") {
+    const Vec3 d = normalize(Vec3{1, 2, -3});
+    for (const Vec3& n : {Vec3{0, 0, 1}, Vec3{0, 0, -1}}) // either side
+        CHECK(distance(reflect(d, n), normalize(Vec3{1, 2, 3})) < 1e-6f);
+    const Vec3 tilted = normalize(Vec3{1, 1, 1});
+    const Vec3 out = reflect(d, tilted);
+    CHECK(length(out) == doctest::Approx(1));
+    CHECK(dot(out, tilted) == doctest::Approx(-dot(d, tilted)).epsilon(1e-5));
+    CHECK(length(cross(out, tilted) - cross(d, tilted)) < 1e-6f);
+}
+
+TEST_CASE("2.2 (2 points) refraction obeys Snell's law on both sides of the normal") {
+    for (const double theta : {0.0, 0.3, 0.7, 1.2})
+        for (const float eta : {1 / 1.5f, 0.75f, 1.05f})
+            for (const float side : {1.0f, -1.0f}) {
+                const auto t = refract(at_angle(theta), {0, 0, side}, eta);
+                REQUIRE(t);
+                CHECK(length(*t) == doctest::Approx(1));
+                CHECK(t->z < 0);
+                CHECK(t->x == doctest::Approx(double(eta) * std::sin(theta)));
+                CHECK(t->y == 0);
+            }
+}
+
+TEST_CASE("2.3 (2 points) beyond the critical angle nothing passes") {
+    const double critical = std::asin(1 / 1.5);
+    REQUIRE(refract(at_angle(critical - 0.01), {0, 0, 1}, 1.5f));
+    CHECK_FALSE(refract(at_angle(critical + 0.01), {0, 0, 1}, 1.5f));
+    CHECK_FALSE(refract(at_angle(1.5), {0, 0, -1}, 1.5f));
+    CHECK(fresnel(float(std::cos(critical + 0.01)), 1.5f, 1) == doctest::Approx(1));
+}
+
+TEST_CASE("2.4 (3 points) Fresnel's share is right at the angles that one knows") {
+    CHECK(fresnel(1, 1, 1.5f) == doctest::Approx(0.04));
+    CHECK(fresnel(1e-4f, 1, 1.5f) > 0.99f);
+    const double brewster = std::atan(1.5); // one polarisation is not reflected at all
+    const double ratio = (1 - 1.5 * 1.5) / (1 + 1.5 * 1.5);
+    CHECK(fresnel(float(std::cos(brewster)), 1, 1.5f) ==
+          doctest::Approx(ratio * ratio / 2).epsilon(1e-4));
+    for (const double theta : {0.2, 0.6, 1.0, 1.4}) { // the same from the other side
+        const double behind = std::asin(std::sin(theta) / 1.5);
+        const float share = fresnel(float(std::cos(theta)), 1, 1.5f);
+        CHECK(share > 0.03f);
+        CHECK(fresnel(float(std::cos(behind)), 1.5f, 1) ==
+              doctest::Approx(share).epsilon(1e-3));
+    }
+}
+
+TEST_CASE("2.5 (3 points) a diffuse surface shows its lamps by cosine and distance") {
+    Room room{.objects{diffuse_ball}};
+    const Rgb f = Rgb{0.9f, 0.6f, 0.3f} / pi;
+    const auto see = [&] { return diffuse_light(room, *nearest(room, down), down); };
+    room.lamps = {{{0, 0, 3}, Rgb{8}}}; // 2 above the point that the ray meets
+    CHECK(distance(see(), f * 2.0f) < 1e-5f);
+    room.lamps = {{{2, 0, 3}, Rgb{8}}}; // 45 degrees, distance sqrt(8)
+    CHECK(distance(see(), f * std::sqrt(0.5f)) < 1e-5f);
+    room.lamps.push_back({{0, 0, 3}, Rgb{8}}); // lamps add up
+    CHECK(distance(see(), f * (2 + std::sqrt(0.5f))) < 1e-5f);
+    room.lamps.push_back({{3, 0, 0}, Rgb{800}}); // below the horizon
+    CHECK(distance(see(), f * (2 + std::sqrt(0.5f))) < 1e-5f);
+}
+
+TEST_CASE("2.6 (2 points) an object between lamp and surface casts a shadow") {
+    Room room{.objects{diffuse_ball, {ljus::Sphere{{1, 0, 2}, 0.3f}, {}}},
+              .lamps{{{2, 0, 3}, Rgb{8}}, {{0, 0, 3}, Rgb{8}}}};
+    const Rgb light = diffuse_light(room, *nearest(room, down), down);
+    CHECK(distance(light, Rgb{0.9f, 0.6f, 0.3f} / pi * 2.0f) < 1e-5f);
+}
+
+TEST_CASE("2.7 (1 point) a ray sees the sky and diffuse objects") {
+    const Room room{.objects{diffuse_ball}, .lamps{{{0, 0, 3}, Rgb{8}}}, .sky{1, 2, 3}};
+    CHECK(radiance(room, {.direction{0, 0, 1}, .t_min = 2}, 0) == Rgb{1, 2, 3});
+    CHECK(distance(radiance(room, down, 0), Rgb{0.9f, 0.6f, 0.3f} / pi * 2.0f) < 1e-5f);
+}
+
+TEST_CASE("2.8 (2 points) a mirror shows what lies behind it in its colour") {
+    const Room room{.objects{{ljus::Sphere{{0, 0, 0}, 1}, {Kind::mirror, Rgb{0.5f}}},
+                             {ljus::Sphere{{5, 0, 1}, 1}, {.color = Rgb{1}}}},
+                    .lamps{{{2, 0, 1}, Rgb{4}}}, // at distance 2 of the diffuse ball
+                    .sky = Rgb{3}};
+    // It meets the mirror at 45 degrees, and is turned towards the diffuse ball.
+    const float h = std::sqrt(0.5f);
+    const Ray ray{.origin{h, 0, 5}, .direction{0, 0, -1}};
+    const Rgb seen = radiance(room, ray, 2);
+    CHECK(seen.x > 0.1f);
+    CHECK(seen.x < 0.5f / pi);
+    const Rgb sky = radiance(room, {.origin{0, h, 5}, .direction{0, 0, -1}}, 2);
+    CHECK(distance(sky, Rgb{1.5f}) < 1e-5f);
+}
+
+TEST_CASE("2.9 (3 points) a glass ball in an even sky cannot be seen") {
+    const Room room{.objects{{ljus::Sphere{{0, 0, 0}, 1}, {.kind = Kind::glass}}},
+                    .sky = Rgb{1}};
+    for (const float beside : {0.0f, 0.3f, 0.7f, 0.9f, 0.97f}) {
+        const Ray ray{.origin{beside, 0, 5}, .direction{0, 0, -1}};
+        CAPTURE(beside);
+        CHECK(radiance(room, ray, 12).x == doctest::Approx(1).epsilon(0.01));
+    }
+}
+
+TEST_CASE("2.10 (3 points) glass shows what it lets through and what it throws back") {
+    // Along the axis 4 % are thrown back at each surface: seen through the ball,
+    // T^2 (1 + R^2 + R^4 + ...) = T^2/(1 - R^2) of what lies behind.
+    Room room{
+        .objects{{ljus::Sphere{{0, 0, 5}, 1}, {.kind = Kind::glass}}, diffuse_ball},
+        .lamps{{{3, 0, 4}, Rgb{8}}}};
+    const Ray ray{.origin{0, 0, 9}, .direction{0, 0, -1}};
+    const float behind = 0.9f / pi * 8 * std::sqrt(0.5f) / 18;
+    const float share = 0.96f * 0.96f / (1 - 0.04f * 0.04f);
+    CHECK(radiance(room, ray, 10).x == doctest::Approx(behind * share).epsilon(1e-4));
+    room.lamps = {};
+    room.objects.pop_back();
+    room.objects.push_back({ljus::Quad{{-9, -9, -9}, {0, 18, 0}, {18, 0, 0}}, {}});
+    room.sky = Rgb{1}; // and before it, of the sky: R + T^2 R (1 + R^2 + ...)
+    CHECK(radiance(room, ray, 10).x ==
+          doctest::Approx(0.04f + share * 0.04f).epsilon(2e-4));
+}
+
+TEST_CASE("2.11 (1 point) between two mirrors a ray ends at its depth") {
+    const Room room{
+        .objects{
+            {ljus::Quad{{-9, -9, 0}, {18, 0, 0}, {0, 18, 0}}, {Kind::mirror, Rgb{1}}},
+            {ljus::Quad{{-9, -9, 9}, {0, 18, 0}, {18, 0, 0}}, {Kind::mirror, Rgb{1}}},
+            diffuse_ball},
+        .sky = Rgb{1}};
+    const Ray ray{.origin{5, 5, 5}, .direction{0, 0, -1}};
+    CHECK(ljus::is_black(radiance(room, ray, 20)));
+    const Ray out{.origin{5, 5, 5}, .direction = normalize(Vec3{5, 0, 1})};
+    CHECK(radiance(room, out, 20).x == doctest::Approx(1));
+}
+
+} // namespace course_tests

@@ -1,0 +1,164 @@
+// Assignment 4: a test is a sentence that must hold. Points stand in its name. Means
+// are compared with closed forms and with quadrature within five standard errors: a
+// right answer fails a check once in 1.7 million seeds, and the seeds are fixed. Any
+// right estimator will do.
+#include <answer.hpp> // first: it must bring what it needs
+
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include <doctest/doctest.h>
+
+#include "course/check.hpp"
+
+namespace course_tests { // its names come before yours
+
+using namespace answer;
+using course::Mean;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// A floor, and a square lamp of side 2 that hangs at a height and shines down.
+Object lamp_at(float x, float height, Rgb radiance) {
+    return {ljus::Quad{{x - 1, -1, height}, {0, 2, 0}, {2, 0, 0}},
+            {.color = Rgb{0}, .emission = radiance}};
+}
+const Object floor_of_half{ljus::Quad{{-50, -50, 0}, {100, 0, 0}, {0, 100, 0}},
+                           {.color = Rgb{0.5f}}};
+const Ray down{.origin{0, 0, 0.5f}, .direction{0, 0, -1}};
+
+/// The irradiance of the origin by lamp_at(), by the midpoint rule over the lamp.
+double irradiance(double x, double height, double radiance) {
+    double sum = 0;
+    constexpr int n = 400;
+    for (int i = 0; i < n * n; ++i) {
+        const double px = x - 1 + 2 * (i % n + 0.5) / n;
+        const double py = -1 + 2 * (int(i / n) + 0.5) / n;
+        const double r2 = px * px + py * py + height * height;
+        sum += height * height / (r2 * r2); // both cosines are height / r
+    }
+    return radiance * sum * 4 / (n * n);
+}
+
+/// A lamp, a black ball of radius r that emits 1, in the middle of a ball of radius 1
+/// with a diffuse inside. The wall gets r^2 pi from the lamp; the share r^2 of what it
+/// sends back falls onto the lamp and is lost.
+struct Globe {
+    float r = 0.3f, albedo = 0.5f;
+    Room room() const {
+        return {.objects{
+            {ljus::Sphere{{0, 0, 0}, 1}, {.color = Rgb{albedo}}},
+            {ljus::Sphere{{0, 0, 0}, r}, {.color = Rgb{0}, .emission = Rgb{1}}}}};
+    }
+    double direct() const { return double(albedo) * double(r) * double(r); }
+    double all() const {
+        return direct() / (1 - double(albedo) * (1 - double(r) * double(r)));
+    }
+    Ray to_wall() const {
+        return {.origin{0, 0, (1 + r) / 2}, .direction = normalize(Vec3{1, 2, 2})};
+    }
+};
+
+Mean paths(const Room& room, const Ray& ray, int count) {
+    auto stream = course::stream(11);
+    Mean mean;
+    for (int i = 0; i < count; ++i) mean.add(double(radiance(room, ray, stream).x));
+    return mean;
+}
+
+Mean shadow_rays(const Room& room, int count) {
+    auto stream = course::stream(12);
+    const auto surface = nearest(room, down);
+    Mean mean;
+    for (int i = 0; i < count; ++i)
+        mean.add(double(direct_light(room, *surface, down, stream).x));
+    return mean;
+}
+
+} // namespace
+
+TEST_CASE("4.1 (2 points) points are chosen on lamps only and their density is right") {
+    Room room{.objects{floor_of_half, lamp_at(0, 2, Rgb{1}), lamp_at(5, 2, Rgb{1})}};
+    auto stream = course::stream(10);
+    Mean left, area;
+    for (int i = 0; i < 20000; ++i) {
+        const auto chosen = choose_lamp_point(room, stream);
+        REQUIRE(chosen);
+        REQUIRE(chosen->lamp != nullptr);
+        REQUIRE_FALSE(ljus::is_black(chosen->lamp->matter.emission));
+        REQUIRE(chosen->point.position.z == doctest::Approx(2));
+        REQUIRE(chosen->density > 0);
+        const double share = 1 / double(chosen->density);
+        area.add(share);
+        left.add(chosen->point.position.x < 0 ? share : 0);
+    }
+    CHECK(area.agrees(8, 1e-4));
+    CHECK(left.agrees(2, 1e-4));
+    room.objects.resize(1);
+    CHECK_FALSE(choose_lamp_point(room, stream));
+}
+
+TEST_CASE("4.2 (3 points) direct light is the integral over the lamp") {
+    for (const float x : {0.0f, 1.5f}) {
+        const Room room{.objects{floor_of_half, lamp_at(x, 2, Rgb{3})}};
+        const double exact = 0.5 / pi * irradiance(double(x), 2, 3);
+        CHECK(shadow_rays(room, 40000).agrees(exact, 1e-5));
+    }
+}
+
+TEST_CASE("4.3 (2 points) several lamps add up") {
+    const Room room{
+        .objects{floor_of_half, lamp_at(0, 2, Rgb{3}), lamp_at(3, 1, Rgb{5})}};
+    const double exact = 0.5 / pi * (irradiance(0, 2, 3) + irradiance(3, 1, 5));
+    CHECK(shadow_rays(room, 40000).agrees(exact, 1e-5));
+}
+
+TEST_CASE("4.4 (2 points) what is between casts a shadow and a lamp has one side") {
+    Room room{.objects{floor_of_half,
+                       lamp_at(0, 2, Rgb{3}),
+                       lamp_at(3, 1, Rgb{5}),
+                       {ljus::Quad{{1, -2, 0.6f}, {3, 0, 0}, {0, 4, 0}}, {}}}};
+    const double exact = 0.5 / pi * irradiance(0, 2, 3);
+    CHECK(shadow_rays(room, 40000).agrees(exact, 1e-5));
+    room.objects.push_back({ljus::Quad{{-1, -1, 0.7f}, {2, 0, 0}, {0, 2, 0}},
+                            {.color = Rgb{0}, .emission = Rgb{9}}}); // it shines up
+    CHECK(shadow_rays(room, 2000).mean() == 0);
+    CHECK(shadow_rays({.objects{floor_of_half, lamp_at(0, 2, Rgb{3})}}, 99).mean() > 0);
+}
+
+TEST_CASE("4.5 (2 points) a shadow ray has less noise than a path by chance") {
+    // A path that hits the lamp by chance p carries 0.5 L: its variance is 0.25 L^2 p.
+    const Room room{.objects{floor_of_half, lamp_at(0, 4, Rgb{3})}};
+    const double chance = irradiance(0, 4, 3) / (3 * pi);
+    const Mean mean = shadow_rays(room, 20000);
+    CHECK(mean.mean() > 0);
+    CHECK(mean.variance() < 0.25 * 9 * chance * (1 - chance) / 10);
+}
+
+TEST_CASE("4.6 (1 point) a ray that meets a lamp sees its radiance") {
+    const Room room{.objects{lamp_at(0, 2, Rgb{3})}};
+    const Mean below = paths(room, {.direction{0, 0, 1}}, 10);
+    CHECK(below.mean() == doctest::Approx(3));
+    CHECK(paths(room, {.origin{0, 0, 4}, .direction{0, 0, -1}}, 10).mean() == 0);
+    CHECK(paths(room, {.direction{1, 0, 0}}, 10).mean() == 0); // no sky
+}
+
+TEST_CASE("4.7 (3 points) a closed room has the light of all bounces") {
+    for (const float albedo : {0.2f, 0.5f, 0.8f}) {
+        const Globe globe{.albedo = albedo};
+        CAPTURE(albedo);
+        CHECK(paths(globe.room(), globe.to_wall(), 40000).agrees(globe.all(), 2e-4));
+    }
+}
+
+TEST_CASE("4.8 (3 points) a large lamp is not counted twice") {
+    const Globe globe{.r = 0.8f};
+    CHECK(paths(globe.room(), globe.to_wall(), 40000).agrees(globe.all(), 2e-4));
+}
+
+TEST_CASE("4.9 (2 points) paths between white walls end and lose nothing") {
+    const Globe globe{.r = 0.4f, .albedo = 0.97f};
+    CHECK(paths(globe.room(), globe.to_wall(), 40000).agrees(globe.all(), 2e-4));
+}
+
+} // namespace course_tests

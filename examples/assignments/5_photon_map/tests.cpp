@@ -1,0 +1,203 @@
+// Assignment 5: a test is a sentence that must hold. Points stand in its name. Means
+// are compared with closed forms within five standard errors: a right answer fails a
+// check once in 1.7 million seeds, and the seeds are fixed. Any right estimator will
+// do.
+#include <answer.hpp> // first: it must bring what it needs
+
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include <doctest/doctest.h>
+
+#include "course/check.hpp"
+
+namespace course_tests { // its names come before yours
+
+using namespace answer;
+using course::Mean;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// A square lamp of side 2 at height 2 that shines down: its flux is 4 pi L.
+Object lamp_at(float x, Rgb radiance) {
+    return {ljus::Quad{{x - 1, -1, 2}, {0, 2, 0}, {2, 0, 0}},
+            {.color = Rgb{0}, .emission = radiance}};
+}
+
+/// A lamp, a black ball of radius r that emits 1, in the middle of a ball of radius 1
+/// with a diffuse inside. Of what the wall sends back the share r^2 falls onto the
+/// lamp.
+struct Globe {
+    float r = 0.3f, albedo = 0.5f;
+    Room room() const {
+        return {.objects{
+            {ljus::Sphere{{0, 0, 0}, 1}, {.color = Rgb{albedo}}},
+            {ljus::Sphere{{0, 0, 0}, r}, {.color = Rgb{0}, .emission = Rgb{1}}}}};
+    }
+    double flux() const { return 4 * pi * pi * double(r) * double(r); }
+    /// What arrives at the wall, after any number of bounces.
+    double arrives() const {
+        return flux() / (1 - double(albedo) * (1 - double(r) * double(r)));
+    }
+    /// And the radiance that it makes the wall send out.
+    double radiance() const { return double(albedo) / pi * arrives() / (4 * pi); }
+};
+
+/// What each emitted photon leaves on the wall of a globe, times how many there are.
+Mean on_the_wall(const Globe& globe, int count, std::vector<Photon>& all) {
+    const Room room = globe.room();
+    auto stream = course::stream(21);
+    Mean mean;
+    for (int i = 0; i < count; ++i) {
+        const std::size_t before = all.size();
+        follow(room, emit(room, count, stream), stream, all);
+        double flux = 0;
+        for (std::size_t k = before; k < all.size(); ++k)
+            if (length(all[k].position) > 0.9f) flux += double(all[k].flux.x);
+        mean.add(flux * count);
+    }
+    return mean;
+}
+
+/// Photons on a fine grid of the square [-1, 1]^2 at a height, 3 W per unit of area.
+std::vector<Photon> rain(float height, Vec3 direction) {
+    std::vector<Photon> photons;
+    constexpr int n = 300;
+    for (int i = 0; i < n * n; ++i)
+        photons.push_back({{-1 + 2 * (float(i % n) + 0.5f) / n,
+                            -1 + 2 * (float(int(i / n)) + 0.5f) / n, height},
+                           normalize(direction),
+                           Rgb{12.0f / (n * n)}});
+    return photons;
+}
+const Object floor_of_half{ljus::Quad{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}},
+                           {.color = Rgb{0.5f}}};
+const Ray down{.origin{0, 0, 1}, .direction{0, 0, -1}};
+
+double seen(const std::vector<Photon>& photons, const Ray& ray = down) {
+    const Room room{.objects{floor_of_half}};
+    const PhotonMap map(photons);
+    return double(estimate(map, *nearest(room, ray), ray, 0.3f).x);
+}
+
+} // namespace
+
+TEST_CASE("5.1 (2 points) all photons together carry the flux of all lamps") {
+    const Room room{.objects{lamp_at(0, Rgb{1, 2, 3}), lamp_at(9, Rgb{3, 3, 3})}};
+    auto stream = course::stream(20);
+    constexpr int count = 20000;
+    Mean red, blue, left;
+    for (int i = 0; i < count; ++i) {
+        const Flight flight = emit(room, count, stream);
+        red.add(count * double(flight.flux.x));
+        blue.add(count * double(flight.flux.z));
+        left.add(flight.ray.origin.x < 5 ? count * double(flight.flux.y) : 0);
+    }
+    CHECK(red.agrees(16 * pi, 1e-3));
+    CHECK(blue.agrees(24 * pi, 1e-3));
+    CHECK(left.agrees(8 * pi, 1e-3));
+    CHECK(emit({.objects{floor_of_half}}, 1, stream).flux == Rgb{0}); // no lamp
+}
+
+TEST_CASE("5.2 (2 points) a lamp sends its flux along the cosine") {
+    const Room room{.objects{lamp_at(0, Rgb{1})}};
+    auto stream = course::stream(22);
+    constexpr int count = 40000;
+    Mean cosine, square, side, place;
+    for (int i = 0; i < count; ++i) {
+        const Flight flight = emit(room, count, stream);
+        REQUIRE(length(flight.ray.direction) == doctest::Approx(1).epsilon(1e-4));
+        const double c = -double(flight.ray.direction.z);
+        REQUIRE(c >= 0);
+        const double share = count * double(flight.flux.x) / (4 * pi);
+        cosine.add(c * share);
+        square.add(c * c * share);
+        side.add(double(flight.ray.direction.x) * share);
+        place.add(double(flight.ray.origin.x * flight.ray.origin.x) * share);
+    }
+    CHECK(cosine.agrees(2.0 / 3));
+    CHECK(square.agrees(0.5));
+    CHECK(side.agrees(0));
+    CHECK(place.agrees(1.0 / 3));
+}
+
+TEST_CASE("5.3 (2 points) a black wall gets the flux of the lamp") {
+    const Globe globe{.albedo = 0};
+    std::vector<Photon> stored;
+    CHECK(on_the_wall(globe, 5000, stored).agrees(globe.flux(), 1e-3));
+    REQUIRE(!stored.empty());
+    const Photon& photon = stored.front();
+    CHECK(length(photon.position) == doctest::Approx(1).epsilon(1e-3));
+    CHECK(length(photon.direction) == doctest::Approx(1).epsilon(1e-4));
+    CHECK(dot(photon.direction, photon.position) > 0); // it came from within
+}
+
+TEST_CASE("5.4 (3 points) what arrives in all bounces adds up") {
+    for (const float albedo : {0.3f, 0.8f}) {
+        const Globe globe{.albedo = albedo};
+        std::vector<Photon> stored;
+        CAPTURE(albedo);
+        CHECK(on_the_wall(globe, 40000, stored).agrees(globe.arrives(), 1e-3));
+    }
+}
+
+TEST_CASE("5.5 (2 points) survivors of roulette are no weaker than they were") {
+    // Grey walls: by roulette with the albedo every stored photon has the same flux.
+    const Globe globe{.albedo = 0.6f};
+    std::vector<Photon> stored;
+    const Mean mean = on_the_wall(globe, 20000, stored);
+    const double per_photon = globe.flux() / 20000;
+    const double photons = double(stored.size()) / 20000;
+    CHECK(mean.mean() > globe.flux());
+    CHECK(photons < 1.3 * globe.arrives() / globe.flux()); // not a crowd of weak ones
+    for (const Photon& photon : stored)
+        REQUIRE(double(photon.flux.x) < 1.5 * per_photon);
+}
+
+TEST_CASE("5.6 (1 point) the mean of the kernel over the disc is 1") {
+    double mean = 0;
+    for (int i = 0; i < 1000; ++i)
+        mean += double(kernel((float(i) + 0.5f) / 1000)) / 1000;
+    CHECK(mean == doctest::Approx(1).epsilon(1e-3));
+    CHECK(kernel(0) == doctest::Approx(2));
+    CHECK(kernel(0.5f) == doctest::Approx(1));
+    CHECK(kernel(1) == doctest::Approx(0).epsilon(1e-6));
+}
+
+TEST_CASE("5.7 (3 points) even photons make an even floor whatever their direction") {
+    const double exact = 0.5 / pi * 3;
+    CHECK(seen(rain(0, {0, 0, -1})) == doctest::Approx(exact).epsilon(0.01));
+    CHECK(seen(rain(0, {2, 1, -1})) == doctest::Approx(exact).epsilon(0.01));
+}
+
+TEST_CASE("5.8 (3 points) only photons of this side of this surface count") {
+    std::vector<Photon> photons = rain(0, {0, 0, -1});
+    const auto add = [&](const std::vector<Photon>& more) {
+        photons.insert(photons.end(), more.begin(), more.end());
+    };
+    const double exact = 0.5 / pi * 3;
+    add(rain(0, {0, 1, 1}));       // they came from below
+    add(rain(-0.25f, {0, 0, -1})); // they are of another floor
+    CHECK(seen(photons) == doctest::Approx(exact).epsilon(0.01));
+    const Ray up{.origin{0, 0, -0.1f}, .direction{0, 0, 1}}; // the same from below
+    CHECK(seen(photons, up) == doctest::Approx(exact).epsilon(0.01));
+}
+
+TEST_CASE("5.9 (4 points) the map of a closed room shows the light of all bounces") {
+    const Globe globe{.albedo = 0.7f};
+    const Room room = globe.room();
+    Mean mean;
+    for (int run = 0; run < 40; ++run) { // each a map of its own
+        auto stream = course::stream(static_cast<std::uint64_t>(100 + run));
+        std::vector<Photon> stored;
+        for (int i = 0; i < 4000; ++i)
+            follow(room, emit(room, 4000, stream), stream, stored);
+        const Ray ray{.origin{0, 0, 0.6f}, .direction = normalize(Vec3{1, 2, 2})};
+        mean.add(double(estimate(PhotonMap(stored), *nearest(room, ray), ray, 0.2f).x));
+    }
+    CHECK(mean.mean() > 0);
+    // A disc of radius 0.2 on a ball of radius 1 is curved: 2 % for what that changes.
+    CHECK(mean.agrees(globe.radiance(), 0.02 * globe.radiance()));
+}
+
+} // namespace course_tests

@@ -1,0 +1,33 @@
+#pragma once
+
+/// \file examples/common/plain_triangle.hpp
+/// \brief The formula of Möller and Trumbore as it stands on paper.
+
+#include <optional>
+
+#include "ljus/geometry/triangle.hpp"
+
+namespace examples {
+
+/// Where a ray meets a triangle: the plain twin of ljus::intersect(), in float.
+/// \param ray       Hits count in [t_min, t_max].
+/// \param triangle  One with an area.
+/// \return The hit, if there is one. Near edges float decides wrongly at times.
+// [plain]
+[[nodiscard]] inline std::optional<ljus::FlatHitT<float>>
+intersect_plainly(const ljus::Ray& ray, const ljus::Triangle& triangle) {
+    using ljus::Vec3;
+    const Vec3 e1 = triangle.v2 - triangle.v1, e2 = triangle.v3 - triangle.v1;
+    const Vec3 to = ray.origin - triangle.v1;
+    const Vec3 p = glm::cross(ray.direction, e2), q = glm::cross(to, e1);
+    const float determinant = glm::dot(p, e1);
+    const float t = glm::dot(q, e2) / determinant;
+    const float u = glm::dot(p, to) / determinant;
+    const float v = glm::dot(q, ray.direction) / determinant;
+    if (!(u >= 0 && v >= 0 && u + v <= 1)) return std::nullopt; // NaN is a miss
+    if (!(ray.t_min <= t && t <= ray.t_max)) return std::nullopt;
+    return ljus::FlatHitT<float>{.t = t, .u = u, .v = v};
+}
+// [plain]
+
+} // namespace examples

@@ -1,0 +1,155 @@
+#pragma once
+
+/// \file ljus/flatland/material.hpp
+/// \brief What surfaces of the plane do with light: Lambert, a mirror, glass.
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <variant>
+
+#include "ljus/materials/material.hpp"
+#include "ljus/math/vector.hpp"
+#include "ljus/optics/fresnel.hpp"
+#include "ljus/optics/refraction.hpp"
+
+/// A world of two dimensions with the concepts of the book: \ref ch_flatland.
+namespace ljus::flatland {
+
+/// \defgroup flatland_material Flatland: materials
+/// \brief Section 3.2.1 with a dimension less: angles in place of solid angles.
+///
+/// The functions are those of \ref bsdf "a material in space", with the same names. The
+/// frame of a surface has x along the surface and y along its normal; `wo` and `wi`
+/// point away from it. Light has one channel. Everything is computed in double.
+/// \{
+
+using Vec2 = Vec2T<double>; ///< A point or a direction of the plane.
+
+/// A diffuse surface: the same radiance in all directions.
+struct Lambertian {
+    double albedo = 0.5; ///< What it reflects of the flux that arrives, in [0, 1].
+};
+
+/// A mirror.
+struct Mirror {
+    double reflectance = 1; ///< In [0, 1].
+};
+
+/// The boundary of clear glass: inside is where the normal does not point.
+struct Glass {
+    double index = 1.5; ///< Index of refraction.
+};
+
+/// What a surface may be made of.
+using Material = std::variant<Lambertian, Mirror, Glass>;
+
+/// One scattered direction.
+struct BsdfSample {
+    Vec2 wi{0, 1};         ///< Where the light comes from; unit vector.
+    double weight = 0;     ///< f |cos|/pdf: what the path is multiplied by.
+    double pdf = 0;        ///< Per radian; 0: a delta.
+    bool specular = false; ///< Whether `wi` is a delta's direction.
+    double eta_scale = 1;  ///< What of the weight is n_i/n_t, and no loss of light.
+};
+
+/// A direction with the density cos(theta)/2: its foot on the surface is uniform in
+/// [-1, 1], the shadow of the half circle. (In space: uniform on a disc.)
+/// \param u  In [0, 1).
+/// \return Unit vector with y >= 0.
+/// \report{Section 3.2.4}
+// [sample cosine]
+[[nodiscard]] inline Vec2 sample_cosine_half_circle(double u) noexcept {
+    return {2 * u - 1, 2 * std::sqrt(u * (1 - u))};
+}
+// [sample cosine]
+
+/// The density of sample_cosine_half_circle().
+/// \param d  Unit vector.
+/// \return cos(theta)/2 per radian, 0 below the surface.
+[[nodiscard]] constexpr double pdf_cosine_half_circle(const Vec2& d) noexcept {
+    return d.y > 0 ? d.y / 2 : 0;
+}
+
+/// The BRDF: radiance that leaves per irradiance. Deltas are left out.
+/// \param material  Of the surface.
+/// \param wo        To where the light goes.
+/// \param wi        To where it comes from.
+/// \return albedo/2 per radian on one side of a Lambertian surface: the integral of the
+///         cosine over the half circle is 2 (in space it is pi).
+/// \report{Section 3.2.1}
+// [evaluate]
+[[nodiscard]] inline double evaluate(const Material& material, const Vec2& wo,
+                                     const Vec2& wi) noexcept {
+    const auto* matt = std::get_if<Lambertian>(&material);
+    return matt && wo.y * wi.y > 0 ? matt->albedo / 2 : 0;
+}
+// [evaluate]
+
+/// Samples a Lambertian surface by the cosine, on the side of `wo`.
+/// \param surface  The surface.
+/// \param wo       To where the light goes.
+/// \param u        In [0, 1).
+/// \return The sample; nothing if `wo` lies on the surface.
+[[nodiscard]] inline std::optional<BsdfSample>
+sample(const Lambertian& surface, const Vec2& wo, double u, Transport) noexcept {
+    if (!(wo.y > 0 || wo.y < 0)) return std::nullopt;
+    const Vec2 up = sample_cosine_half_circle(u);
+    return BsdfSample{.wi{up.x, std::copysign(up.y, wo.y)},
+                      .weight = surface.albedo,
+                      .pdf = pdf_cosine_half_circle(up)};
+}
+
+/// The direction of a mirror.
+/// \param mirror  The mirror.
+/// \param wo      To where the light goes.
+/// \return Always a sample.
+/// \report{Section 3.2.4, Eq. (4)}
+[[nodiscard]] inline std::optional<BsdfSample>
+sample(const Mirror& mirror, const Vec2& wo, double, Transport) noexcept {
+    return BsdfSample{.wi{-wo.x, wo.y}, .weight = mirror.reflectance, .specular = true};
+}
+
+/// Reflection or refraction, each as often as it carries light. Snell's law and
+/// Fresnel's equations are those of space: its rays stay in the plane of incidence.
+/// \param glass      The glass.
+/// \param wo         To where the light goes; y < 0 is inside.
+/// \param u          In [0, 1); chooses the branch.
+/// \param transport  Radiance that comes from index n_t scales by n_i/n_t: Snell's law
+///                   keeps n cos(theta) d theta (in space the square of it). Flux does
+///                   not.
+/// \return Always a sample.
+/// \report{Section 3.2.5}
+// [sample glass]
+[[nodiscard]] inline std::optional<BsdfSample>
+sample(const Glass& glass, const Vec2& wo, double u, Transport transport) noexcept {
+    const bool outside = wo.y > 0;
+    const double n_i = outside ? 1 : glass.index;
+    const double n_t = outside ? glass.index : 1;
+    const auto refracted = ljus::refract(Vec3T<double>{wo.x, 0, wo.y}, n_i / n_t);
+    const double reflectance = ljus::fresnel(std::abs(wo.y), n_i, n_t);
+    if (!refracted || u < reflectance)
+        return BsdfSample{.wi{-wo.x, wo.y}, .weight = 1, .specular = true};
+    const double scale = transport == Transport::radiance ? n_i / n_t : 1;
+    return BsdfSample{.wi{refracted->x, refracted->z},
+                      .weight = scale,
+                      .specular = true,
+                      .eta_scale = scale};
+}
+// [sample glass]
+
+/// Samples whatever a surface is made of.
+/// \param material   The material.
+/// \param wo         To where the light goes: unit vector in the surface's frame.
+/// \param u          In [0, 1).
+/// \param transport  Radiance or flux.
+/// \return The sample; nothing if no light goes on.
+[[nodiscard]] inline std::optional<BsdfSample>
+sample(const Material& material, const Vec2& wo, double u, Transport transport) {
+    return std::visit([&](const auto& m) { return sample(m, wo, u, transport); },
+                      material);
+}
+
+/// \}
+
+} // namespace ljus::flatland

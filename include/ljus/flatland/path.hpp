@@ -1,0 +1,104 @@
+#pragma once
+
+/// \file ljus/flatland/path.hpp
+/// \brief The vertex of a path in the plane, and the two calls by which paths travel.
+
+#include "ljus/flatland/scene.hpp"
+#include "ljus/math/random.hpp"
+
+namespace ljus::flatland {
+
+/// \defgroup flatland_path Flatland: paths
+/// \brief Section 3.2: next_vertex() and continue_path(), as in space.
+/// \{
+
+/// Where a path arrived: ljus::VertexT with a dimension less. A frame of the plane is
+/// given by its normal alone.
+/// \report{Section 3.2}
+// [vertex]
+struct Vertex {
+    SurfacePoint point{}; ///< Position and geometric normal.
+    Vec2 wo{0, 1};        ///< To the vertex before: unit vector in the frame.
+    std::size_t id = 0;   ///< Which object.
+    Object object{};      ///< What it is made of, and whether it emits.
+    double distance = 0;  ///< From the vertex before.
+
+    /// Whether the surface emits towards `wo`: emission is one-sided.
+    [[nodiscard]] bool emits() const noexcept {
+        return wo.y > 0 && object.emission > 0;
+    }
+};
+// [vertex]
+
+/// A path on its way, from the eye or from a lamp.
+/// \report{Section 3.2.4}
+struct PathState {
+    Ray ray{};                 ///< Where it goes.
+    double throughput = 1;     ///< The factor of the radiance that it finds; of a
+                               ///< photon its flux, in W.
+    bool specular = false;     ///< Whether its last scattering was by a delta.
+    bool met_diffuse = false;  ///< Whether it was ever scattered by anything else.
+    bool met_specular = false; ///< Whether it was ever scattered by a delta.
+    int depth = 0;             ///< Vertices so far.
+};
+
+/// A vector of the world in the frame of a surface.
+[[nodiscard]] constexpr Vec2 to_local(const Vec2& normal, const Vec2& v) noexcept {
+    return {v.x * normal.y - v.y * normal.x, v.x * normal.x + v.y * normal.y};
+}
+
+/// A vector of a surface's frame in the world.
+[[nodiscard]] constexpr Vec2 to_world(const Vec2& normal, const Vec2& v) noexcept {
+    return {v.x * normal.y + v.y * normal.x, v.y * normal.y - v.x * normal.x};
+}
+
+/// Sends a path to its next vertex.
+/// \param scene   The scene.
+/// \param path    Gets its depth.
+/// \param stream  Moved to the start of the bounce.
+/// \return The vertex; nothing if the path leaves the scene.
+// [next_vertex]
+[[nodiscard]] inline std::optional<Vertex>
+next_vertex(const Scene& scene, PathState& path, RandomStream& stream) {
+    start_bounce(stream, static_cast<std::uint64_t>(++path.depth));
+    const auto hit = closest_hit(scene, path.ray);
+    if (!hit) return std::nullopt;
+    Vertex vertex{.id = hit->id, .object = scene.objects[hit->id], .distance = hit->t};
+    vertex.point.position = path.ray.origin + hit->t * path.ray.direction;
+    vertex.point.normal =
+        std::visit([&](const auto& s) { return normal(s, vertex.point.position); },
+                   vertex.object.shape);
+    vertex.wo = to_local(vertex.point.normal, -path.ray.direction);
+    return vertex;
+}
+// [next_vertex]
+
+/// Continues a path in a direction that the material samples, unless Russian roulette
+/// ends it: a path survives with the probability of its reflection, and keeps its
+/// throughput.
+/// \param path       Gets its new ray and throughput.
+/// \param vertex     Where it is.
+/// \param transport  What the path carries: radiance, or flux.
+/// \param stream     Two numbers are drawn.
+/// \return False if the path ends here: its light is absorbed.
+/// \report{Section 3.2.2}
+// [continue_path]
+[[nodiscard]] inline bool continue_path(PathState& path, const Vertex& vertex,
+                                        Transport transport, RandomStream& stream) {
+    const Vec2 u = next_2d<double>(stream);
+    const auto next = sample(vertex.object.material, vertex.wo, u.x, transport);
+    if (!next) return false;
+    const double probability = std::min(1.0, next->weight / next->eta_scale);
+    if (!(u.y < probability)) return false;
+    path.throughput *= next->weight / probability;
+    path.specular = next->specular;
+    (next->specular ? path.met_specular : path.met_diffuse) = true;
+    path.ray = {.origin = vertex.point.position,
+                .direction = to_world(vertex.point.normal, next->wi)};
+    return true;
+}
+// [continue_path]
+
+/// \}
+
+} // namespace ljus::flatland

@@ -1,0 +1,112 @@
+#pragma once
+
+/// \file ljus/flatland/photon_map.hpp
+/// \brief Photons of the plane: how they travel, and where they are stored.
+
+#include <utility>
+
+#include "ljus/flatland/light.hpp"
+#include "ljus/photons/photon.hpp"
+
+namespace ljus::flatland {
+
+/// \defgroup flatland_photon_map Flatland: photons
+/// \brief Sections 2.3 and 3.2.2 with a dimension less.
+/// \{
+
+/// A photon where it met a diffuse surface.
+/// \report{Section 2.3}
+struct Photon {
+    Vec2 position{0};                     ///< Where.
+    Vec2 direction{0};                    ///< Unit vector, the way it travels.
+    Vec2 normal{0, 1};                    ///< Of the surface.
+    double flux = 0;                      ///< In W.
+    PhotonKind kind = PhotonKind::direct; ///< What has happened to it.
+};
+
+/// The photons of a scene. Flatland has few: a list that is searched from end to end.
+/// For more there is chapter \ref ch_kd_tree.
+using PhotonMap = std::vector<Photon>;
+
+/// How photons are sent.
+struct PhotonPassSettings {
+    int photons = 10000;    ///< Photons that leave the lamps.
+    std::uint64_t seed = 1; ///< Of their random numbers.
+    int max_bounces = 1000; ///< Surfaces on a photon's path.
+};
+
+/// What kind of photon a path would leave where it is now.
+/// \param path  The path of a photon.
+[[nodiscard]] inline PhotonKind kind_of(const PathState& path) noexcept {
+    if (path.met_diffuse) return PhotonKind::indirect;
+    return path.met_specular ? PhotonKind::caustic : PhotonKind::direct;
+}
+
+/// Follows one photon until it is absorbed or leaves the scene.
+/// \param scene        The scene.
+/// \param path         The photon as it left its lamp.
+/// \param stream       Its numbers.
+/// \param max_bounces  Surfaces on its path, at most.
+/// \param visit        Called with the path and the vertex wherever it arrives.
+// [trace_photon]
+template <typename Visit>
+void trace_photon(const Scene& scene, PathState path, RandomStream& stream,
+                  int max_bounces, Visit&& visit) {
+    while (path.depth < max_bounces) {
+        const auto vertex = next_vertex(scene, path, stream);
+        if (!vertex) return;
+        visit(std::as_const(path), *vertex);
+        if (!continue_path(path, *vertex, Transport::flux, stream)) return;
+    }
+}
+// [trace_photon]
+
+/// Stores a photon where its path is, if the surface is diffuse.
+/// \param path    The path of the photon.
+/// \param vertex  Where it is.
+/// \param out     Takes it.
+inline void store_photon(const PathState& path, const Vertex& vertex, PhotonMap& out) {
+    if (!std::holds_alternative<Lambertian>(vertex.object.material)) return;
+    out.push_back({vertex.point.position, path.ray.direction, vertex.point.normal,
+                   path.throughput, kind_of(path)});
+}
+
+/// The numbers of one photon: the same for any number of photons.
+/// \param pass   Its seed.
+/// \param index  Which photon.
+[[nodiscard]] constexpr RandomStream photon_stream(const PhotonPassSettings& pass,
+                                                   int index) noexcept {
+    return random_stream(pass.seed, Pass::general_photons, 0,
+                         static_cast<std::uint64_t>(index));
+}
+
+/// Sends photons through a scene and stores them at every diffuse surface they meet.
+/// \param scene  The scene.
+/// \param pass   How many.
+/// \return The photons, in the order of their paths.
+/// \throws std::invalid_argument  if nothing emits, or check() refuses the scene.
+/// \report{Section 3.2.2}
+// [trace_photons]
+[[nodiscard]] inline PhotonMap trace_photons(const Scene& scene,
+                                             const PhotonPassSettings& pass) {
+    check(scene);
+    require(pass.photons >= 0, "pass.photons", static_cast<long long>(pass.photons),
+            "at least 0");
+    require_positive("the flux of the scene", flux(scene));
+    const double each = flux(scene) / pass.photons;
+    PhotonMap map;
+    for (int i = 0; i < pass.photons; ++i) {
+        RandomStream stream = photon_stream(pass, i);
+        const PathState photon = emit_photon(scene, each, stream);
+        trace_photon(scene, photon, stream, pass.max_bounces,
+                     [&](const PathState& path, const Vertex& vertex) {
+                         store_photon(path, vertex, map);
+                     });
+    }
+    return map;
+}
+// [trace_photons]
+
+/// \}
+
+} // namespace ljus::flatland

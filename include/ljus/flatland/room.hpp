@@ -1,0 +1,53 @@
+#pragma once
+
+/// \file ljus/flatland/room.hpp
+/// \brief A room of Flatland: four walls, a lamp, a mirror, a disc of glass.
+
+#include "ljus/flatland/light.hpp"
+
+namespace ljus::flatland {
+
+/// \defgroup flatland_room Flatland: a room
+/// \brief What chapter \ref ch_flatland draws; after the room of the report's
+/// figure 1. \report{Section 4.1}
+/// \{
+
+/// What the reader may move.
+struct RoomSettings {
+    Vec2 lamp{-0.45, 0.95};  ///< The middle of the lamp.
+    double index = 1.5;      ///< Of the disc of glass.
+    double albedo = 0.5;     ///< Of the walls.
+    double flux = 1;         ///< Of the lamp, in W.
+    double lamp_size = 0.03; ///< The lamp's radius, in metres.
+};
+
+/// The floor from end to end; its normal points up.
+inline constexpr Segment room_floor{.from{-1, 0}, .to{1, 0}};
+/// The disc of glass.
+inline constexpr Circle room_disc{.center{0.1, 0.45}, .radius = 0.25};
+/// The mirror, in the upper right corner.
+inline constexpr Segment room_mirror{.from{0.95, 0.6}, .to{0.6, 1.0}};
+/// How high the room is.
+inline constexpr double room_height = 1.1;
+
+/// Makes the room. The floor is its first object.
+/// \param settings  What may be moved.
+/// \return The scene.
+// [room]
+[[nodiscard]] inline Scene make_room(const RoomSettings& settings = {}) {
+    const Lambertian wall{settings.albedo};
+    const Circle lamp{settings.lamp, settings.lamp_size};
+    const Vec2 left = room_floor.from, right = room_floor.to, up{0, room_height};
+    return {{{room_floor, wall}, // counter-clockwise: the normals point into the room
+             {Segment{right, right + up}, wall},
+             {Segment{right + up, left + up}, wall},
+             {Segment{left + up, left}, wall},
+             {room_mirror, Mirror{0.95}},
+             {room_disc, Glass{settings.index}},
+             {lamp, Lambertian{0}, radiance_of(lamp, settings.flux)}}};
+}
+// [room]
+
+/// \}
+
+} // namespace ljus::flatland

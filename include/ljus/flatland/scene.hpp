@@ -1,0 +1,209 @@
+#pragma once
+
+/// \file ljus/flatland/scene.hpp
+/// \brief A scene of the plane: segments and circles, and what a ray of light meets.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "ljus/flatland/material.hpp"
+#include "ljus/math/require.hpp"
+
+namespace ljus::flatland {
+
+/// \defgroup flatland_scene Flatland: scenes
+/// \brief Section 3.1 with a dimension less: walls are segments, balls are circles.
+/// \{
+
+/// The part of a line on which hits count.
+/// \report{Definition 3.1}
+struct Ray {
+    Vec2 origin{0};        ///< Where it starts.
+    Vec2 direction{0, -1}; ///< Unit vector.
+    double t_min = 1e-9;   ///< Closest hit: a ray leaves the surface where it starts.
+    double t_max = std::numeric_limits<double>::infinity(); ///< Farthest hit.
+};
+
+/// A wall. Its normal points to the left of the way from one end to the other.
+struct Segment {
+    Vec2 from{0};  ///< One end.
+    Vec2 to{1, 0}; ///< The other end.
+};
+
+/// A ball, or a lamp. Its normal points outwards.
+/// \report{Definition 3.2}
+struct Circle {
+    Vec2 center{0};    ///< Its centre.
+    double radius = 1; ///< Above 0.
+};
+
+/// What a scene may consist of.
+using Shape = std::variant<Segment, Circle>;
+
+/// A point of a surface.
+struct SurfacePoint {
+    Vec2 position{0};  ///< Where.
+    Vec2 normal{0, 1}; ///< Unit vector.
+};
+
+/// A shape, what it is made of, and what it emits.
+struct Object {
+    Shape shape{};       ///< Where it is.
+    Material material{}; ///< What it does with light that arrives.
+    double emission = 0; ///< Radiance, W/(m rad), on the side of the normal.
+};
+
+/// Everything there is.
+struct Scene {
+    std::vector<Object> objects{}; ///< In any order.
+};
+
+/// Where a ray met an object.
+struct Hit {
+    double t = 0;       ///< Distance.
+    std::size_t id = 0; ///< The object's place in Scene::objects.
+};
+
+/// The distance at which a ray meets a segment: the point A + s (B - A) for which
+/// \f$ O + tD = A + s (B - A) \f$. Two equations of the plane for t and s; the cross
+/// product of each side with B - A, or with D, leaves one of them.
+/// \param ray      The ray.
+/// \param segment  The segment.
+/// \return t; nothing for a miss.
+/// \report{Section 3.1.5}
+// [intersect segment]
+[[nodiscard]] inline std::optional<double> intersect(const Ray& ray,
+                                                     const Segment& segment) noexcept {
+    const auto cross = [](const Vec2& a, const Vec2& b) {
+        return a.x * b.y - a.y * b.x;
+    };
+    const Vec2 along = segment.to - segment.from;
+    const Vec2 way = segment.from - ray.origin;
+    const double det = cross(ray.direction, along);
+    const double t = cross(way, along) / det;
+    const double s = cross(way, ray.direction) / det;
+    if (!(0 <= s && s <= 1)) return std::nullopt; // written so that NaN is a miss
+    if (!(ray.t_min <= t && t <= ray.t_max)) return std::nullopt;
+    return t;
+}
+// [intersect segment]
+
+/// The distance at which a ray meets a circle: chapter \ref ch_sphere as it is.
+/// \param ray     The ray.
+/// \param circle  The circle.
+/// \return The smaller t within the ray's range; nothing for a miss.
+/// \report{Section 3.1.4, Eqs. (2) and (3)}
+// [intersect circle]
+[[nodiscard]] inline std::optional<double> intersect(const Ray& ray,
+                                                     const Circle& circle) noexcept {
+    const Vec2 m = ray.origin - circle.center;
+    const double b = -glm::dot(m, ray.direction);
+    const Vec2 closest = m + b * ray.direction;
+    const double discriminant =
+        circle.radius * circle.radius - glm::dot(closest, closest);
+    if (!(discriminant >= 0)) return std::nullopt;
+    const double half_chord = std::sqrt(discriminant);
+    for (const double t : {b - half_chord, b + half_chord})
+        if (ray.t_min <= t && t <= ray.t_max) return t;
+    return std::nullopt;
+}
+// [intersect circle]
+
+/// The unit normal of a segment, everywhere the same.
+[[nodiscard]] inline Vec2 normal(const Segment& segment, const Vec2&) noexcept {
+    const Vec2 along = glm::normalize(segment.to - segment.from);
+    return {-along.y, along.x};
+}
+
+/// The unit normal of a circle at one of its points.
+[[nodiscard]] inline Vec2 normal(const Circle& circle, const Vec2& point) noexcept {
+    return (point - circle.center) / circle.radius;
+}
+
+/// How long a segment is; the sibling of an area.
+[[nodiscard]] inline double length(const Segment& segment) noexcept {
+    return glm::distance(segment.from, segment.to);
+}
+
+/// How long a circle is.
+[[nodiscard]] inline double length(const Circle& circle) noexcept {
+    return 2 * std::numbers::pi * circle.radius;
+}
+
+/// How long a shape is.
+[[nodiscard]] inline double length(const Shape& shape) {
+    return std::visit([](const auto& s) { return length(s); }, shape);
+}
+
+/// What a ray meets first.
+/// \param scene  The scene.
+/// \param ray    The ray.
+/// \return The hit; nothing if the ray leaves the scene.
+/// \cost A loop over all objects: larger scenes need chapter \ref ch_bvh.
+// [closest_hit]
+[[nodiscard]] inline std::optional<Hit> closest_hit(const Scene& scene, Ray ray) {
+    std::optional<Hit> closest;
+    for (std::size_t id = 0; id < scene.objects.size(); ++id) {
+        const auto t = std::visit([&](const auto& s) { return intersect(ray, s); },
+                                  scene.objects[id].shape);
+        if (!t) continue;
+        ray.t_max = *t;
+        closest = Hit{*t, id};
+    }
+    return closest;
+}
+// [closest_hit]
+
+/// Whether anything lies between two points.
+/// \param scene  The scene.
+/// \param from   One.
+/// \param to     The other.
+[[nodiscard]] inline bool occluded(const Scene& scene, const Vec2& from,
+                                   const Vec2& to) {
+    Ray ray{.origin = from, .direction = glm::normalize(to - from)};
+    ray.t_max = glm::distance(from, to) - ray.t_min;
+    return closest_hit(scene, ray).has_value();
+}
+
+/// Refuses a scene with an object that cannot be. Sizes are those of rooms: t_min of a
+/// ray is a distance that must be small beside them, and large beside rounding.
+/// \param scene  The scene.
+/// \throws std::invalid_argument  with name and value.
+inline void check(const Scene& scene) {
+    constexpr double largest = 1000;
+    const auto require_near = [](const Vec2& p) {
+        const double far = std::max(std::abs(p.x), std::abs(p.y));
+        require(std::isfinite(p.x) && std::isfinite(p.y) && far <= largest,
+                "the larger coordinate of a point", far, "at most 1000");
+    };
+    for (const Object& object : scene.objects) {
+        if (const auto* segment = std::get_if<Segment>(&object.shape)) {
+            require_near(segment->from);
+            require_near(segment->to);
+        } else {
+            require_near(std::get<Circle>(object.shape).center);
+        }
+        const double size = length(object.shape);
+        require(size >= 1e-6 && size <= 10 * largest, "the length of a shape", size,
+                "within [1e-6, 10000]");
+        if (const auto* matt = std::get_if<Lambertian>(&object.material))
+            require_unit("lambertian.albedo", matt->albedo);
+        if (const auto* mirror = std::get_if<Mirror>(&object.material))
+            require_unit("mirror.reflectance", mirror->reflectance);
+        if (const auto* glass = std::get_if<Glass>(&object.material))
+            require(glass->index >= 0.1 && glass->index <= 10, "glass.index",
+                    glass->index, "within [0.1, 10]");
+        require(std::isfinite(object.emission) && object.emission >= 0,
+                "object.emission", object.emission, "finite and at least 0");
+    }
+}
+
+/// \}
+
+} // namespace ljus::flatland

@@ -1,0 +1,104 @@
+#pragma once
+
+/// \file ljus/render/detail/sample_sums.hpp
+/// \brief The sums of the samples of pixels, of which some light may come later.
+
+#include <array>
+#include <span>
+
+#include "ljus/math/vector.hpp"
+#include "ljus/path/counts.hpp"
+#include "ljus/path/path_log.hpp"
+
+namespace ljus::detail {
+
+/// \addtogroup render
+/// \{
+
+/// A renderer that puts some map queries off, to answer those of many samples together.
+/// Its type `Later` is the log of these samples, and has
+///
+///     std::uint32_t item;  // which of the samples is being traced
+///     void finish(const R& renderer, Counts& counts, std::span<RgbT<T>> samples);
+///
+/// finish() adds the answers to the samples.
+template <typename R>
+concept AsksLater = requires {
+    typename R::Later;
+};
+
+/// What a renderer that asks at once puts off: nothing.
+template <typename R>
+struct LaterOf {
+    using Type = NoLog;                ///< The log of its samples.
+    static constexpr int together = 1; ///< So many samples are finished at a time.
+};
+/// For one that puts questions off.
+template <AsksLater R>
+struct LaterOf<R> {
+    using Type = typename R::Later;     ///< The log of its samples.
+    static constexpr int together = 64; ///< So many samples are finished at a time.
+};
+
+/// What the samples of a pixel have found. In double: a float would lose the last of
+/// 100 000 samples.
+struct PixelSums {
+    RgbT<double> sum{0};     ///< Of their radiance.
+    RgbT<double> squares{0}; ///< Of its squares.
+};
+
+/// Adds samples to the sums of their pixels, as soon as all of their light has come. An
+/// answer depends on its question alone, and not on those that are answered with it.
+template <typename R, std::floating_point T>
+class SampleSums {
+public:
+    /// \param renderer  Whose samples.
+    /// \param sums      Of all pixels that get samples.
+    /// \param cost      Counts what is asked later, and samples that are not finite.
+    SampleSums(const R& renderer, std::span<PixelSums> sums, Counts& cost)
+        : renderer_(renderer), sums_(sums), cost_(cost) {}
+
+    /// Adds a sample.
+    /// \param pixel  Its place in the sums.
+    /// \param trace  Called with a log; returns radiance and weight of the sample.
+    template <typename Trace>
+    void add(std::size_t pixel, const Trace& trace) {
+        const auto item = static_cast<std::size_t>(count_);
+        if constexpr (AsksLater<R>) later_.item = static_cast<std::uint32_t>(count_);
+        const auto found = trace(later_);
+        samples_[item] = found.radiance;
+        weights_[item] = found.weight;
+        pixels_[item] = pixel;
+        if (++count_ == LaterOf<R>::together) finish();
+    }
+    /// Adds what is left.
+    void finish() {
+        const auto count = static_cast<std::size_t>(count_);
+        if constexpr (AsksLater<R>)
+            later_.finish(renderer_, cost_, std::span(samples_.data(), count));
+        for (std::size_t i = 0; i < count; ++i) {
+            if (!is_finite(samples_[i])) {
+                ++cost_.rejected;
+                continue;
+            }
+            const RgbT<double> sample(weights_[i] * samples_[i]);
+            sums_[pixels_[i]].sum += sample;
+            sums_[pixels_[i]].squares += sample * sample;
+        }
+        count_ = 0;
+    }
+
+private:
+    const R& renderer_;
+    std::span<PixelSums> sums_;
+    Counts& cost_;
+    typename LaterOf<R>::Type later_{};
+    int count_ = 0;
+    std::array<RgbT<T>, LaterOf<R>::together> samples_;
+    std::array<T, LaterOf<R>::together> weights_;
+    std::array<std::size_t, LaterOf<R>::together> pixels_;
+};
+
+/// \}
+
+} // namespace ljus::detail

@@ -1,0 +1,79 @@
+/// \file plain_photon_mapper_test.cpp
+/// \brief The plain second pass of chapter 27 against the library's.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <type_traits>
+
+#include <doctest/doctest.h>
+
+#include <ljus/ljus.hpp>
+#include <ljus/scenes/cornell_box.hpp>
+
+#include "common/plain_photon_mapper.hpp"
+
+using namespace ljus;
+
+namespace {
+
+/// Mean and squared standard error of the brightness in each of 3 x 3 parts of a
+/// picture, over some seeds.
+struct Parts {
+    double mean[9] = {};
+    double error2[9] = {};
+};
+
+template <typename Renderer>
+Parts measure(const Renderer& renderer, const Camera& camera, int first_seed) {
+    constexpr int seeds = 24, side = 12;
+    Parts parts;
+    double squares[9] = {};
+    for (int i = 0; i < seeds; ++i) {
+        const Image image = render(renderer, camera,
+                                   {.width = side,
+                                    .height = side,
+                                    .samples = 100,
+                                    .seed = static_cast<std::uint64_t>(first_seed + i)})
+                                .image;
+        for (int part = 0; part < 9; ++part) {
+            double sum = 0;
+            for (int y = 0; y < side / 3; ++y)
+                for (int x = 0; x < side / 3; ++x) {
+                    const Rgb c =
+                        pixel(image, part % 3 * side / 3 + x, part / 3 * side / 3 + y);
+                    // A lamp in view is the same in both; what it lights is compared.
+                    sum += double(std::min(luminance(c), 4.0f));
+                }
+            parts.mean[part] += sum / seeds;
+            squares[part] += sum * sum / seeds;
+        }
+    }
+    for (int part = 0; part < 9; ++part)
+        parts.error2[part] =
+            (squares[part] - parts.mean[part] * parts.mean[part]) / (seeds - 1);
+    return parts;
+}
+
+} // namespace
+
+// Nine differences of two means of 24: beyond 5 standard errors (Student's t with 46
+// degrees of freedom) with a chance of 9 * 9e-6, once in 12 000 seeds.
+TEST_CASE("the plain photon mapper has the mean of the library's") {
+    const auto room = cornell_box();
+    const auto maps = make_photon_maps(room.scene, {.caustics{.photons = 20'000}});
+    const DensityEstimateSettings how{.radius = 0.1f};
+    using Room = std::remove_cvref_t<decltype(room.scene)>;
+    const examples::PlainPhotonMapper<Room> mapper{detail::IndexedT<Room>(room.scene),
+                                                   maps.caustics, how};
+    const auto plain = measure(mapper, room.camera, 1);
+    const auto full =
+        measure(make_photon_mapper(room.scene, maps, {.caustics_estimate = how}),
+                room.camera, 101);
+    for (int part = 0; part < 9; ++part) {
+        CAPTURE(part);
+        const double error = std::sqrt(plain.error2[part] + full.error2[part]);
+        CHECK(std::abs(plain.mean[part] - full.mean[part]) <= 5 * error);
+        CHECK(error < 0.02 * full.mean[part]); // or the check above could not fail
+    }
+}
