@@ -6,12 +6,33 @@
 
 #include <doctest/doctest.h>
 
+#include "ljus/geometry/sphere.hpp"
+#include "ljus/materials/lambertian.hpp"
+#include "ljus/render/path_tracing.hpp"
 #include "support/bsdf_checks.hpp"
 
 using ljus::Rgb, ljus::Vec3;
 using reader::Moon;
 
 static_assert(ljus::Material<Moon>);
+
+namespace reader {
+
+/// A mirror that reflects only red; it says nothing of what OnlySpecular spares it.
+struct RedMirror {
+    using Scalar = float;
+    static constexpr bool only_specular = true;
+};
+std::optional<ljus::BsdfSample> sample(const RedMirror&, const Vec3& wo, const Vec3&,
+                                       ljus::Transport, Lobes which = Lobes::all) {
+    if (!has(which, Lobes::specular) || wo.z == 0) return std::nullopt;
+    return ljus::specular_sample(Vec3{-wo.x, -wo.y, wo.z}, Rgb{1, 0, 0});
+}
+void check(const RedMirror&) {}
+
+} // namespace reader
+
+static_assert(ljus::Material<reader::RedMirror>);
 
 TEST_CASE("own material: f is the same with its directions exchanged") {
     for (const float k : {1.0f, 1.5f, 4.0f})
@@ -47,4 +68,28 @@ TEST_CASE("own material: what would make light is refused by name") {
                          std::invalid_argument);
     CHECK_THROWS_WITH_AS(check(Moon{.color = Rgb{1.1f}}),
                          doctest::Contains("moon.color"), std::invalid_argument);
+}
+
+TEST_CASE("own material: one that is only specular need not say that it has no f") {
+    const reader::RedMirror mirror;
+    CHECK(ljus::lobes(mirror) == ljus::Lobes::specular);
+    ljus_test::check_sampling(mirror, {0.6f, 0, -0.8f});
+    ljus_test::check_extremes(mirror, 1);
+    const auto back =
+        ljus_test::specular_albedo(mirror, {0.6f, 0, 0.8f}, ljus::Transport::radiance);
+    CHECK(back.x == doctest::Approx(1).epsilon(1e-9));
+    CHECK(back.y == 0);
+
+    // A ball of it inside a white lamp is red, whatever renders it.
+    using namespace ljus;
+    Scene<Shapes<Sphere>, Materials<Lambertian, reader::RedMirror>> scene;
+    const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
+    scene.add(Sphere{{0, 0, 0}, 3}, black, Rgb{1}, true);
+    scene.add(Sphere{{0, 0, 0}, 1}, scene.add(mirror));
+    RandomStream stream(1, 0);
+    const Ray ray{.origin{0.3f, 0.2f, 2}, .direction{0, 0, -1}};
+    Counts counts;
+    const Rgb seen = radiance(make_path_tracer(scene), ray, stream, counts);
+    CHECK(seen.x == doctest::Approx(1).epsilon(1e-5));
+    CHECK(seen.y == 0);
 }

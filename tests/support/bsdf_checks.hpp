@@ -21,6 +21,9 @@
 
 namespace ljus_test {
 
+// For a material of another namespace that leaves them to the library; see OnlySpecular.
+using ljus::evaluate, ljus::lobes, ljus::pdf;
+
 /// The share of light from everywhere that the parts with an f send to `wo`, by the
 /// midpoint rule in sin^2(theta) and phi: exact for a constant f.
 template <ljus::Material M>

@@ -112,20 +112,6 @@ diffuse_sample(const Vec3T<T>& wi, const RgbT<T>& weight, T density) noexcept {
     return {.wi = wi, .weight = weight, .pdf = density, .specular = false};
 }
 
-/// A material as the renderers see it; see the head of this page for the functions.
-template <typename M>
-concept Material = std::floating_point<typename M::Scalar> &&
-    requires(const M& m, const Vec3T<typename M::Scalar>& v, Transport transport,
-             Lobes which) {
-    { lobes(m) } -> std::same_as<Lobes>;
-    { evaluate(m, v, v) } -> std::same_as<RgbT<typename M::Scalar>>;
-    { pdf(m, v, v, which) } -> std::same_as<typename M::Scalar>;
-    {
-        sample(m, v, v, transport, which)
-        } -> std::same_as<std::optional<BsdfSampleT<typename M::Scalar>>>;
-    check(m);
-};
-
 /// A material without an f in 1/sr: it sends light into single directions, and says so
 /// by `static constexpr bool only_specular = true`. What it need not say then:
 template <typename M>
@@ -154,6 +140,20 @@ pdf(const M&, const Vec3T<typename M::Scalar>& /*wo*/,
     const Vec3T<typename M::Scalar>& /*wi*/, Lobes = Lobes::all) noexcept {
     return 0;
 }
+
+/// A material as the renderers see it; see the head of this page for the functions.
+template <typename M>
+concept Material = std::floating_point<typename M::Scalar> &&
+    requires(const M& m, const Vec3T<typename M::Scalar>& v, Transport transport,
+             Lobes which) {
+    { lobes(m) } -> std::same_as<Lobes>;
+    { evaluate(m, v, v) } -> std::same_as<RgbT<typename M::Scalar>>;
+    { pdf(m, v, v, which) } -> std::same_as<typename M::Scalar>;
+    {
+        sample(m, v, v, transport, which)
+        } -> std::same_as<std::optional<BsdfSampleT<typename M::Scalar>>>;
+    check(m);
+};
 
 /// The absorption inside, for every material that says nothing else: none.
 /// \return 0 per scene unit.
