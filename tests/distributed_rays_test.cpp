@@ -510,6 +510,8 @@ TEST_CASE("distributed rays: at the extremes") {
     CHECK_THROWS_WITH_AS((void)make_distributed(scene, {.max_depth = -1}),
                          "max_depth is -1; it must be at least 0.",
                          std::invalid_argument);
+    CHECK(make_distributed(scene, {.max_depth = 0}).settings.max_depth == 0);
+    CHECK(make_distributed(scene).settings.max_depth == 5);
     using Room = Scene<Shapes<Moving<Sphere>>, Materials<Lambertian>>;
     Room room;
     const auto matt = room.add(Lambertian{.albedo = Rgb{0.5f}});

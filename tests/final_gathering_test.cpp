@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <string>
+#include <utility>
 
 #include "ljus/materials/mirror.hpp"
 #include "ljus/materials/mixture.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/scenes/furnaces.hpp"
 #include "support/mean.hpp"
+#include "support/refusal.hpp"
 #include "support/within.hpp"
 
 using namespace ljus;
@@ -574,36 +578,73 @@ TEST_CASE("final gathering: what a material reflects of an irradiance") {
     CHECK(detail::seen_normal(vertex) == Vec3{0, -1, 0});
 }
 
-TEST_CASE("final gathering: settings that give no picture are refused") {
+TEST_CASE("final gathering: settings that give no picture are refused by a sentence") {
     const auto room = box_furnace(Rgb{1}, Rgb{0.5f});
-    const auto refused = [&](auto change) {
+    const PhotonMapsT<float> maps;
+    const auto refused = [&](auto change, const std::string& sentence) {
         PhotonMappingSettings settings;
         change(settings);
-        CHECK_THROWS_AS((void)make_photon_maps(room.scene, settings),
-                        std::invalid_argument);
+        CAPTURE(sentence);
+        CHECK(refusal([&] { check(settings); }) == sentence);
+        // Whoever takes settings looks at them.
+        CHECK(refusal([&] { (void)make_photon_maps(room.scene, settings); }) ==
+              sentence);
+        CHECK(refusal([&] { (void)make_photon_mapper(room.scene, maps, settings); }) ==
+              sentence);
+        PhotonMapsT<float> given;
+        CHECK(refusal([&] {
+                  add_irradiance_cache(given, room.scene, Camera{}, {}, settings);
+              }) == sentence);
     };
-    refused([](auto& s) { s.irradiance.every = 1; });
-    refused([](auto& s) { s.irradiance.nearest = 1; });
-    refused([](auto& s) { s.irradiance.nearest = 513; });
-    refused([](auto& s) { s.irradiance.radius = -1; });
-    refused([](auto& s) { s.irradiance.shadow_rays = 0; });
-    refused([](auto& s) { s.gather.rays = 0; });
-    refused([](auto& s) { s.gather.tile = 0; });
-    refused([](auto& s) { s.gather.nearest = 1; });
-    refused([](auto& s) { s.gather.nearest = 65; });
-    refused([](auto& s) { s.gather.reach = 0; });
-    refused([](auto& s) { s.gather.max_depth = 1; });
-    refused([](auto& s) { s.irradiance.radius = std::nanf(""); });
-    refused([](auto& s) { s.irradiance.radius = HUGE_VALF; });
-    refused([](auto& s) { s.gather.reach = HUGE_VALF; });
-    refused([](auto& s) { s.general_estimate.radius = -0.1f; });
-    refused([](auto& s) { s.general_estimate.thickness = 0; });
-    refused([](auto& s) { s.caustics_estimate.nearest = 1; });
-    refused([](auto& s) { s.max_depth = 0; });
-    refused([](auto& s) { s.shadow_rays = 0; });
-    refused([](auto& s) { s.caustics.photons = -1; });
-    refused([](auto& s) { s.general.photons = -1; });
-    refused([](auto& s) { s.skip.risk = 0; });
+    refused([](auto& s) { s.irradiance.every = 1; },
+            "irradiance.every is 1; it must be at least 2.");
+    for (const int nearest : {1, 513})
+        refused([&](auto& s) { s.irradiance.nearest = std::size_t(nearest); },
+                "irradiance.nearest is " + std::to_string(nearest) +
+                    "; it must be within [2, 512] (one photon sets the radius).");
+    for (const auto& [radius, text] :
+         {std::pair{-1.0f, "-1"}, {std::nanf(""), "NaN"}, {HUGE_VALF, "infinity"}})
+        refused([&, r = radius](auto& s) { s.irradiance.radius = r; },
+                std::string("irradiance.radius is ") + text +
+                    "; it must be at least 0 (0: chosen from the photons).");
+    refused([](auto& s) { s.irradiance.shadow_rays = 0; },
+            "irradiance.shadow_rays is 0; it must be at least 1.");
+    refused([](auto& s) { s.gather.rays = 0; },
+            "gather.rays is 0; it must be at least 1.");
+    refused([](auto& s) { s.gather.tile = 0; },
+            "gather.tile is 0; it must be at least 1.");
+    for (const int nearest : {1, 65})
+        refused([&](auto& s) { s.gather.nearest = std::size_t(nearest); },
+                "gather.nearest is " + std::to_string(nearest) +
+                    "; it must be within [2, 64].");
+    refused([](auto& s) { s.gather.reach = 0; },
+            "gather.reach is 0; it must be finite and above 0.");
+    refused([](auto& s) { s.gather.reach = HUGE_VALF; },
+            "gather.reach is infinity; it must be finite and above 0.");
+    refused([](auto& s) { s.gather.max_depth = 1; },
+            "gather.max_depth is 1; it must be at least 2.");
+    refused([](auto& s) { s.max_depth = 0; }, "max_depth is 0; it must be at least 1.");
+    refused([](auto& s) { s.shadow_rays = 0; },
+            "shadow_rays is 0; it must be at least 1.");
+    refused([](auto& s) { s.caustics.photons = -1; },
+            "caustics.photons is -1; it must be at least 0.");
+    refused([](auto& s) { s.general.photons = -2; },
+            "general.photons is -2; it must be at least 0.");
+    // These are judged by those whose settings they are.
+    const auto passed_on = [&](auto change, auto judge) {
+        PhotonMappingSettings settings;
+        change(settings);
+        const std::string sentence = refusal([&] { judge(settings); });
+        CHECK_FALSE(sentence.empty());
+        refused(change, sentence);
+    };
+    const auto of_caustics = [](const auto& s) { check(s.caustics_estimate); };
+    const auto of_general = [](const auto& s) { check(s.general_estimate); };
+    passed_on([](auto& s) { s.general_estimate.radius = -0.1f; }, of_general);
+    passed_on([](auto& s) { s.general_estimate.thickness = 0; }, of_general);
+    passed_on([](auto& s) { s.caustics_estimate.nearest = 1; }, of_caustics);
+    passed_on([](auto& s) { s.caustics_estimate.radius = -0.1f; }, of_caustics);
+    passed_on([](auto& s) { s.skip.risk = 0; }, [](const auto& s) { check(s.skip); });
     // The last that are none.
     PhotonMappingSettings least{.max_depth = 1, .indirect = IndirectLight::gather};
     least.caustics.photons = least.general.photons = 0;
@@ -614,7 +655,39 @@ TEST_CASE("final gathering: settings that give no picture are refused") {
     least.irradiance.nearest = 512;
     least.gather.nearest = 64;
     check(least);
-    refused([](auto& s) { s.caustics_estimate.radius = -0.1f; });
+    (void)make_photon_maps(room.scene, least);
+    (void)make_photon_mapper(room.scene, maps, least);
+}
+
+TEST_CASE("final gathering: what is meant where nothing is said") {
+    const PhotonMappingSettings silent;
+    CHECK(silent.max_depth == 1000);
+    CHECK(silent.roulette_depth == 4);
+    CHECK(silent.shadow_rays == 1);
+    CHECK(silent.direct == DirectLight::sampled);
+    CHECK_FALSE(silent.split_glass);
+    CHECK(silent.indirect == IndirectLight::rays);
+    CHECK(silent.caustic_budget == CausticBudget::as_seen);
+    CHECK(silent.general_estimate.radius == 0.3f);
+    CHECK(silent.skip.rule == SkipRule::none);
+    CHECK_FALSE(silent.skip.indirect_rays);
+    CHECK_FALSE(silent.keep_general_map);
+    CHECK(silent.gather.rays == 25);
+    CHECK(silent.gather.tile == 3);
+    CHECK(silent.gather.nearest == 6);
+    CHECK(silent.gather.reach == 1);
+    CHECK(silent.gather.max_depth == 100);
+    const GatherRayT<double> nowhere;
+    CHECK(nowhere.distance == std::numeric_limits<double>::infinity());
+    CHECK(nowhere.radiance == glm::dvec3{0});
+    const GatheredT<double> nothing;
+    CHECK(nothing.normal == glm::dvec3{0, 0, 1});
+    CHECK(nothing.distance == 0);
+    CHECK(nothing.spacing == 0);
+    const PhotonMapsT<float> maps;
+    CHECK(maps.complete);
+    CHECK(maps.cache.complete);
+    CHECK(maps.cache.empty());
 }
 
 TEST_CASE("final gathering: like normals, and surfaces that lean") {

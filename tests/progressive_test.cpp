@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "ljus/io/progressive_file.hpp"
@@ -466,11 +468,20 @@ TEST_CASE("progressive: radii and shares are chosen once, for all passes") {
 
 TEST_CASE("progressive: what cannot be is refused in a sentence") {
     const NoisyPass pass;
-    for (const double alpha : {0.0, -1.0, 1.5, std::nan("")}) {
+    for (const auto& [alpha, text] :
+         {std::pair{0.0, "0"}, {-1.0, "-1"}, {1.5, "1.5"}, {std::nan(""), "NaN"}}) {
         ProgressiveState state{.alpha = alpha};
-        CHECK(refusal([&] { add_pass(state, pass(1, 1).image); }).find("alpha is ") ==
-              0);
+        CHECK(refusal([&] { add_pass(state, pass(1, 1).image); }) ==
+              std::string("alpha is ") + text + "; it must be in (0, 1].");
     }
+    ProgressiveState steady{.alpha = 1}; // the last that is none: nothing shrinks
+    add_pass(steady, pass(1, 1).image);
+    CHECK(steady.shrink == 1);
+    const ProgressiveState silent;
+    CHECK(silent.alpha == 2.0 / 3);
+    CHECK(silent.block_side == 8);
+    CHECK(silent.shrink == 1);
+    CHECK(silent.passes == 0);
     ProgressiveState state{.block_side = 0};
     CHECK(refusal([&] { add_pass(state, pass(1, 1).image); }) ==
           "the side of a block is 0; it must be at least 1.");

@@ -5,6 +5,7 @@
 
 #include "ljus/geometry/moving.hpp"
 #include "ljus/image/texture.hpp"
+#include "ljus/materials/mixture.hpp"
 #include "ljus/materials/textured.hpp"
 #include "ljus/path/continue_path.hpp"
 #include "ljus/path/next_vertex.hpp"
@@ -589,4 +590,157 @@ TEST_CASE("vertex: coordinates of a texture, for those that look up by them") {
     Scene<Shapes<Quad>, Materials<Lambertian>> bare;
     const auto id = bare.add(Lambertian{});
     CHECK_FALSE(detail::uses_uv(bare, id));
+}
+
+TEST_CASE("vertex: a path keeps nothing of how it was scattered before") {
+    VertexT<double> vertex;
+    vertex.point.normal = {0, 0, 1};
+    vertex.frame = frame_around(D3{0, 0, 1});
+    const LambertianT<double> matt{.albedo{0.8, 0.5, 0.2}};
+    const MirrorT<double> mirror{.reflectance = D3{0.9}};
+    auto stream = random_stream(6, Pass::user, 0, 0);
+    PathStateT<double> path{.eta_scale = 0.5};
+    for (int turn = 0; turn < 3; ++turn) {
+        REQUIRE(continue_path(path, vertex, matt, Transport::radiance, Lobes::all,
+                              stream));
+        CHECK(path.pdf == doctest::Approx(path.ray.direction.z / std::numbers::pi));
+        CHECK_FALSE(path.specular);
+        CHECK(path.met_specular == (turn > 0)); // this it does keep
+        REQUIRE(continue_path(path, vertex, mirror, Transport::radiance, Lobes::all,
+                              stream));
+        CHECK(path.pdf == 0);
+        CHECK(path.specular);
+        CHECK(path.met_diffuse);
+        CHECK(path.met_specular);
+        CHECK(path.eta_scale == 0.5);
+    }
+}
+
+TEST_CASE("vertex: what two normals disagree about is sampled again, as it was asked") {
+    // Seen along the surface, a direction mirrored about the leaning normal lies below
+    // the surface. About its own normal Fresnel mirrors less: some go in, after all.
+    const D3 back = glm::normalize(D3{-0.9, 0.35, 0});
+    const auto vertex = leaning(back);
+    REQUIRE(vertex.wo.z > 0);
+    const GlassT<double> glass{.index = 1.5};
+    for (const Transport transport : {Transport::radiance, Transport::flux}) {
+        int refracted = 0;
+        for (int i = 0; i < 40; ++i) {
+            const double u = (i + 0.5) / 40;
+            const auto next = scatter(vertex, glass, D3{u, u, u}, transport);
+            REQUIRE(next);
+            const bool inside = next->wi.y < 0;
+            // In by the leaning normal from the first, or by the surface's own.
+            const D3 plane = inside ? glm::cross(next->wi, D3{0, 1, 0}) : D3{0};
+            const bool by_own = inside && std::abs(glm::length(plane) -
+                                                   std::abs(back.x) / 1.5) < 1e-9;
+            refracted += by_own;
+            const double scale =
+                inside && transport == Transport::radiance ? 1 / 2.25 : 1;
+            if (by_own || !inside)
+                CHECK(next->sample.weight.x == doctest::Approx(scale));
+            if (!inside)
+                CHECK(glm::distance(next->wi, D3{-back.x, back.y, 0}) < 1e-9);
+        }
+        CHECK(refracted > 5);
+    }
+    // Half a mirror, half matt: if the mirror is asked for, it is the mirror.
+    const MixtureT<double> half{.color{0.9, 0.9, 0.9}, .reflectivity = 0.5};
+    int matt = 0;
+    for (int i = 0; i < 40; ++i) {
+        const double u = (i + 0.5) / 40;
+        const auto next =
+            scatter(vertex, half, D3{u, u, u}, Transport::radiance, Lobes::specular);
+        REQUIRE(next);
+        CHECK(next->sample.specular);
+        CHECK(glm::distance(next->sample.weight, D3{0.5}) < 1e-12);
+        CHECK(glm::distance(next->wi, D3{-back.x, back.y, 0}) < 1e-9);
+        const auto any = scatter(vertex, half, D3{u, u, u}, Transport::radiance);
+        matt += !any || !any->sample.specular;
+    }
+    CHECK(matt > 5);
+}
+
+TEST_CASE("vertex: the numbers of a bounce are those of its place in the tree") {
+    const auto scene = slab();
+    for (const int depth : {0, 7})
+        for (const std::uint64_t branch :
+             {std::uint64_t(0), std::uint64_t(1) << 20, std::uint64_t(3) << 44}) {
+            auto stream = random_stream(4, Pass::user, 1, 2), twin = stream;
+            for (int i = 0; i < 5; ++i) (void)next_1d<double>(stream);
+            PathStateT<double> path{.ray{.origin{0, 0, 1}, .direction{0, 0, -1}},
+                                    .depth = depth,
+                                    .branch = branch};
+            REQUIRE(next_vertex(scene, path, stream));
+            CHECK(path.branch == branch);
+            start_bounce(twin, branch + std::uint64_t(depth) + 1);
+            CHECK(next_1d<double>(stream) == next_1d<double>(twin));
+        }
+}
+
+TEST_CASE("vertex: what stands in the way does so at its time") {
+    // A wall that goes from x = 0 to x = 10; with and without a pane beyond it.
+    const QuadT<double> wall{{-1, -1, 1}, {2, 0, 0}, {0, 2, 0}};
+    const QuadT<double> pane{{-30, -30, 2}, {60, 0, 0}, {0, 60, 0}};
+    const ThinGlassT<double> clear{1, D3{1}}; // reflects nothing
+    const auto check_in = [&](auto scene) {
+        const auto matt = scene.add(LambertianT<double>{});
+        scene.add(Moving<QuadT<double>>{wall, {10, 0, 0}}, matt);
+        for (const double time : {0.0, 0.25, 0.5, 1.0})
+            for (const double x : {0.0, 2.5, 5.0, 10.0}) {
+                const SurfacePointT<double> from{.position{x, 0, 0}, .normal{0, 0, 1}};
+                const SurfacePointT<double> to{.position{x, 0, 3}, .normal{0, 0, -1}};
+                const bool hidden = std::abs(x - 10 * time) < 1;
+                CAPTURE(time);
+                CAPTURE(x);
+                CHECK(visibility(scene, from, to, time).x ==
+                      doctest::Approx(hidden ? 0 : 1));
+                CHECK(visibility(scene, to, from, time).x ==
+                      doctest::Approx(hidden ? 0 : 1));
+                auto stream = random_stream(4, Pass::user, 1, 2);
+                PathStateT<double> path{
+                    .ray{.origin{x, 0, 3}, .direction{0, 0, -1}, .time = time}};
+                const auto vertex = next_vertex(scene, path, stream);
+                CHECK(vertex.has_value() == hidden);
+                if (vertex) CHECK(vertex->time == time);
+            }
+    };
+    check_in(Scene<Shapes<QuadT<double>, Moving<QuadT<double>>>,
+                   Materials<LambertianT<double>>>{});
+    Scene<Shapes<QuadT<double>, Moving<QuadT<double>>>,
+          Materials<LambertianT<double>, ThinGlassT<double>>>
+        with_pane;
+    check_in(with_pane); // lists such a material, and has none
+    with_pane.add(pane, with_pane.add(clear));
+    check_in(with_pane);
+}
+
+TEST_CASE("vertex: a path and a vertex, before anything is known of them") {
+    const PathStateT<double> path;
+    CHECK(path.throughput == D3{1});
+    CHECK(path.eta_scale == 1);
+    CHECK(path.medium == D3{0});
+    CHECK(path.pdf == 0);
+    CHECK_FALSE(path.specular);
+    CHECK_FALSE(path.met_diffuse);
+    CHECK_FALSE(path.met_specular);
+    CHECK(path.depth == 0);
+    CHECK(path.branch == 0);
+    const VertexT<double> vertex;
+    CHECK(vertex.wo == D3{0, 0, 1});
+    CHECK(vertex.medium == D3{0});
+    CHECK(vertex.stop_probability == 1);
+    CHECK_FALSE(vertex.smooth);
+    CHECK_FALSE(vertex.turned);
+    CHECK_FALSE(vertex.emits());
+    // Roulette: from a throughput of 1 on all are safe.
+    for (const double carried : {0.25, 1.0, 3.0})
+        for (const double u : {0.2, 0.3, 0.99}) {
+            D3 throughput{carried, carried / 2, 0};
+            const bool alive = survives(throughput, 1.0, u);
+            CHECK(alive == (u < carried));
+            if (alive)
+                CHECK(glm::distance(throughput, D3{1, 0.5, 0} * std::fmax(carried, 1)) <
+                      1e-15);
+        }
 }

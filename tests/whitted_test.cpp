@@ -19,6 +19,7 @@
 #include "ljus/render/render.hpp"
 #include "ljus/render/whitted.hpp"
 #include "support/mean.hpp"
+#include "support/refusal.hpp"
 
 using namespace ljus;
 using ljus_test::apart;
@@ -535,12 +536,19 @@ TEST_CASE("whitted: at the extremes") {
     CHECK_THROWS_WITH_AS((void)make_whitted(glass, {.max_depth = 1001}),
                          "max_depth is 1001; it must be within [0, 1000].",
                          std::invalid_argument);
-    CHECK_THROWS_AS((void)make_whitted(glass, {.ambient = Rgb{-1.0f}}),
-                    std::invalid_argument);
-    CHECK_THROWS_AS(
-        (void)make_whitted(glass,
-                           {.ambient = Rgb{std::numeric_limits<float>::quiet_NaN()}}),
-        std::invalid_argument);
+    const auto said = [&](const WhittedSettings& settings) {
+        return ljus_test::refusal([&] { (void)make_whitted(glass, settings); });
+    };
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    CHECK(said({.ambient{0, -1, 0}}).find("whitted.ambient is (0, -1, 0); ") == 0);
+    CHECK(said({.ambient{0, 0, nan}}).find("whitted.ambient is (0, 0, NaN); ") == 0);
+    CHECK(said({.max_depth = 0}).empty());
+    CHECK(said({.max_depth = 1000}).empty());
+    const WhittedSettings silent = make_whitted(glass).settings;
+    CHECK(silent.max_depth == 5);
+    CHECK(silent.both_ways);
+    CHECK(silent.lamps);
+    CHECK(silent.ambient == Rgb{0});
     // A light on the floor, in the middle of the glass, at the camera: no NaN.
     for (const Vec3& place :
          {Vec3{0.5f, 0, 1.5f}, Vec3(ball_center), Vec3{1, 2.6f, 6}}) {
