@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "ljus/geometry/moving.hpp"
+#include "ljus/materials/glass.hpp"
 #include "ljus/materials/mirror.hpp"
 #include "ljus/materials/mixture.hpp"
 #include "ljus/render/photon_mapping.hpp"
@@ -848,3 +850,55 @@ TEST_CASE("final gathering: five rays stand elsewhere at each place: no bias") {
                 CHECK(std::abs(apart(mean, double(*right))) < 5);
             }
 }
+
+TEST_CASE("final gathering: what n^2 takes from a ray in glass is no reason to end it") {
+    // A slab of clear glass before a wall: each ray that comes to the wall brings all of
+    // what the wall sends, and the others are mirrored away.
+    Scene<Shapes<Quad>, Materials<Lambertian, Glass>> hall;
+    const auto glass = hall.add(Glass{.index = 2.4f});
+    hall.add(Quad{.corner{-9, -9, 1}, .edge_u{0, 18, 0}, .edge_v{18, 0, 0}}, glass);
+    hall.add(Quad{.corner{-9, -9, 2}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}}, glass);
+    hall.add(Quad{.corner{-9, -9, 3}, .edge_u{0, 18, 0}, .edge_v{18, 0, 0}},
+             hall.add(Lambertian{.albedo = Rgb{0.5f}}));
+    const IrradiancePoints points = everywhere(Rgb{3, 5, 7}, {{0, 0, -1}});
+    int arrived = 0;
+    for (std::uint64_t i = 0; i < 400; ++i) {
+        auto stream = random_stream(test_seed(4), Pass::user, 0, i);
+        Counts counts;
+        const PathState path{
+            .ray{.direction{0, 0, 1}}, .met_diffuse = true, .depth = 1};
+        const auto found = gather_ray(hall, points, path, 100, stream, counts);
+        CHECK(found.distance == 1);
+        if (found.radiance == Rgb{0}) continue;
+        ++arrived;
+        for (int c = 0; c < 3; ++c)
+            CHECK(double(found.radiance[c]) ==
+                  ljus_test::within(0.5 * (3 + 2 * c) / pi, 1e-5));
+    }
+    // Head on r = (1.4 / 3.4)^2 at each side: (1 - r) / (1 + r) pass, 71 %.
+    CHECK(arrived > 220);
+    CHECK(arrived < 400);
+}
+
+TEST_CASE("final gathering: rays meet what moves where it is at their time") {
+    // A ceiling that rises from 1 to 5, so wide that all that is not along it is seen.
+    Scene<Shapes<Quad, Moving<Quad>>, Materials<Lambertian>> hall;
+    const auto matt = hall.add(Lambertian{.albedo = Rgb{0.5f}});
+    hall.add(Quad{.corner{-9, -9, 0}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}}, matt);
+    const Quad ceiling{.corner{-1e4f, -1e4f, 1}, .edge_u{0, 2e4f, 0}, .edge_v{2e4f, 0, 0}};
+    hall.add(Moving<Quad>{ceiling, {0, 0, 4}}, matt);
+    const IrradiancePoints points = everywhere(Rgb{3}, {{0, 0, -1}});
+    const Ray ray{.origin{0, 0, 0.5f}, .direction{0, 0, -1}};
+    auto vertex = vertex_at(hall, ray, *closest_hit(hall, ray));
+    for (const float time : {0.0f, 0.25f, 1.0f}) {
+        vertex.time = time;
+        auto stream = random_stream(test_seed(4), Pass::user, 0, 0);
+        Counts counts;
+        const auto seen =
+            gather_irradiance(hall, points, vertex, {.rays = 400}, stream, counts);
+        // 1 / length = cos / height, of which the mean over the cosine's is 2 / 3.
+        const double height = 1 + 4 * double(time);
+        CHECK(double(seen.distance) == ljus_test::within(1.5 * height, 0.01));
+    }
+}
+

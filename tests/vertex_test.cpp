@@ -220,14 +220,22 @@ TEST_CASE("vertex: a path that begins in glass is in it, and outside it is not")
                   doctest::Approx(inside ? std::exp(-0.5 * fog[c]) : 1));
         CHECK(path.depth == 1);
     }
-    // Later a surface met from behind says nothing: a matt sheet within the glass.
-    PathStateT<double> path{
-        .ray{.origin{0, 0, -1}, .direction{0, 0, 1}}, .medium = fog, .depth = 1};
-    RoomT<double> room;
-    room.add(QuadT<double>{{-9, -9, 0}, {0, 18, 0}, {18, 0, 0}},
-             room.add(LambertianT<double>{}));
-    CHECK(next_vertex(room, path, stream)->medium == fog);
-    CHECK(path.throughput.y == doctest::Approx(std::exp(-0.2)));
+    // Later a surface says nothing, met from the front or from behind: a matt sheet
+    // within the glass.
+    for (const bool behind : {false, true}) {
+        PathStateT<double> path{
+            .ray{.origin{0, 0, -1}, .direction{0, 0, 1}}, .medium = fog, .depth = 1};
+        RoomT<double> room;
+        const D3 u{0, 18, 0}, v{18, 0, 0}; // u x v = -z
+        room.add(QuadT<double>{{-9, -9, 0}, behind ? v : u, behind ? u : v},
+                 room.add(LambertianT<double>{}));
+        const auto vertex = next_vertex(room, path, stream);
+        REQUIRE(vertex);
+        CHECK((vertex->wo.z < 0) == behind);
+        CHECK(vertex->medium == fog);
+        CHECK(path.medium == fog);
+        CHECK(path.throughput.y == doctest::Approx(std::exp(-0.2)));
+    }
 }
 
 TEST_CASE("vertex: a matt surface sends a path on by the cosine, times its albedo") {
@@ -743,4 +751,72 @@ TEST_CASE("vertex: a path and a vertex, before anything is known of them") {
                 CHECK(glm::distance(throughput, D3{1, 0.5, 0} * std::fmax(carried, 1)) <
                       1e-15);
         }
+}
+
+TEST_CASE("vertex: which of two normals decides what") {
+    const D3 up{0, 1, 0}, lean = glm::normalize(D3{0.3, 1, 0});
+    const auto seen = [&](const D3& direction, const D3& shading, bool inside_out) {
+        VertexT<double> vertex;
+        vertex.point.normal = up;
+        vertex.object.inside_out = inside_out;
+        detail::set_frame(vertex, RayT<double>{.direction = direction}, shading);
+        vertex.wo = to_local(vertex.frame, -direction);
+        return vertex;
+    };
+    for (const bool inside_out : {false, true}) {
+        const double turn = inside_out ? -1 : 1;
+        for (int i = 0; i < 72; ++i) {
+            const double angle = (i + 0.5) / 36 * std::numbers::pi;
+            const D3 direction{std::cos(angle), std::sin(angle), 0};
+            const auto flat = seen(direction, up, inside_out);
+            CHECK_FALSE(flat.smooth);
+            CHECK_FALSE(flat.turned);
+            CHECK(flat.point.normal == turn * up);
+            CHECK(flat.frame.normal == turn * up);
+            CHECK(detail::landing_factor(flat, direction) == 1);
+
+            const auto vertex = seen(direction, lean, inside_out);
+            const double by_own = glm::dot(direction, up),
+                         by_lean = glm::dot(direction, lean);
+            const bool turned = (by_own < 0) != (by_lean < 0);
+            CAPTURE(i);
+            CHECK(vertex.turned == turned);
+            CHECK(vertex.smooth == !turned);
+            CHECK(vertex.point.normal == turn * up);
+            CHECK(vertex.frame.normal == turn * (turned ? up : lean));
+            // No surface is seen from behind: wo tells the side of the surface's own.
+            CHECK((vertex.wo.z < 0) == (turn * by_own > 0));
+            CHECK(detail::landing_factor(vertex, direction) ==
+                  doctest::Approx(turned ? 0 : std::abs(by_lean / by_own)));
+            // Of another direction both say the same, above and below.
+            for (int k = 0; k < 72; ++k) {
+                const double other = (k + 0.5) / 36 * std::numbers::pi;
+                const D3 way{std::cos(other), std::sin(other), 0};
+                const bool one_side =
+                    (glm::dot(way, up) < 0) == (glm::dot(way, lean) < 0);
+                CHECK(detail::agrees(vertex, to_local(vertex.frame, way), way) ==
+                      (turned || one_side));
+            }
+        }
+    }
+    CHECK(seen(-up, lean, false).smooth);
+}
+
+TEST_CASE("vertex: a material is what it is at that place") {
+    // Two by two fields of a wall of 4 by 2, by the coordinates of the wall.
+    using Paper = Textured<LambertianT<double>, CheckerT<double, UvMapT<double>>>;
+    Scene<Shapes<QuadT<double>>, Materials<LambertianT<double>, Paper>> scene;
+    scene.add(QuadT<double>{{5, 0, 0}, {4, 0, 0}, {0, 2, 0}},
+              scene.add(Paper{{.albedo = D3{1}}, {.even{0.9, 0.8, 0.7}, .odd = D3{0.2}}}));
+    for (int i = 0; i < 64; ++i) {
+        const int column = i % 8, row = i / 8;
+        const RayT<double> ray{.origin{5 + (column + 0.3) / 2, (row + 0.3) / 4, 1},
+                               .direction{0, 0, -1}};
+        const auto vertex = vertex_at(scene, ray, *closest_hit(scene, ray));
+        const D3 albedo = visit_material_at(scene, vertex, [](const auto& material) {
+            return std::numbers::pi * evaluate(material, D3{0, 0, 1}, D3{0.6, 0, 0.8});
+        });
+        const bool even = (column / 4 + row / 4) % 2 == 0;
+        CHECK(glm::distance(albedo, even ? D3{0.9, 0.8, 0.7} : D3{0.2}) < 1e-12);
+    }
 }
