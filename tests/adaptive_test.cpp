@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "ljus/inspect/metrics.hpp"
 #include "ljus/render/adaptive.hpp"
@@ -77,6 +79,31 @@ RenderSettings square(int size, int samples, std::uint64_t seed = 1) {
 }
 
 } // namespace
+
+TEST_CASE("adaptive: the blocks of a picture hold each of its pixels once") {
+    for (const auto& [width, height] : {std::pair{7, 3}, {3, 7}, {8, 8}, {1, 5}})
+        for (const int side : {1, 2, 3, 8}) {
+            std::vector<int> held(std::size_t(width * height));
+            double pixels = 0;
+            for (const auto& block :
+                 detail::adaptive_blocks({.width = width, .height = height}, side)) {
+                REQUIRE((block.x >= 0 && block.right <= width));
+                REQUIRE((block.y >= 0 && block.bottom <= height));
+                CHECK(block.x % side == 0);
+                CHECK(block.y % side == 0);
+                CHECK(
+                    (block.right - block.x <= side && block.bottom - block.y <= side));
+                CHECK(block.wanted == 1); // the first rays
+                CHECK(block.batches == 0);
+                pixels += block.pixels();
+                for (int y = block.y; y < block.bottom; ++y)
+                    for (int x = block.x; x < block.right; ++x)
+                        ++held[detail::place_of(width, x, y)];
+            }
+            CHECK(pixels == width * height);
+            for (const int count : held) CHECK(count == 1);
+        }
+}
 
 TEST_CASE("adaptive: rays are shared out by the root of the variance") {
     // Two parts, variances 1 and 16, sizes 3 and 1: n = scale (1, 4). The mean error is
@@ -448,7 +475,8 @@ TEST_CASE("adaptive: batches fit into what is left, and double at most") {
                1e4) == Wanted{3});
 }
 
-TEST_CASE("adaptive: the estimate is the variance over mean^2 + epsilon, and the rays") {
+TEST_CASE(
+    "adaptive: the estimate is the variance over mean^2 + epsilon, and the rays") {
     // Two variances of uniform noise, as many pixels of each: 4096 pixels of 64 rays
     // know them within sqrt(0.8 / 64 / 2048) = 0.25 %.
     for (const double epsilon : {0.01, 3.0})
@@ -461,15 +489,17 @@ TEST_CASE("adaptive: the estimate is the variance over mean^2 + epsilon, and the
         }
 }
 
-TEST_CASE("adaptive: of two stages the second is traced, whatever the first has found") {
+TEST_CASE(
+    "adaptive: of two stages the second is traced, whatever the first has found") {
     // The target is reached at once: a batch of 8 for all, and the 16 are forgotten. A
     // variance by 8 rays of 512 pixels is known within 1.6 %.
     int calls = 0;
     auto watch = [&](long long, long long) { return ++calls < 100000; };
     RenderSettings picture = square(32, 64);
     picture.progress = watch;
-    const auto seen = render_adaptive(Halves{}, Camera{}, picture,
-                                      {.more = 8, .block = 8, .target = 10, .two_stage = true});
+    const auto seen =
+        render_adaptive(Halves{}, Camera{}, picture,
+                        {.more = 8, .block = 8, .target = 10, .two_stage = true});
     REQUIRE(seen.complete);
     for (const Rgb& rays : seen.rays.pixels) CHECK(rays == Rgb{24});
     CHECK(seen.counts.camera_rays == 32 * 32 * 24);

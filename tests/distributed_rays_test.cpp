@@ -483,7 +483,24 @@ TEST_CASE("distributed rays: max_depth turns, and no ray of black light") {
             (void)radiance(make_distributed(hall, {.max_depth = depth}), across, stream,
                            counts);
             CHECK(counts.bounce_rays == std::uint64_t(share > 0 ? depth : 0));
+            CHECK(counts.cut_paths == (share > 0 || depth == 0 ? 1u : 0u));
         }
+    // A matt surface sends no ray on, so that the depth cuts none; gloss does.
+    const Ray down{.origin{0, 1, 0}, .direction{0, -1, 0}};
+    for (const int depth : {0, 1}) {
+        const auto cut = [&](const auto& material) {
+            const auto floor = make_scene(
+                placed(Quad{{-20, 0, 20}, {40, 0, 0}, {0, 0, -40}}, material));
+            Counts counts;
+            StratifiedStream stream;
+            (void)radiance(make_distributed(floor, {.max_depth = depth}), down, stream,
+                           counts);
+            return counts.cut_paths;
+        };
+        CHECK(cut(Lambertian{}) == 0);
+        CHECK(cut(Glossy{.reflectance = Rgb{0.8f}}) == (depth == 0 ? 1u : 0u));
+        CHECK(cut(Mirror{}) == (depth == 0 ? 1u : 0u));
+    }
 }
 
 TEST_CASE(

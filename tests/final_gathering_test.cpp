@@ -851,7 +851,8 @@ TEST_CASE("final gathering: five rays stand elsewhere at each place: no bias") {
             }
 }
 
-TEST_CASE("final gathering: what n^2 takes from a ray in glass is no reason to end it") {
+TEST_CASE(
+    "final gathering: what n^2 takes from a ray in glass is no reason to end it") {
     // A slab of clear glass before a wall: each ray that comes to the wall brings all of
     // what the wall sends, and the others are mirrored away.
     Scene<Shapes<Quad>, Materials<Lambertian, Glass>> hall;
@@ -885,7 +886,8 @@ TEST_CASE("final gathering: rays meet what moves where it is at their time") {
     Scene<Shapes<Quad, Moving<Quad>>, Materials<Lambertian>> hall;
     const auto matt = hall.add(Lambertian{.albedo = Rgb{0.5f}});
     hall.add(Quad{.corner{-9, -9, 0}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}}, matt);
-    const Quad ceiling{.corner{-1e4f, -1e4f, 1}, .edge_u{0, 2e4f, 0}, .edge_v{2e4f, 0, 0}};
+    const Quad ceiling{
+        .corner{-1e4f, -1e4f, 1}, .edge_u{0, 2e4f, 0}, .edge_v{2e4f, 0, 0}};
     hall.add(Moving<Quad>{ceiling, {0, 0, 4}}, matt);
     const IrradiancePoints points = everywhere(Rgb{3}, {{0, 0, -1}});
     const Ray ray{.origin{0, 0, 0.5f}, .direction{0, 0, -1}};
@@ -901,4 +903,3 @@ TEST_CASE("final gathering: rays meet what moves where it is at their time") {
         CHECK(double(seen.distance) == ljus_test::within(1.5 * height, 0.01));
     }
 }
-

@@ -642,7 +642,8 @@ TEST_CASE("path tracing: a ray for each turn is counted, and what leaves is blac
     CHECK(both({.origin{0, 2, 5}, .direction{0, 0, -1}}) == RgbT<double>{0});
 }
 
-TEST_CASE("path tracing: a lamp's share by its number, its power and where it is then") {
+TEST_CASE(
+    "path tracing: a lamp's share by its number, its power and where it is then") {
     // A path has met the second of three balls of light, which moves. Of radius r at a
     // distance d, a shadow ray chooses each direction within its cone with the density
     // 1 / (2 pi (1 - sqrt(1 - (r/d)^2))), and the ball by its share of all r^2 L.
@@ -685,13 +686,14 @@ TEST_CASE("path tracing: a lamp's share by its number, its power and where it is
                 return seen.z / all.z;
             };
             const double squares = pdf * pdf + other * other;
-            CHECK(weight(MisHeuristic::balance) == doctest::Approx(pdf / (pdf + other)));
+            CHECK(weight(MisHeuristic::balance) ==
+                  doctest::Approx(pdf / (pdf + other)));
             CHECK(weight(MisHeuristic::power) == doctest::Approx(pdf * pdf / squares));
             CHECK(weight(MisHeuristic::shadow_rays) == 0);
             CHECK(found(MisHeuristic::balance, pdf, false) == all);
         }
-        for (const auto heuristic : {MisHeuristic::balance, MisHeuristic::power,
-                                     MisHeuristic::shadow_rays})
+        for (const auto heuristic :
+             {MisHeuristic::balance, MisHeuristic::power, MisHeuristic::shadow_rays})
             CHECK(found(heuristic, 0) == all); // after a mirror
     }
 }
@@ -708,9 +710,9 @@ TEST_CASE("path tracing: what n^2 takes from a path in glass is no reason to end
     for (std::uint64_t i = 0; i < 300; ++i) {
         auto stream = random_stream(1, Pass::user, 0, i);
         Counts counts;
-        const auto seen = radiance(
-            tracer, RayT<double>{.origin{0, 0.3, 1.9}, .direction{0, 0, -1}}, stream,
-            counts);
+        const auto seen =
+            radiance(tracer, RayT<double>{.origin{0, 0.3, 1.9}, .direction{0, 0, -1}},
+                     stream, counts);
         REQUIRE(seen.x == doctest::Approx(1).epsilon(1e-12));
     }
 }
@@ -718,9 +720,8 @@ TEST_CASE("path tracing: what n^2 takes from a path in glass is no reason to end
 TEST_CASE("path tracing: a path whose light is gone is not cut by the depth") {
     for (const double reflectance : {0.0, 0.5}) {
         Furnace<double> room;
-        room.add(
-            SphereT<double>{.radius = 1},
-            room.add(MirrorT<double>{.reflectance = RgbT<double>{reflectance}}));
+        room.add(SphereT<double>{.radius = 1},
+                 room.add(MirrorT<double>{.reflectance = RgbT<double>{reflectance}}));
         for (const int depth : {1, 3}) {
             Counts counts;
             auto stream = random_stream(1, Pass::user, 0, 0);

@@ -125,7 +125,8 @@ TEST_CASE("photon mapping: who answers at a vertex, term by term") {
                                 {"shadow ray", "DL",
                                  detail::sample_all_lights(
                                      mapper.scene, vertex, material, direct, 3, twin,
-                                     cost, detail::verdicts_at(maps.verdicts, vertex))});
+                                     cost,
+                                     detail::verdicts_at(maps.verdicts, vertex))});
                             if (indirect == IndirectLight::photons)
                                 right.push_back(
                                     {"general map", "D..DL",
@@ -135,9 +136,8 @@ TEST_CASE("photon mapping: who answers at a vertex, term by term") {
                                 const Rgb known = irradiance_between(
                                     mapper.scene, maps.irradiance, maps.cache, vertex,
                                     settings.gather, twin, cost);
-                                right.push_back(
-                                    {"irradiance cache", "D..DL",
-                                     known * in_all * matt.albedo});
+                                right.push_back({"irradiance cache", "D..DL",
+                                                 known * in_all * matt.albedo});
                                 (void)next_3d<float>(twin);
                             }
                             caustics();

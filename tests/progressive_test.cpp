@@ -761,30 +761,29 @@ TEST_CASE("progressive: each pass has photons of its own, in either map") {
     // differs from pass to pass is the photons'. A tenth of 3000 photons is known to
     // some per cent; twice the same photons, to the last digits of a float.
     const auto room = make_room<float>(Ball::mirror, Lamp::point, 1);
-    const Camera narrow = look_at(View{.position{0.6f, -0.2f, 0.5f},
-                                       .target{0.5f, -1, 0.4f},
-                                       .vfov_degrees = 1e-3f});
+    const Camera narrow = look_at(View{
+        .position{0.6f, -0.2f, 0.5f}, .target{0.5f, -1, 0.4f}, .vfov_degrees = 1e-3f});
     for (const bool caustics : {false, true}) {
-        PhotonMappingSettings settings{
-            .indirect = caustics ? IndirectLight::none : IndirectLight::photons};
+        PhotonMappingSettings settings{.indirect = caustics ? IndirectLight::none
+                                                            : IndirectLight::photons};
         settings.caustics = {.photons = caustics ? 3000 : 0, .threads = 1};
         settings.general = {.photons = caustics ? 0 : 3000, .threads = 1};
         settings.caustics_estimate.radius = settings.general_estimate.radius = 0.5f;
         const auto seen = [&](long long pass) {
-            const auto rendered = photon_mapping_pass(
-                room, narrow, settings, {.width = 1, .height = 1, .samples = 1}, pass,
-                1.0);
+            const auto rendered =
+                photon_mapping_pass(room, narrow, settings,
+                                    {.width = 1, .height = 1, .samples = 1}, pass, 1.0);
             REQUIRE(rendered.complete);
             return double(rendered.image.pixels[0].x);
         };
         // Without photons: the light of the lamp alone.
         PhotonMappingSettings without = settings;
         without.caustics.photons = without.general.photons = 0;
-        const auto direct = double(
-            photon_mapping_pass(room, narrow, without,
-                                {.width = 1, .height = 1, .samples = 1}, 1, 1.0)
-                .image.pixels[0]
-                .x);
+        const auto direct =
+            double(photon_mapping_pass(room, narrow, without,
+                                       {.width = 1, .height = 1, .samples = 1}, 1, 1.0)
+                       .image.pixels[0]
+                       .x);
         CAPTURE(caustics);
         std::vector<double> by_photons;
         for (long long pass = 1; pass <= 4; ++pass) {
@@ -818,10 +817,9 @@ TEST_CASE("progressive: a radius that is not given is chosen, whichever it is") 
     int rows = 0;
     const auto watch = [&](long long, long long) { return ++rows > 0; };
     settings.caustics.progress = stop;
-    const auto pass =
-        photon_mapping_pass(room, room_camera<float>(), settings,
-                            {.width = 8, .height = 8, .samples = 1, .progress = watch},
-                            1, 1.0);
+    const auto pass = photon_mapping_pass(
+        room, room_camera<float>(), settings,
+        {.width = 8, .height = 8, .samples = 1, .progress = watch}, 1, 1.0);
     CHECK_FALSE(pass.complete);
     CHECK(pass.image.pixels.empty());
     CHECK(rows == 0);

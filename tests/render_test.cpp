@@ -348,7 +348,7 @@ TEST_CASE("render: neighbours do not look through the same places of their squar
                 cells.insert(int(16 * rest.x));
             }
         CHECK(cells.size() > 8); // one, if all had one pattern
-        std::set<int> by_seed; // the same of one pixel in 64 pictures
+        std::set<int> by_seed;   // the same of one pixel in 64 pictures
         for (std::uint64_t seed = 1; seed <= 64; ++seed) {
             RandomStream stream;
             const auto at = detail::place_of_ray<double>(

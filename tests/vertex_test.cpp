@@ -609,8 +609,8 @@ TEST_CASE("vertex: a path keeps nothing of how it was scattered before") {
     auto stream = random_stream(6, Pass::user, 0, 0);
     PathStateT<double> path{.eta_scale = 0.5};
     for (int turn = 0; turn < 3; ++turn) {
-        REQUIRE(continue_path(path, vertex, matt, Transport::radiance, Lobes::all,
-                              stream));
+        REQUIRE(
+            continue_path(path, vertex, matt, Transport::radiance, Lobes::all, stream));
         CHECK(path.pdf == doctest::Approx(path.ray.direction.z / std::numbers::pi));
         CHECK_FALSE(path.specular);
         CHECK(path.met_specular == (turn > 0)); // this it does keep
@@ -640,15 +640,14 @@ TEST_CASE("vertex: what two normals disagree about is sampled again, as it was a
             const bool inside = next->wi.y < 0;
             // In by the leaning normal from the first, or by the surface's own.
             const D3 plane = inside ? glm::cross(next->wi, D3{0, 1, 0}) : D3{0};
-            const bool by_own = inside && std::abs(glm::length(plane) -
-                                                   std::abs(back.x) / 1.5) < 1e-9;
+            const bool by_own =
+                inside && std::abs(glm::length(plane) - std::abs(back.x) / 1.5) < 1e-9;
             refracted += by_own;
             const double scale =
                 inside && transport == Transport::radiance ? 1 / 2.25 : 1;
             if (by_own || !inside)
                 CHECK(next->sample.weight.x == doctest::Approx(scale));
-            if (!inside)
-                CHECK(glm::distance(next->wi, D3{-back.x, back.y, 0}) < 1e-9);
+            if (!inside) CHECK(glm::distance(next->wi, D3{-back.x, back.y, 0}) < 1e-9);
         }
         CHECK(refracted > 5);
     }
@@ -667,6 +666,26 @@ TEST_CASE("vertex: what two normals disagree about is sampled again, as it was a
         matt += !any || !any->sample.specular;
     }
     CHECK(matt > 5);
+    // A matt direction through the surface ends the path, and is no second chance for
+    // the boundary, which by the surface's own normal mirrors more.
+    const MixtureT<double> coated{.color = D3{0.9}, .specularity = 1};
+    const auto low = leaning(glm::normalize(D3{0.95, 0.1, 0}));
+    int through = 0, mirrored = 0;
+    auto numbers = random_stream(7, Pass::user, 0, 0);
+    for (int i = 0; i < 4000; ++i) {
+        const auto u = next_3d<double>(numbers);
+        const auto first = sample(coated, low.wo, u, Transport::radiance);
+        REQUIRE(first);
+        if (first->specular || to_world(low.frame, first->wi).y > 0) continue;
+        ++through;
+        CHECK_FALSE(scatter(low, coated, u, Transport::radiance));
+        const auto flat = frame_around(D3{0, 1, 0});
+        const D3 wo = to_local(flat, to_world(low.frame, low.wo));
+        const auto own = sample(coated, wo, u, Transport::radiance);
+        mirrored += own && own->specular;
+    }
+    CHECK(through > 50);
+    CHECK(mirrored > 10);
 }
 
 TEST_CASE("vertex: the numbers of a bounce are those of its place in the tree") {
@@ -806,8 +825,9 @@ TEST_CASE("vertex: a material is what it is at that place") {
     // Two by two fields of a wall of 4 by 2, by the coordinates of the wall.
     using Paper = Textured<LambertianT<double>, CheckerT<double, UvMapT<double>>>;
     Scene<Shapes<QuadT<double>>, Materials<LambertianT<double>, Paper>> scene;
-    scene.add(QuadT<double>{{5, 0, 0}, {4, 0, 0}, {0, 2, 0}},
-              scene.add(Paper{{.albedo = D3{1}}, {.even{0.9, 0.8, 0.7}, .odd = D3{0.2}}}));
+    scene.add(
+        QuadT<double>{{5, 0, 0}, {4, 0, 0}, {0, 2, 0}},
+        scene.add(Paper{{.albedo = D3{1}}, {.even{0.9, 0.8, 0.7}, .odd = D3{0.2}}}));
     for (int i = 0; i < 64; ++i) {
         const int column = i % 8, row = i / 8;
         const RayT<double> ray{.origin{5 + (column + 0.3) / 2, (row + 0.3) / 4, 1},

@@ -266,6 +266,16 @@ TEST_CASE("whitted: a mirror costs one ray, a matt floor none but its shadow ray
     const RayT<double> up{.origin{0.3, 5, -0.2}, .direction{0, -1, 0}};
     (void)radiance(make_whitted(scene), up, stream, counts);
     CHECK(counts.shadow_rays == 0);
+    // The depth cuts a path at the mirror, and none at the floor, which sends none on.
+    for (const int depth : {0, 1})
+        for (const auto& ray : {at_the_ball<double>(), down}) {
+            counts = {};
+            (void)radiance(make_whitted(scene, {.max_depth = depth}), ray, stream,
+                           counts);
+            const bool mirror = ray.direction != down.direction;
+            CHECK(counts.cut_paths == (mirror && depth == 0 ? 1u : 0u));
+            CHECK(counts.bounce_rays == (mirror && depth > 0 ? 1u : 0u));
+        }
 }
 
 TEST_CASE("whitted: the tree doubles only if every ray meets glass again") {
