@@ -718,19 +718,26 @@ TEST_CASE("path tracing: what n^2 takes from a path in glass is no reason to end
 }
 
 TEST_CASE("path tracing: a path whose light is gone is not cut by the depth") {
-    for (const double reflectance : {0.0, 0.5}) {
-        Furnace<double> room;
-        room.add(SphereT<double>{.radius = 1},
-                 room.add(MirrorT<double>{.reflectance = RgbT<double>{reflectance}}));
-        for (const int depth : {1, 3}) {
+    // Between a red mirror and one that is green, grey or black: the depth cuts what is
+    // left of the light behind the second one.
+    for (const auto& second :
+         {RgbT<double>{0, 1, 0}, RgbT<double>{0.5}, RgbT<double>{0}})
+        for (const int depth : {1, 2, 3}) {
+            ljus_test::RoomT<double> room;
+            const auto wall = [&](double z, const RgbT<double>& color) {
+                room.add(QuadT<double>{{-9, -9, z}, {18, 0, 0}, {0, 18, 0}},
+                         room.add(MirrorT<double>{.reflectance = color}));
+            };
+            wall(1, {1, 0, 0});
+            wall(-1, second);
             Counts counts;
             auto stream = random_stream(1, Pass::user, 0, 0);
             (void)radiance(make_path_tracer(room, {.max_depth = depth,
                                                    .roulette_depth = no_roulette}),
                            RayT<double>{.direction{0, 0, 1}}, stream, counts);
-            CHECK(counts.cut_paths == (reflectance > 0 ? 1u : 0u));
-            CHECK(counts.bounce_rays ==
-                  (reflectance > 0 ? std::uint64_t(depth - 1) : 0u));
+            CAPTURE(depth);
+            const bool left = depth == 1 || second.x > 0;
+            CHECK(counts.cut_paths == (left ? 1u : 0u));
+            CHECK(counts.bounce_rays == std::uint64_t(left ? depth - 1 : 1));
         }
-    }
 }
