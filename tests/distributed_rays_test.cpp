@@ -46,7 +46,7 @@ Lobes lobes(const Lacquer&) {
 RgbD evaluate(const Lacquer& lacquer, const D3& wo, const D3& wi) {
     return evaluate(lacquer.matt, wo, wi);
 }
-double pdf(const Lacquer& lacquer, const D3& wo, const D3& wi, Lobes) {
+[[maybe_unused]] double pdf(const Lacquer& lacquer, const D3& wo, const D3& wi, Lobes) {
     return pdf(lacquer.matt, wo, wi);
 }
 std::optional<BsdfSampleT<double>> sample(const Lacquer& lacquer, const D3& wo,
