@@ -252,7 +252,7 @@ TEST_CASE("irradiance cache: a point in each square of pixels") {
 
 TEST_CASE("irradiance cache: each square has numbers of its own, with each seed") {
     // Where in its square a point stands: of 3 x 12 places in the unit square two are
-    // as near as that once in 100 000 seeds.
+    // as near as that once in 50 000 runs.
     const Hall scene = hall();
     const Camera camera = look_at({.position{0, 0, 3}, .target{0, 0, 0}, .up{0, 1, 0}});
     std::vector<glm::dvec2> places;

@@ -40,7 +40,7 @@ ljus_break_it(NAME direct-light-inverted HEADER path/direct_light.hpp TEST direc
 ljus_break_it(NAME direct-light-lamp-time HEADER path/direct_light.hpp TEST direct_light
     FROM "sample_light(scene, light, point.position, u, vertex.time)"
     TO   "sample_light(scene, light, point.position, u)"
-    CASES "direct light: a lamp, and what stands*")
+    CASES "direct light: a lamp? and what stands*")
 
 # The mirror of a mixture has its part in the density of its matt part.
 ljus_break_it(NAME all-lights-lobes HEADER path/all_lights.hpp TEST all_lights
