@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "ljus/inspect/metrics.hpp"
 #include "ljus/render/adaptive.hpp"
@@ -77,6 +79,31 @@ RenderSettings square(int size, int samples, std::uint64_t seed = 1) {
 }
 
 } // namespace
+
+TEST_CASE("adaptive: the blocks of a picture hold each of its pixels once") {
+    for (const auto& [width, height] : {std::pair{7, 3}, {3, 7}, {8, 8}, {1, 5}})
+        for (const int side : {1, 2, 3, 8}) {
+            std::vector<int> held(std::size_t(width * height));
+            double pixels = 0;
+            for (const auto& block :
+                 detail::adaptive_blocks({.width = width, .height = height}, side)) {
+                REQUIRE((block.x >= 0 && block.right <= width));
+                REQUIRE((block.y >= 0 && block.bottom <= height));
+                CHECK(block.x % side == 0);
+                CHECK(block.y % side == 0);
+                CHECK(
+                    (block.right - block.x <= side && block.bottom - block.y <= side));
+                CHECK(block.wanted == 1); // the first rays
+                CHECK(block.batches == 0);
+                pixels += block.pixels();
+                for (int y = block.y; y < block.bottom; ++y)
+                    for (int x = block.x; x < block.right; ++x)
+                        ++held[detail::place_of(width, x, y)];
+            }
+            CHECK(pixels == width * height);
+            for (const int count : held) CHECK(count == 1);
+        }
+}
 
 TEST_CASE("adaptive: rays are shared out by the root of the variance") {
     // Two parts, variances 1 and 16, sizes 3 and 1: n = scale (1, 4). The mean error is
@@ -315,6 +342,10 @@ TEST_CASE("adaptive: a rule without sense is refused with its value") {
     refused({.target = nan}, 64, "target is NaN; it must be at least 0.");
     refused({.disagreement = -1}, 64, "disagreement is -1; it must be at least 0.");
     refused({.epsilon = 0}, 64, "epsilon is 0; it must be finite and above 0.");
+    refused({.epsilon = HUGE_VAL}, 64,
+            "epsilon is infinity; it must be finite and above 0.");
+    refused({.first = 2, .two_stage = true}, 17,
+            "samples is 17; it must be at least first + more.");
     refused({.disagreement = 0.1, .two_stage = true}, 64,
             "disagreement is 0.1; it must be 0 with two_stage.");
     refused({.more = 1, .two_stage = true}, 64, "more is 1; it must be at least 2.");
@@ -396,4 +427,113 @@ TEST_CASE("adaptive: what is left goes to the largest errors first") {
     const auto limited = detail::ray_shares(Parts{{3, 0.01, 50}, {1, 16, 1}}, 0, 100);
     CHECK(limited[0] == 50);
     CHECK(limited[1] == doctest::Approx(4 * 100 - 3 * 50));
+}
+
+TEST_CASE("adaptive: batches fit into what is left, and double at most") {
+    const auto plan = [](std::vector<detail::AdaptiveBlock> blocks,
+                         const AdaptiveSettings& rule, double limit) {
+        for (std::size_t i = 0; i < blocks.size(); ++i) {
+            blocks[i].x = int(i);
+            blocks[i].right = int(i) + 1;
+            blocks[i].bottom = 1;
+        }
+        (void)detail::plan_round(blocks, rule, limit);
+        std::vector<int> wanted;
+        for (const auto& block : blocks) wanted.push_back(block.wanted);
+        return wanted;
+    };
+    using Wanted = std::vector<int>;
+    for (const double disagreement : {0.0, 0.1}) {
+        const AdaptiveSettings rule{
+            .first = 10, .more = 5, .disagreement = disagreement};
+        // Seven rays to spare, and nine: one batch of five. Ten: two.
+        for (const auto& [spare, batches] : {std::pair{7, 1}, {9, 1}, {10, 2}}) {
+            const Wanted given = plan({{.rays = 10, .batches = 1, .variance = 9},
+                                       {.rays = 10, .batches = 1, .variance = 8}},
+                                      rule, 10 + spare / 2.0);
+            CHECK(given[0] + given[1] == batches);
+            CHECK(given[0] >= given[1]);
+        }
+    }
+    // The error is variance over rays: 9 / 90 is less than 4 / 10.
+    CHECK(plan({{.rays = 90, .batches = 17, .variance = 9},
+                {.rays = 10, .batches = 1, .variance = 4}},
+               {.first = 10, .more = 5, .disagreement = 0.01}, 52.5) == Wanted{0, 1});
+    // As many more as there are, at most, however large the share would be.
+    const AdaptiveSettings fives{.first = 10, .more = 5};
+    for (const int rays : {10, 20, 40})
+        CHECK(plan({{.rays = rays, .batches = rays / 5 - 1, .variance = 1}}, fives,
+                   1e4) == Wanted{rays / 5});
+    // Of two stages the second brings all of it at once, its first batch included.
+    CHECK(plan({{.rays = 10, .batches = 1, .variance = 1}},
+               {.first = 10, .more = 5, .two_stage = true}, 1000) == Wanted{200});
+    // As many batches as are allowed, at most; those that it has had are counted.
+    CHECK(plan({{.rays = 20, .batches = 3, .variance = 1}},
+               {.first = 10, .more = 5, .batches = 3}, 1e4) == Wanted{1});
+    CHECK(plan({{.rays = 10, .batches = 1, .variance = 1}},
+               {.first = 10, .more = 5, .batches = 3, .two_stage = true},
+               1e4) == Wanted{3});
+}
+
+TEST_CASE(
+    "adaptive: the estimate is the variance over mean^2 + epsilon, and the rays") {
+    // Two variances of uniform noise, as many pixels of each: 4096 pixels of 64 rays
+    // know them within sqrt(0.8 / 64 / 2048) = 0.25 %.
+    for (const double epsilon : {0.01, 3.0})
+        for (const int block : {4, 8}) {
+            const auto seen =
+                render_adaptive(Halves{}, Camera{}, square(64, 64),
+                                {.first = 64, .block = block, .epsilon = epsilon});
+            CHECK(near(seen.estimate, 0.085 / (1 + epsilon) / 64, 0.02));
+            CHECK_FALSE(seen.reached); // no target, none reached
+        }
+}
+
+TEST_CASE(
+    "adaptive: of two stages the second is traced, whatever the first has found") {
+    // The target is reached at once: a batch of 8 for all, and the 16 are forgotten. A
+    // variance by 8 rays of 512 pixels is known within 1.6 %.
+    int calls = 0;
+    auto watch = [&](long long, long long) { return ++calls < 100000; };
+    RenderSettings picture = square(32, 64);
+    picture.progress = watch;
+    const auto seen =
+        render_adaptive(Halves{}, Camera{}, picture,
+                        {.more = 8, .block = 8, .target = 10, .two_stage = true});
+    REQUIRE(seen.complete);
+    for (const Rgb& rays : seen.rays.pixels) CHECK(rays == Rgb{24});
+    CHECK(seen.counts.camera_rays == 32 * 32 * 24);
+    CHECK(seen.reached);
+    CHECK(near(seen.estimate, 0.085 / 1.01 / 8, 0.08)); // of those that count
+    // One stage has enough with its first rays, and says so at the end.
+    long long last = 0, total = 0;
+    auto told = [&](long long done, long long all) {
+        last = done;
+        total = all;
+        return true;
+    };
+    picture.progress = told;
+    const auto once = render_adaptive(Halves{}, Camera{}, picture, {.target = 10});
+    for (const Rgb& rays : once.rays.pixels) CHECK(rays == Rgb{16});
+    CHECK(once.reached);
+    CHECK(last == total);
+    CHECK(total == 32 * 32 * 64);
+}
+
+TEST_CASE("adaptive: what is meant where nothing is said") {
+    const AdaptiveSettings silent;
+    CHECK(silent.first == 16);
+    CHECK(silent.more == 16);
+    CHECK(silent.batches == 1000);
+    CHECK(silent.block == 1);
+    CHECK(silent.target == 0);
+    CHECK(silent.disagreement == 0);
+    CHECK(silent.epsilon == 0.01);
+    CHECK_FALSE(silent.two_stage);
+    const AdaptiveT<float> nothing;
+    CHECK_FALSE(nothing.reached);
+    CHECK(nothing.complete);
+    const detail::RayShare part;
+    CHECK(part.pixels == 1);
+    CHECK(part.rays == 1);
 }

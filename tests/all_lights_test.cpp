@@ -8,6 +8,7 @@
 #include "ljus/geometry/moving.hpp"
 #include "ljus/materials/glossy.hpp"
 #include "ljus/materials/mirror.hpp"
+#include "ljus/materials/mixture.hpp"
 #include "ljus/path/all_lights.hpp"
 #include "ljus/scenes/furnaces.hpp"
 #include "support/mean.hpp"
@@ -359,4 +360,65 @@ TEST_CASE("form_factor_from: a sphere, by the horizon") {
     CHECK(*form_factor_from(Vec3{0}, up, lamp, true) == 0);
     CHECK(*form_factor_from(Vec3{0, 2, 0}, -up, lamp, true) ==
           doctest::Approx(strip(0, -0.5, 0.5)).epsilon(1e-4));
+}
+
+TEST_CASE("all lights: what a ray finds by itself, number by number") {
+    // A ball of light that goes to the right, in a fog: by the direction that the
+    // material draws, by whether it meets the ball where it is then, and by the density
+    // 1 / (2 pi (1 - cos)) of a shadow ray towards its cone.
+    using D3 = glm::dvec3;
+    using Ball = SphereT<double>;
+    Scene<Shapes<QuadT<double>, Moving<Ball>>, Materials<LambertianT<double>>> scene;
+    const LambertianT<double> matt{.albedo{0.8, 0.5, 0.2}};
+    const D3 radiance{3, 2, 1}, fog{0.1, 0.2, 0.3};
+    scene.add(QuadT<double>{{-50, 0, -50}, {0, 0, 100}, {100, 0, 0}}, scene.add(matt));
+    scene.add(Moving<Ball>{{.center{0, 2, 0}, .radius = 1.5}, {6, 0, 0}},
+              scene.add(LambertianT<double>{.albedo = D3{0}}), radiance);
+    const RayT<double> down{.origin{0, 0.3, 0}, .direction{0, -1, 0}};
+    auto at = vertex_at(scene, down, *closest_hit(scene, down));
+    at.medium = fog;
+    int met = 0;
+    for (const double time : {0.0, 0.25, 0.5})
+        for (const int rays : {1, 4})
+            for (std::uint64_t i = 0; i < 100; ++i) {
+                at.time = time;
+                auto stream = random_stream(8, Pass::user, 0, i);
+                auto twin = stream;
+                Counts counts;
+                const D3 seen =
+                    detail::found_light(scene, at, matt, rays, stream, counts);
+                const D3 local =
+                    sample(matt, at.wo, next_3d<double>(twin), Transport::radiance)->wi;
+                const D3 way = to_world(at.frame, local), center{6 * time, 2, 0};
+                const double d2 = glm::dot(center, center);
+                const double along = glm::dot(way, center);
+                const double inside = 2.25 - (d2 - along * along);
+                D3 right{0};
+                if (inside > 0 && along > 0) {
+                    const double cone = 2 * pi * (1 - std::sqrt(1 - 2.25 / d2));
+                    const double own = local.z / pi;
+                    right = own / (own + rays / cone) * matt.albedo * radiance *
+                            glm::exp(-(along - std::sqrt(inside)) * fog);
+                    ++met;
+                }
+                CHECK(glm::distance(seen, right) < 1e-9);
+                CHECK(counts.shadow_rays == 1);
+            }
+    CHECK(met > 100);
+}
+
+TEST_CASE("all lights: of a material that is part mirror the matt part is shared") {
+    // In a furnace of radiance 2 half of the light is mirrored, and of the rest the
+    // matt part sends back its colour.
+    const auto room = box_furnace(Rgb{2}, Rgb{0.5f});
+    const Mixture half{.color = Rgb{0.8f}, .reflectivity = 0.5f};
+    const Vertex at = below(room.scene, {0.3f, -0.9f, 0.2f});
+    for (const int rays : {1, 4})
+        for (const DirectLight how :
+             {DirectLight::sampled, DirectLight::mis, DirectLight::analytic}) {
+            const Mean seen = direct(room.scene, at, half, how, rays, 20000);
+            CAPTURE(rays);
+            CAPTURE(int(how));
+            CHECK(std::abs(apart(seen, 0.8, 1e-5)) < 5); // once in 1.7 million each
+        }
 }

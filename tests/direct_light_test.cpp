@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "ljus/geometry/moving.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/path/all_lights.hpp"
 #include "ljus/scene/make_scene.hpp"
@@ -346,4 +347,56 @@ TEST_CASE("direct light: what is known is taken, and one side by both normals") 
     at.point.normal = {-1, 0, 0};
     CHECK(share(Verdict::lit, counts).arrived == D3{0});
     CHECK(share(Verdict::lit, counts).sent == D3{0});
+}
+
+TEST_CASE("direct light: a lamp, and what stands before it, at the time of the path") {
+    // A ball of light of radius 1 goes from (0, 5, 0) to (4, 5, 0), and a wall from
+    // above the point to far away. Above the horizon a ball gives pi L (r/d)^2 cos; mean
+    // of 32^2 points of the unit square. With and without a pane somewhere else.
+    using D3 = glm::dvec3;
+    using Ball = SphereT<double>;
+    using Wall = QuadT<double>;
+    const LambertianT<double> matt{.albedo{0.8, 0.5, 0.2}};
+    const D3 radiance{3, 2, 1};
+    const auto check_in = [&](auto scene) {
+        const auto white = scene.add(matt);
+        const auto black = scene.add(LambertianT<double>{.albedo = D3{0}});
+        scene.add(Wall{{-50, 0, -50}, {0, 0, 100}, {100, 0, 0}}, white);
+        scene.add(Moving<Ball>{{.center{0, 5, 0}, .radius = 1}, {4, 0, 0}}, black,
+                  radiance);
+        scene.add(Moving<Wall>{{{-2, 1, -2}, {4, 0, 0}, {0, 0, 4}}, {50, 0, 0}}, black);
+        const RayT<double> ray{.origin{0, 0.5, 0}, .direction{0, -1, 0}};
+        auto at = vertex_at(scene, ray, *closest_hit(scene, ray));
+        const auto whole = [](const auto&, const auto&) { return 1.0; };
+        for (const double time : {0.0, 0.25, 0.75, 1.0}) {
+            at.time = time;
+            Counts counts;
+            D3 mean{0}, sent{0};
+            constexpr int n = 32;
+            for (int i = 0; i < n * n; ++i) {
+                const Vec2T<double> u{(i % n + 0.5) / n, (i / n + 0.5) / n};
+                const auto share =
+                    detail::light_share(scene, scene.lights[0], at, matt, u, whole,
+                                        counts, Verdict::unknown);
+                mean += share.arrived / double(n * n);
+                sent += share.sent / double(n * n);
+            }
+            const double d2 = 25 + 16 * time * time;
+            const D3 right = matt.albedo * radiance * 5.0 / (std::sqrt(d2) * d2);
+            CAPTURE(time);
+            for (int c = 0; c < 3; ++c) {
+                CHECK(sent[c] == ljus_test::within(right[c], 1e-3));
+                CHECK(mean[c] == ljus_test::within(time > 0 ? right[c] : 0, 1e-3));
+            }
+            CHECK(counts.shadow_rays == n * n);
+        }
+    };
+    check_in(Scene<Shapes<Wall, Moving<Ball>, Moving<Wall>>,
+                   Materials<LambertianT<double>>>{});
+    Scene<Shapes<Wall, Moving<Ball>, Moving<Wall>>,
+          Materials<LambertianT<double>, ThinGlassT<double>>>
+        with_pane;
+    with_pane.add(Wall{{30, 1, 1}, {2, 0, 0}, {0, 0, -2}},
+                  with_pane.add(ThinGlassT<double>{.index = 1.5}));
+    check_in(with_pane);
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -32,6 +33,29 @@ using D3 = glm::dvec3;
 using QuadD = QuadT<double>;
 using MattD = LambertianT<double>;
 using RgbD = RgbT<double>;
+
+/// Matt below a gloss, that notes by which lobes it is sampled.
+struct Lacquer {
+    using Scalar = double;
+    MattD matt{};
+    Lobes* asked = nullptr;
+};
+Lobes lobes(const Lacquer&) {
+    return Lobes::diffuse | Lobes::glossy;
+}
+RgbD evaluate(const Lacquer& lacquer, const D3& wo, const D3& wi) {
+    return evaluate(lacquer.matt, wo, wi);
+}
+[[maybe_unused]] double pdf(const Lacquer& lacquer, const D3& wo, const D3& wi, Lobes) {
+    return pdf(lacquer.matt, wo, wi);
+}
+std::optional<BsdfSampleT<double>> sample(const Lacquer& lacquer, const D3& wo,
+                                          const D3& u, Transport transport,
+                                          Lobes which) {
+    *lacquer.asked = which;
+    return sample(lacquer.matt, wo, u, transport);
+}
+void check(const Lacquer&) {}
 
 /// The mean of n rays of one pixel, as render() draws them.
 template <typename Tracer, typename T>
@@ -483,7 +507,24 @@ TEST_CASE("distributed rays: max_depth turns, and no ray of black light") {
             (void)radiance(make_distributed(hall, {.max_depth = depth}), across, stream,
                            counts);
             CHECK(counts.bounce_rays == std::uint64_t(share > 0 ? depth : 0));
+            CHECK(counts.cut_paths == (share > 0 || depth == 0 ? 1u : 0u));
         }
+    // A matt surface sends no ray on, so that the depth cuts none; gloss does.
+    const Ray down{.origin{0, 1, 0}, .direction{0, -1, 0}};
+    for (const int depth : {0, 1}) {
+        const auto cut = [&](const auto& material) {
+            const auto floor = make_scene(
+                placed(Quad{{-20, 0, 20}, {40, 0, 0}, {0, 0, -40}}, material));
+            Counts counts;
+            StratifiedStream stream;
+            (void)radiance(make_distributed(floor, {.max_depth = depth}), down, stream,
+                           counts);
+            return counts.cut_paths;
+        };
+        CHECK(cut(Lambertian{}) == 0);
+        CHECK(cut(Glossy{.reflectance = Rgb{0.8f}}) == (depth == 0 ? 1u : 0u));
+        CHECK(cut(Mirror{}) == (depth == 0 ? 1u : 0u));
+    }
 }
 
 TEST_CASE(
@@ -505,11 +546,56 @@ TEST_CASE(
     CHECK(counts.shadow_rays == 0);
 }
 
+TEST_CASE("distributed rays: what is below a gloss is seen by the same ray") {
+    // No shadow ray goes to the lamp: all lobes must see it by themselves.
+    using Room = Scene<Shapes<QuadD>, Materials<MattD, Lacquer>>;
+    Room room;
+    Lobes asked = Lobes::none;
+    room.add(QuadD{{-20, 0, 20}, {40, 0, 0}, {0, 0, -40}},
+             room.add(Lacquer{{.albedo = RgbD{0.5}}, &asked}));
+    room.add(QuadD{{-1e4, 4, -1e4}, {2e4, 0, 0}, {0, 0, 2e4}},
+             room.add(MattD{.albedo = RgbD{0}}), RgbD{3});
+    Counts counts;
+    StratifiedStream stream;
+    const RgbD seen =
+        radiance(make_distributed(room),
+                 RayT<double>{.origin{0, 1, 0}, .direction{0, -1, 0}}, stream, counts);
+    CHECK(asked == Lobes::all);
+    CHECK(counts.shadow_rays == 0);
+    CHECK(seen.x == doctest::Approx(1.5)); // the lamp is all of the sky
+}
+
+TEST_CASE("distributed rays: a light draws two numbers if it has a size, else none") {
+    const MattD matt{.albedo = RgbD{0.5}};
+    for (const int points : {0, 1, 3})
+        for (const int lamps : {0, 1, 2}) {
+            Scene<Shapes<QuadD>, Materials<MattD>> room;
+            const auto white = room.add(matt);
+            room.add(QuadD{{-20, 0, 20}, {40, 0, 0}, {0, 0, -40}}, white);
+            for (int i = 0; i < points; ++i)
+                room.add(PointLightT<double>{.position{0, 2.0 + i, 0},
+                                             .intensity = RgbD{1}});
+            for (int i = 0; i < lamps; ++i)
+                room.add(QuadD{{-1, 3.0 + i, -1}, {2, 0, 0}, {0, 0, 2}}, white,
+                         RgbD{3});
+            const RayT<double> down{.origin{0, 1, 0}, .direction{0, -1, 0}};
+            const auto vertex = vertex_at(room, down, *closest_hit(room, down));
+            auto stream = random_stream(5, Pass::user, 0, 0), twin = stream;
+            Counts counts;
+            (void)detail::soft_light(room, vertex, matt, stream, counts);
+            for (int i = 0; i < lamps; ++i) (void)next_2d<double>(twin);
+            CHECK(next_1d<double>(stream) == next_1d<double>(twin));
+            CHECK(counts.shadow_rays == std::uint64_t(points + lamps));
+        }
+}
+
 TEST_CASE("distributed rays: at the extremes") {
     const auto scene = edge_scene();
     CHECK_THROWS_WITH_AS((void)make_distributed(scene, {.max_depth = -1}),
                          "max_depth is -1; it must be at least 0.",
                          std::invalid_argument);
+    CHECK(make_distributed(scene, {.max_depth = 0}).settings.max_depth == 0);
+    CHECK(make_distributed(scene).settings.max_depth == 5);
     using Room = Scene<Shapes<Moving<Sphere>>, Materials<Lambertian>>;
     Room room;
     const auto matt = room.add(Lambertian{.albedo = Rgb{0.5f}});

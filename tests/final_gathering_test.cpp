@@ -2,13 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <string>
+#include <utility>
 
+#include "ljus/geometry/moving.hpp"
+#include "ljus/materials/glass.hpp"
 #include "ljus/materials/mirror.hpp"
 #include "ljus/materials/mixture.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/scenes/furnaces.hpp"
 #include "support/mean.hpp"
+#include "support/refusal.hpp"
 #include "support/within.hpp"
 
 using namespace ljus;
@@ -574,36 +580,73 @@ TEST_CASE("final gathering: what a material reflects of an irradiance") {
     CHECK(detail::seen_normal(vertex) == Vec3{0, -1, 0});
 }
 
-TEST_CASE("final gathering: settings that give no picture are refused") {
+TEST_CASE("final gathering: settings that give no picture are refused by a sentence") {
     const auto room = box_furnace(Rgb{1}, Rgb{0.5f});
-    const auto refused = [&](auto change) {
+    const PhotonMapsT<float> maps;
+    const auto refused = [&](auto change, const std::string& sentence) {
         PhotonMappingSettings settings;
         change(settings);
-        CHECK_THROWS_AS((void)make_photon_maps(room.scene, settings),
-                        std::invalid_argument);
+        CAPTURE(sentence);
+        CHECK(refusal([&] { check(settings); }) == sentence);
+        // Whoever takes settings looks at them.
+        CHECK(refusal([&] { (void)make_photon_maps(room.scene, settings); }) ==
+              sentence);
+        CHECK(refusal([&] { (void)make_photon_mapper(room.scene, maps, settings); }) ==
+              sentence);
+        PhotonMapsT<float> given;
+        CHECK(refusal([&] {
+                  add_irradiance_cache(given, room.scene, Camera{}, {}, settings);
+              }) == sentence);
     };
-    refused([](auto& s) { s.irradiance.every = 1; });
-    refused([](auto& s) { s.irradiance.nearest = 1; });
-    refused([](auto& s) { s.irradiance.nearest = 513; });
-    refused([](auto& s) { s.irradiance.radius = -1; });
-    refused([](auto& s) { s.irradiance.shadow_rays = 0; });
-    refused([](auto& s) { s.gather.rays = 0; });
-    refused([](auto& s) { s.gather.tile = 0; });
-    refused([](auto& s) { s.gather.nearest = 1; });
-    refused([](auto& s) { s.gather.nearest = 65; });
-    refused([](auto& s) { s.gather.reach = 0; });
-    refused([](auto& s) { s.gather.max_depth = 1; });
-    refused([](auto& s) { s.irradiance.radius = std::nanf(""); });
-    refused([](auto& s) { s.irradiance.radius = HUGE_VALF; });
-    refused([](auto& s) { s.gather.reach = HUGE_VALF; });
-    refused([](auto& s) { s.general_estimate.radius = -0.1f; });
-    refused([](auto& s) { s.general_estimate.thickness = 0; });
-    refused([](auto& s) { s.caustics_estimate.nearest = 1; });
-    refused([](auto& s) { s.max_depth = 0; });
-    refused([](auto& s) { s.shadow_rays = 0; });
-    refused([](auto& s) { s.caustics.photons = -1; });
-    refused([](auto& s) { s.general.photons = -1; });
-    refused([](auto& s) { s.skip.risk = 0; });
+    refused([](auto& s) { s.irradiance.every = 1; },
+            "irradiance.every is 1; it must be at least 2.");
+    for (const int nearest : {1, 513})
+        refused([&](auto& s) { s.irradiance.nearest = std::size_t(nearest); },
+                "irradiance.nearest is " + std::to_string(nearest) +
+                    "; it must be within [2, 512] (one photon sets the radius).");
+    for (const auto& [radius, text] :
+         {std::pair{-1.0f, "-1"}, {std::nanf(""), "NaN"}, {HUGE_VALF, "infinity"}})
+        refused([&, r = radius](auto& s) { s.irradiance.radius = r; },
+                std::string("irradiance.radius is ") + text +
+                    "; it must be at least 0 (0: chosen from the photons).");
+    refused([](auto& s) { s.irradiance.shadow_rays = 0; },
+            "irradiance.shadow_rays is 0; it must be at least 1.");
+    refused([](auto& s) { s.gather.rays = 0; },
+            "gather.rays is 0; it must be at least 1.");
+    refused([](auto& s) { s.gather.tile = 0; },
+            "gather.tile is 0; it must be at least 1.");
+    for (const int nearest : {1, 65})
+        refused([&](auto& s) { s.gather.nearest = std::size_t(nearest); },
+                "gather.nearest is " + std::to_string(nearest) +
+                    "; it must be within [2, 64].");
+    refused([](auto& s) { s.gather.reach = 0; },
+            "gather.reach is 0; it must be finite and above 0.");
+    refused([](auto& s) { s.gather.reach = HUGE_VALF; },
+            "gather.reach is infinity; it must be finite and above 0.");
+    refused([](auto& s) { s.gather.max_depth = 1; },
+            "gather.max_depth is 1; it must be at least 2.");
+    refused([](auto& s) { s.max_depth = 0; }, "max_depth is 0; it must be at least 1.");
+    refused([](auto& s) { s.shadow_rays = 0; },
+            "shadow_rays is 0; it must be at least 1.");
+    refused([](auto& s) { s.caustics.photons = -1; },
+            "caustics.photons is -1; it must be at least 0.");
+    refused([](auto& s) { s.general.photons = -2; },
+            "general.photons is -2; it must be at least 0.");
+    // These are judged by those whose settings they are.
+    const auto passed_on = [&](auto change, auto judge) {
+        PhotonMappingSettings settings;
+        change(settings);
+        const std::string sentence = refusal([&] { judge(settings); });
+        CHECK_FALSE(sentence.empty());
+        refused(change, sentence);
+    };
+    const auto of_caustics = [](const auto& s) { check(s.caustics_estimate); };
+    const auto of_general = [](const auto& s) { check(s.general_estimate); };
+    passed_on([](auto& s) { s.general_estimate.radius = -0.1f; }, of_general);
+    passed_on([](auto& s) { s.general_estimate.thickness = 0; }, of_general);
+    passed_on([](auto& s) { s.caustics_estimate.nearest = 1; }, of_caustics);
+    passed_on([](auto& s) { s.caustics_estimate.radius = -0.1f; }, of_caustics);
+    passed_on([](auto& s) { s.skip.risk = 0; }, [](const auto& s) { check(s.skip); });
     // The last that are none.
     PhotonMappingSettings least{.max_depth = 1, .indirect = IndirectLight::gather};
     least.caustics.photons = least.general.photons = 0;
@@ -614,7 +657,39 @@ TEST_CASE("final gathering: settings that give no picture are refused") {
     least.irradiance.nearest = 512;
     least.gather.nearest = 64;
     check(least);
-    refused([](auto& s) { s.caustics_estimate.radius = -0.1f; });
+    (void)make_photon_maps(room.scene, least);
+    (void)make_photon_mapper(room.scene, maps, least);
+}
+
+TEST_CASE("final gathering: what is meant where nothing is said") {
+    const PhotonMappingSettings silent;
+    CHECK(silent.max_depth == 1000);
+    CHECK(silent.roulette_depth == 4);
+    CHECK(silent.shadow_rays == 1);
+    CHECK(silent.direct == DirectLight::sampled);
+    CHECK_FALSE(silent.split_glass);
+    CHECK(silent.indirect == IndirectLight::rays);
+    CHECK(silent.caustic_budget == CausticBudget::as_seen);
+    CHECK(silent.general_estimate.radius == 0.3f);
+    CHECK(silent.skip.rule == SkipRule::none);
+    CHECK_FALSE(silent.skip.indirect_rays);
+    CHECK_FALSE(silent.keep_general_map);
+    CHECK(silent.gather.rays == 25);
+    CHECK(silent.gather.tile == 3);
+    CHECK(silent.gather.nearest == 6);
+    CHECK(silent.gather.reach == 1);
+    CHECK(silent.gather.max_depth == 100);
+    const GatherRayT<double> nowhere;
+    CHECK(nowhere.distance == std::numeric_limits<double>::infinity());
+    CHECK(nowhere.radiance == glm::dvec3{0});
+    const GatheredT<double> nothing;
+    CHECK(nothing.normal == glm::dvec3{0, 0, 1});
+    CHECK(nothing.distance == 0);
+    CHECK(nothing.spacing == 0);
+    const PhotonMapsT<float> maps;
+    CHECK(maps.complete);
+    CHECK(maps.cache.complete);
+    CHECK(maps.cache.empty());
 }
 
 TEST_CASE("final gathering: like normals, and surfaces that lean") {
@@ -774,4 +849,57 @@ TEST_CASE("final gathering: five rays stand elsewhere at each place: no bias") {
                 REQUIRE(right);
                 CHECK(std::abs(apart(mean, double(*right))) < 5);
             }
+}
+
+TEST_CASE(
+    "final gathering: what n^2 takes from a ray in glass is no reason to end it") {
+    // A slab of clear glass before a wall: each ray that comes to the wall brings all of
+    // what the wall sends, and the others are mirrored away.
+    Scene<Shapes<Quad>, Materials<Lambertian, Glass>> hall;
+    const auto glass = hall.add(Glass{.index = 2.4f});
+    hall.add(Quad{.corner{-9, -9, 1}, .edge_u{0, 18, 0}, .edge_v{18, 0, 0}}, glass);
+    hall.add(Quad{.corner{-9, -9, 2}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}}, glass);
+    hall.add(Quad{.corner{-9, -9, 3}, .edge_u{0, 18, 0}, .edge_v{18, 0, 0}},
+             hall.add(Lambertian{.albedo = Rgb{0.5f}}));
+    const IrradiancePoints points = everywhere(Rgb{3, 5, 7}, {{0, 0, -1}});
+    int arrived = 0;
+    for (std::uint64_t i = 0; i < 400; ++i) {
+        auto stream = random_stream(test_seed(4), Pass::user, 0, i);
+        Counts counts;
+        const PathState path{
+            .ray{.direction{0, 0, 1}}, .met_diffuse = true, .depth = 1};
+        const auto found = gather_ray(hall, points, path, 100, stream, counts);
+        CHECK(found.distance == 1);
+        if (found.radiance == Rgb{0}) continue;
+        ++arrived;
+        for (int c = 0; c < 3; ++c)
+            CHECK(double(found.radiance[c]) ==
+                  ljus_test::within(0.5 * (3 + 2 * c) / pi, 1e-5));
+    }
+    // Head on r = (1.4 / 3.4)^2 at each side: (1 - r) / (1 + r) pass, 71 %.
+    CHECK(arrived > 220);
+    CHECK(arrived < 400);
+}
+
+TEST_CASE("final gathering: rays meet what moves where it is at their time") {
+    // A ceiling that rises from 1 to 5, so wide that all that is not along it is seen.
+    Scene<Shapes<Quad, Moving<Quad>>, Materials<Lambertian>> hall;
+    const auto matt = hall.add(Lambertian{.albedo = Rgb{0.5f}});
+    hall.add(Quad{.corner{-9, -9, 0}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}}, matt);
+    const Quad ceiling{
+        .corner{-1e4f, -1e4f, 1}, .edge_u{0, 2e4f, 0}, .edge_v{2e4f, 0, 0}};
+    hall.add(Moving<Quad>{ceiling, {0, 0, 4}}, matt);
+    const IrradiancePoints points = everywhere(Rgb{3}, {{0, 0, -1}});
+    const Ray ray{.origin{0, 0, 0.5f}, .direction{0, 0, -1}};
+    auto vertex = vertex_at(hall, ray, *closest_hit(hall, ray));
+    for (const float time : {0.0f, 0.25f, 1.0f}) {
+        vertex.time = time;
+        auto stream = random_stream(test_seed(4), Pass::user, 0, 0);
+        Counts counts;
+        const auto seen =
+            gather_irradiance(hall, points, vertex, {.rays = 400}, stream, counts);
+        // 1 / length = cos / height, of which the mean over the cosine's is 2 / 3.
+        const double height = 1 + 4 * double(time);
+        CHECK(double(seen.distance) == ljus_test::within(1.5 * height, 0.01));
+    }
 }

@@ -74,6 +74,15 @@ TEST_CASE("light_transport: classes of paths, by hand") {
     CHECK(detail::contains(light_path_expression("((E)(S|D|)*)L"), "ESDSDL"));
     const std::string deep = "E" + std::string(100000, 'D') + "L";
     CHECK(detail::contains(light_path_expression("E(D*S?)*L"), deep));
+    // Of several signs behind one letter each counts: together "any number of".
+    for (const char* words : {"ED+?L", "ED?+L", "ED*?L", "ED??+L", "E(D+)?L"}) {
+        REQUIRE_NOTHROW((void)light_path_expression(words));
+        const LightPathExpression any = light_path_expression(words);
+        for (const char* path : {"EL", "EDL", "EDDDL"})
+            CHECK(detail::contains(any, path));
+        for (const char* path : {"ESL", "ED", "E", "EDDSL"})
+            CHECK_FALSE(detail::contains(any, path));
+    }
 }
 
 TEST_CASE("light_transport: classes of paths, 120 random ones beside std::regex") {
@@ -243,4 +252,16 @@ TEST_CASE("light_transport: a map's terms count by the shortest path of their cl
     CHECK(counted("ESDSL", "S", "DS+L"));
     CHECK_FALSE(counted("ESDL", "S", "DS+L"));
     CHECK_FALSE(counted("ESDSSL", "S", "DS+L"));
+    // The beginning of a longer path is not in its class.
+    CHECK_FALSE(counted("EDLD", "", "DL"));
+    CHECK_FALSE(counted("E.*LL", "D", "DL"));
+    CHECK(counted("EDL(D|S)*", "", "DL"));
+    // A path that begins anew has come from nowhere.
+    const LightPathExpression twice = light_path_expression("E(E|D)*L");
+    detail::ExpressionLog<double> log{.wanted = twice};
+    log.begin();
+    const std::uint64_t states = log.states;
+    log.vertex('D', Vec3T<double>{0}, RgbT<double>{1}, 0.0);
+    log.begin();
+    CHECK(log.states == states);
 }

@@ -14,6 +14,7 @@
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/scenes/furnaces.hpp"
 #include "support/mean.hpp"
+#include "support/refusal.hpp"
 #include "support/statistics.hpp"
 
 using namespace ljus;
@@ -213,22 +214,29 @@ TEST_CASE("path tracing: the error falls with the root of the rays") {
     CHECK(std::abs(slope + 0.5) < 0.06);
 }
 
-TEST_CASE("path tracing: settings that make no sense are refused by name") {
+TEST_CASE("path tracing: settings that make no sense are refused with their value") {
     const auto room = sphere_furnace(Rgb{1}, Rgb{0.5f});
-    const auto refused = [&](const PathTracingSettings& settings,
-                             const std::string& name) {
-        try {
-            (void)make_path_tracer(room.scene, settings);
-        } catch (const std::invalid_argument& error) {
-            return std::string(error.what()).find(name) != std::string::npos;
-        }
-        return false;
+    const auto said = [&](const PathTracingSettings& settings) {
+        return ljus_test::refusal(
+            [&] { (void)make_path_tracer(room.scene, settings); });
     };
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    CHECK(refused({.max_depth = 0}, "max_depth"));
-    CHECK(refused({.roulette_threshold = -1}, "roulette_threshold"));
-    CHECK(refused({.roulette_threshold = nan}, "roulette_threshold"));
-    CHECK(refused({.roulette_max = 0}, "roulette_max"));
-    CHECK(refused({.roulette_max = 1.5}, "roulette_max"));
-    CHECK(refused({.roulette_max = nan}, "roulette_max"));
+    CHECK(said({.max_depth = 0}) == "max_depth is 0; it must be at least 1.");
+    CHECK(said({.roulette_threshold = -1}) ==
+          "roulette_threshold is -1; it must be at least 0.");
+    CHECK(said({.roulette_threshold = nan}) ==
+          "roulette_threshold is NaN; it must be at least 0.");
+    CHECK(said({.roulette_max = 0}) == "roulette_max is 0; it must be in (0, 1].");
+    CHECK(said({.roulette_max = 1.5}) == "roulette_max is 1.5; it must be in (0, 1].");
+    CHECK(said({.roulette_max = nan}) == "roulette_max is NaN; it must be in (0, 1].");
+    // The last that do, and those that are meant where nothing is said.
+    CHECK(said({.max_depth = 1, .roulette_threshold = 0, .roulette_max = 1}).empty());
+    CHECK(said({.roulette_max = 1e-9}).empty());
+    const PathTracingSettings silent = make_path_tracer(room.scene).settings;
+    CHECK(silent.max_depth == 1000);
+    CHECK(silent.roulette_depth == 4);
+    CHECK(silent.sample_lights);
+    CHECK(silent.heuristic == MisHeuristic::balance);
+    CHECK(silent.roulette_threshold == 1);
+    CHECK(silent.roulette_max == 1);
 }

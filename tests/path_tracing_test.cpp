@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "ljus/geometry/moving.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
@@ -599,6 +600,10 @@ TEST_CASE("path tracing: the plain one finds the same light") {
     CHECK_THROWS_WITH_AS((void)make_plain_path_tracer(empty, 0),
                          "max_depth is 0; it must be at least 1.",
                          std::invalid_argument);
+    CHECK(make_plain_path_tracer(empty, 1).max_depth == 1);
+    CHECK(make_plain_path_tracer(empty).max_depth == 100);
+    CHECK(PlainPathTracer<RoomT<float>>{detail::IndexedT<RoomT<float>>(empty)}
+              .max_depth == 100);
 }
 
 TEST_CASE("path tracing: a ray for each turn is counted, and what leaves is black") {
@@ -635,4 +640,104 @@ TEST_CASE("path tracing: a ray for each turn is counted, and what leaves is blac
     CHECK(both({.origin{0, 0, 5}, .direction{0, 0, -1}}) == RgbT<double>{1, 2, 3});
     CHECK(both({.origin{0, 0, 5}, .direction{0, 0, 1}}) == RgbT<double>{0});
     CHECK(both({.origin{0, 2, 5}, .direction{0, 0, -1}}) == RgbT<double>{0});
+}
+
+TEST_CASE(
+    "path tracing: a lamp's share by its number, its power and where it is then") {
+    // A path has met the second of three balls of light, which moves. Of radius r at a
+    // distance d, a shadow ray chooses each direction within its cone with the density
+    // 1 / (2 pi (1 - sqrt(1 - (r/d)^2))), and the ball by its share of all r^2 L.
+    using D3 = glm::dvec3;
+    using Ball = SphereT<double>;
+    Scene<Shapes<Ball, Moving<Ball>>, Materials<LambertianT<double>>> scene;
+    const auto black = scene.add(LambertianT<double>{.albedo = RgbT<double>{0}});
+    scene.add(Ball{.center{0, 0, -9}, .radius = 1}, black, RgbT<double>{7});
+    scene.add(Moving<Ball>{{.center{3, 0, 0}, .radius = 0.5}, {0, 4, 0}}, black,
+              RgbT<double>{2});
+    scene.add(Ball{.center{0, 0, 9}, .radius = 2}, black, RgbT<double>{1});
+    // By its place in the list, whichever that is, it has this power.
+    const double share = 0.25 * 2 / (1 * 7 + 0.25 * 2 + 4 * 1);
+    const D3 throughput{0.5, 0.25, 1};
+    for (const double time : {0.0, 0.25, 1.0}) {
+        const D3 center{3, 4 * time, 0};
+        const RayT<double> ray{.direction = glm::normalize(center), .time = time};
+        const auto index = index_scene(scene);
+        const auto hit = closest_hit(index, ray);
+        REQUIRE(hit);
+        const auto vertex = vertex_at(index, ray, *hit);
+        REQUIRE(vertex.emits());
+        const double cosine = std::sqrt(1 - 0.25 / glm::dot(center, center));
+        const double other = share / (2 * std::numbers::pi * (1 - cosine));
+        const auto found = [&](MisHeuristic heuristic, double pdf, bool lights = true) {
+            const auto tracer = make_path_tracer(
+                index, {.sample_lights = lights, .heuristic = heuristic});
+            const PathStateT<double> path{
+                .ray = ray, .throughput = throughput, .pdf = pdf};
+            return detail::emitted(tracer, path, vertex);
+        };
+        const D3 all = 2.0 * throughput;
+        for (const double pdf : {0.01, 0.7, 30.0}) {
+            CAPTURE(time);
+            CAPTURE(pdf);
+            const auto weight = [&](MisHeuristic heuristic) {
+                const D3 seen = found(heuristic, pdf);
+                CHECK(seen.x / all.x == doctest::Approx(seen.z / all.z));
+                CHECK(seen.y / all.y == doctest::Approx(seen.z / all.z));
+                return seen.z / all.z;
+            };
+            const double squares = pdf * pdf + other * other;
+            CHECK(weight(MisHeuristic::balance) ==
+                  doctest::Approx(pdf / (pdf + other)));
+            CHECK(weight(MisHeuristic::power) == doctest::Approx(pdf * pdf / squares));
+            CHECK(weight(MisHeuristic::shadow_rays) == 0);
+            CHECK(found(MisHeuristic::balance, pdf, false) == all);
+        }
+        for (const auto heuristic :
+             {MisHeuristic::balance, MisHeuristic::power, MisHeuristic::shadow_rays})
+            CHECK(found(heuristic, 0) == all); // after a mirror
+    }
+}
+
+TEST_CASE("path tracing: what n^2 takes from a path in glass is no reason to end it") {
+    // Glass that absorbs nothing, in light of radiance 1 that is black: each path brings
+    // all of it, if roulette does not touch it.
+    Furnace<double> room;
+    room.add(SphereT<double>{.radius = 2},
+             room.add(LambertianT<double>{.albedo = RgbT<double>{0}}), RgbT<double>{1},
+             true);
+    room.add(SphereT<double>{.radius = 1}, room.add(GlassT<double>{.index = 2.4}));
+    const auto tracer = make_path_tracer(room, {.roulette_depth = 1});
+    for (std::uint64_t i = 0; i < 300; ++i) {
+        auto stream = random_stream(1, Pass::user, 0, i);
+        Counts counts;
+        const auto seen =
+            radiance(tracer, RayT<double>{.origin{0, 0.3, 1.9}, .direction{0, 0, -1}},
+                     stream, counts);
+        REQUIRE(seen.x == doctest::Approx(1).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("path tracing: a path whose light is gone is not cut by the depth") {
+    // Between a red mirror and one that is green, grey or black: the depth cuts what is
+    // left of the light behind the second one.
+    for (const auto& second :
+         {RgbT<double>{0, 1, 0}, RgbT<double>{0.5}, RgbT<double>{0}})
+        for (const int depth : {1, 2, 3}) {
+            ljus_test::RoomT<double> room;
+            const auto wall = [&](double z, const RgbT<double>& color) {
+                room.add(QuadT<double>{{-9, -9, z}, {18, 0, 0}, {0, 18, 0}},
+                         room.add(MirrorT<double>{.reflectance = color}));
+            };
+            wall(1, {1, 0, 0});
+            wall(-1, second);
+            Counts counts;
+            auto stream = random_stream(1, Pass::user, 0, 0);
+            (void)radiance(make_path_tracer(room, {.max_depth = depth,
+                                                   .roulette_depth = no_roulette}),
+                           RayT<double>{.direction{0, 0, 1}}, stream, counts);
+            CAPTURE(depth);
+            const bool left = depth == 1 || second.x > 0;
+            CHECK(counts.cut_paths == (left ? 1u : 0u));
+            CHECK(counts.bounce_rays == std::uint64_t(left ? depth - 1 : 1));
+        }
 }

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "ljus/io/progressive_file.hpp"
@@ -466,11 +468,20 @@ TEST_CASE("progressive: radii and shares are chosen once, for all passes") {
 
 TEST_CASE("progressive: what cannot be is refused in a sentence") {
     const NoisyPass pass;
-    for (const double alpha : {0.0, -1.0, 1.5, std::nan("")}) {
+    for (const auto& [alpha, text] :
+         {std::pair{0.0, "0"}, {-1.0, "-1"}, {1.5, "1.5"}, {std::nan(""), "NaN"}}) {
         ProgressiveState state{.alpha = alpha};
-        CHECK(refusal([&] { add_pass(state, pass(1, 1).image); }).find("alpha is ") ==
-              0);
+        CHECK(refusal([&] { add_pass(state, pass(1, 1).image); }) ==
+              std::string("alpha is ") + text + "; it must be in (0, 1].");
     }
+    ProgressiveState steady{.alpha = 1}; // the last that is none: nothing shrinks
+    add_pass(steady, pass(1, 1).image);
+    CHECK(steady.shrink == 1);
+    const ProgressiveState silent;
+    CHECK(silent.alpha == 2.0 / 3);
+    CHECK(silent.block_side == 8);
+    CHECK(silent.shrink == 1);
+    CHECK(silent.passes == 0);
     ProgressiveState state{.block_side = 0};
     CHECK(refusal([&] { add_pass(state, pass(1, 1).image); }) ==
           "the side of a block is 0; it must be at least 1.");
@@ -489,6 +500,11 @@ TEST_CASE("progressive: what cannot be is refused in a sentence") {
     CHECK(refusal([&] {
               require_first_pass(state, NoisyPass{.noise = 1.001});
           }).find("The passes so far are of another picture") == 0);
+    // One that was stopped says nothing of what it would have been.
+    const auto stopped = [](long long, double) {
+        return RenderedT<float>{.image = make_image(5, 3), .complete = false};
+    };
+    CHECK(refusal([&] { require_first_pass(state, stopped); }).empty());
     // No passes asked for, or fewer than there are: nothing is done.
     CHECK(run_progressive(state, 0, pass, go_on));
     CHECK(run_progressive(state, -5, pass, go_on));
@@ -737,4 +753,74 @@ TEST_CASE("progressive: the standard error is over all channels and pixels") {
     turned = five;
     std::swap(turned.width, turned.height);
     CHECK(detail::hash_of(turned) != hash);
+}
+
+TEST_CASE("progressive: each pass has photons of its own, in either map") {
+    using namespace ljus_test;
+    // One pixel, so narrow that all its rays meet one point, under a point light: what
+    // differs from pass to pass is the photons'. A tenth of 3000 photons is known to
+    // some per cent; twice the same photons, to the last digits of a float.
+    const auto room = make_room<float>(Ball::mirror, Lamp::point, 1);
+    const Camera narrow = look_at(View{
+        .position{0.6f, -0.2f, 0.5f}, .target{0.5f, -1, 0.4f}, .vfov_degrees = 1e-3f});
+    for (const bool caustics : {false, true}) {
+        PhotonMappingSettings settings{.indirect = caustics ? IndirectLight::none
+                                                            : IndirectLight::photons};
+        settings.caustics = {.photons = caustics ? 3000 : 0, .threads = 1};
+        settings.general = {.photons = caustics ? 0 : 3000, .threads = 1};
+        settings.caustics_estimate.radius = settings.general_estimate.radius = 0.5f;
+        const auto seen = [&](long long pass) {
+            const auto rendered =
+                photon_mapping_pass(room, narrow, settings,
+                                    {.width = 1, .height = 1, .samples = 1}, pass, 1.0);
+            REQUIRE(rendered.complete);
+            return double(rendered.image.pixels[0].x);
+        };
+        // Without photons: the light of the lamp alone.
+        PhotonMappingSettings without = settings;
+        without.caustics.photons = without.general.photons = 0;
+        const auto direct =
+            double(photon_mapping_pass(room, narrow, without,
+                                       {.width = 1, .height = 1, .samples = 1}, 1, 1.0)
+                       .image.pixels[0]
+                       .x);
+        CAPTURE(caustics);
+        std::vector<double> by_photons;
+        for (long long pass = 1; pass <= 4; ++pass) {
+            by_photons.push_back(seen(pass) - direct);
+            CHECK(by_photons.back() > 0);
+            for (std::size_t i = 0; i + 1 < by_photons.size(); ++i)
+                CHECK(std::abs(by_photons.back() / by_photons[i] - 1) > 1e-4);
+        }
+    }
+}
+
+TEST_CASE("progressive: a radius that is not given is chosen, whichever it is") {
+    using namespace ljus_test;
+    const auto room = make_room<float>(Ball::mirror, Lamp::quad, 1);
+    PhotonMappingSettings settings{.indirect = IndirectLight::photons};
+    settings.caustics = {.photons = 2000, .threads = 1};
+    settings.general = {.photons = 2000, .threads = 1};
+    const auto maps = make_photon_maps(room, settings);
+    for (const float caustics : {0.0f, 0.2f})
+        for (const float general : {0.0f, 0.4f}) {
+            settings.caustics_estimate.radius = caustics;
+            settings.general_estimate.radius = general;
+            const auto chosen = settings_for_passes(room, settings);
+            CHECK(chosen.caustics_estimate.radius ==
+                  (caustics > 0 ? caustics : typical_radius(maps.caustics, 32)));
+            CHECK(chosen.general_estimate.radius ==
+                  (general > 0 ? general : typical_radius(maps.general, 64)));
+        }
+    // A pass whose photons are stopped is no pass, and no picture is rendered.
+    const auto stop = [](long long, long long) { return false; };
+    int rows = 0;
+    const auto watch = [&](long long, long long) { return ++rows > 0; };
+    settings.caustics.progress = stop;
+    const auto pass = photon_mapping_pass(
+        room, room_camera<float>(), settings,
+        {.width = 8, .height = 8, .samples = 1, .progress = watch}, 1, 1.0);
+    CHECK_FALSE(pass.complete);
+    CHECK(pass.image.pixels.empty());
+    CHECK(rows == 0);
 }

@@ -5,10 +5,13 @@
 #include <cstdint>
 #include <limits>
 #include <set>
+#include <string>
+#include <utility>
 
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"
+#include "support/refusal.hpp"
 #include "support/rooms.hpp"
 #include "support/within.hpp"
 
@@ -269,15 +272,29 @@ TEST_CASE("render: a sample that is not finite is left out and counted, never sh
 }
 
 TEST_CASE("render: refuses a picture without pixels or rays") {
-    for (const auto& [width, height, rays] :
-         {std::tuple{0, 4, 1}, std::tuple{4, 0, 1}, std::tuple{-3, 4, 1},
-          std::tuple{4, 4, 0}, std::tuple{4, 4, -1}})
-        CHECK_THROWS_AS(
-            (void)render(Probe{}, Camera{},
-                         {.width = width, .height = height, .samples = rays}),
-            std::invalid_argument);
-    CHECK_THROWS_AS((void)render(Probe{}, Camera{}, {.threads = -1}),
-                    std::invalid_argument);
+    const auto said = [](const RenderSettings& picture) {
+        return refusal([&] { (void)render(Probe{}, Camera{}, picture); });
+    };
+    for (const auto& [width, height] : {std::pair{0, 4}, {4, 0}, {-3, 4}})
+        CHECK(said({.width = width, .height = height})
+                  .find("The image's size is " + std::to_string(width) + " x " +
+                        std::to_string(height) + "; ") == 0);
+    CHECK(said({.width = 4, .height = 4, .samples = 0}) ==
+          "samples is 0; it must be at least 1.");
+    CHECK(said({.width = 4, .height = 4, .samples = -1}) ==
+          "samples is -1; it must be at least 1.");
+    CHECK(said({.threads = -1}) ==
+          "the number of threads is -1; it must be within [0, 1024].");
+    CHECK(said({.width = 1, .height = 1, .samples = 1}).empty());
+    const RenderSettings silent;
+    CHECK(silent.width == 400);
+    CHECK(silent.height == 400);
+    CHECK(silent.samples == 64);
+    CHECK(silent.seed == 1);
+    CHECK(silent.threads == 0);
+    CHECK(silent.sampling == Sampling::multi_jittered);
+    CHECK(silent.filter == Filter::box);
+    CHECK(RenderedT<float>{}.complete);
 }
 
 TEST_CASE("render: progress is told, and can stop it") {
@@ -331,6 +348,15 @@ TEST_CASE("render: neighbours do not look through the same places of their squar
                 cells.insert(int(16 * rest.x));
             }
         CHECK(cells.size() > 8); // one, if all had one pattern
+        std::set<int> by_seed;   // the same of one pixel in 64 pictures
+        for (std::uint64_t seed = 1; seed <= 64; ++seed) {
+            RandomStream stream;
+            const auto at = detail::place_of_ray<double>(
+                {.width = 8, .height = 8, .samples = 16, .seed = seed}, pattern, 0, 0,
+                0, stream);
+            by_seed.insert(int(16 * at.place.x));
+        }
+        CHECK(by_seed.size() > 8);
     }
 }
 
@@ -380,8 +406,10 @@ TEST_CASE("render: rows that are rendered apart are the whole, byte by byte") {
         (void)render_rows(tracer, Camera{}, picture, {5, 5}),
         "the first row is 5; it must be at least 0 and below the last.",
         std::invalid_argument);
-    CHECK_THROWS_AS((void)render_rows(tracer, Camera{}, picture, {-1, 5}),
-                    std::invalid_argument);
+    CHECK_THROWS_WITH_AS(
+        (void)render_rows(tracer, Camera{}, picture, {-1, 5}),
+        "the first row is -1; it must be at least 0 and below the last.",
+        std::invalid_argument);
     CHECK_THROWS_WITH_AS((void)render_rows(tracer, Camera{}, picture, {5, 14}),
                          "the last row is 14; it must be at most the picture's height.",
                          std::invalid_argument);

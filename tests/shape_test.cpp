@@ -343,3 +343,26 @@ TEST_CASE("shape: a ball that no picture can be made of is refused by name") {
                          "sphere.radius is 0; it must be finite and above 0.",
                          std::invalid_argument);
 }
+
+TEST_CASE("shape: a table of hooks in one line") {
+    using Table = std::vector<detail::Hook>;
+    const detail::Hook a{"area", "its size", "no lamp", true},
+        b{"box", "bounds", "a ball's", true};
+    const detail::Hook c{"uv", "textures", "none", false},
+        d{"flat", "speed", "slow", false};
+    CHECK(detail::to_line(Table{}) == "has no hook");
+    CHECK(detail::to_line(Table{a}) == "has area");
+    CHECK(detail::to_line(Table{a, b}) == "has area, box");
+    CHECK(detail::to_line(Table{c}) == "has no hook; without uv (none)");
+    CHECK(detail::to_line(Table{c, a, d, b}) ==
+          "has area, box; without uv (none), flat (slow)");
+    CHECK(detail::to_line(Table{c, d}) ==
+          "has no hook; without uv (none), flat (slow)");
+    // A stand-in is of its type, and of no other's; a final type stands for itself.
+    struct Open {};
+    struct Final final {};
+    CHECK(std::is_base_of_v<Open, detail::Own<Open>>);
+    CHECK(detail::is_stand_in<detail::Own<Open>>);
+    CHECK_FALSE(detail::is_stand_in<Open>);
+    CHECK(std::is_same_v<Final, detail::Own<Final>>);
+}

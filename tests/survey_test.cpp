@@ -360,6 +360,52 @@ TEST_CASE("survey: where float stops holding, it says so, with the digits left")
     CHECK(make_photon_maps(far).remarks == plan.remarks[0] + "\n");
 }
 
+TEST_CASE("survey: lengths whose squares leave the range, and a gloss, by what it is") {
+    const auto said = [](auto radius) {
+        using T = decltype(radius);
+        Scene<Shapes<SphereT<T>>, Materials<LambertianT<T>>> scene;
+        scene.add(SphereT<T>{.radius = radius}, scene.add(LambertianT<T>{}));
+        return detail::digits_remark(scene);
+    };
+    CHECK(said(0.9e9f).empty());
+    CHECK(said(2e9f) ==
+          "coordinates reach 2e+09: above 1e9 the squares of areas leave the range of "
+          "float; use double, or a larger unit of length");
+    CHECK(said(0.9e75).empty());
+    CHECK(said(2e75) ==
+          "coordinates reach 2e+75: above 1e75 the squares of areas leave the range of "
+          "double; use a larger unit of length");
+    // A gloss is no mirror, unless it has no roughness.
+    for (const float roughness : {0.0f, 0.3f}) {
+        Scene<Shapes<Sphere>, Materials<Glossy>> scene;
+        scene.add(Sphere{}, scene.add(Glossy{.roughness = roughness}));
+        const SceneNeeds found = needs(scene);
+        CHECK(found.objects == 1);
+        CHECK(found.diffuse == (roughness > 0 ? 1 : 0));
+        CHECK(found.specular == (roughness > 0 ? 0 : 1));
+    }
+    // How a plan says where the caustics' photons go.
+    PhotonMappingSettings settings;
+    settings.caustics_estimate.radius = 0.1f;
+    const auto clause = [&](CausticBudget budget) {
+        settings.caustic_budget = budget;
+        return detail::caustics_clause(settings);
+    };
+    CHECK(clause(CausticBudget::as_seen).empty());
+    CHECK(clause(CausticBudget::equal) == ", each gets as many photons");
+    CHECK(clause(CausticBudget::flux) == ", photons are shared out by flux");
+    CHECK(clause(CausticBudget::area) == ", photons are shared out by caustic area");
+    CHECK(clause(CausticBudget::brightness) ==
+          ", photons are shared out by flux over brightness");
+    settings.caustics_estimate.radius = 0;
+    CHECK(clause(CausticBudget::as_seen) == ", the radius comes from the photons");
+    CHECK(clause(CausticBudget::equal) ==
+          ", each gets as many photons, the radius comes from the photons");
+    settings.caustics.shares = {1.0};
+    CHECK(clause(CausticBudget::equal) ==
+          ", photons in given shares, the radius comes from the photons");
+}
+
 TEST_CASE("survey: a scene without a lamp is said to be black, and it is") {
     Scene<Shapes<Sphere>, Materials<Lambertian>> scene;
     scene.add(Sphere{.center{0, 0, -3}}, scene.add(Lambertian{}));

@@ -5,6 +5,7 @@
 
 #include "ljus/geometry/moving.hpp"
 #include "ljus/image/texture.hpp"
+#include "ljus/materials/mixture.hpp"
 #include "ljus/materials/textured.hpp"
 #include "ljus/path/continue_path.hpp"
 #include "ljus/path/next_vertex.hpp"
@@ -219,14 +220,22 @@ TEST_CASE("vertex: a path that begins in glass is in it, and outside it is not")
                   doctest::Approx(inside ? std::exp(-0.5 * fog[c]) : 1));
         CHECK(path.depth == 1);
     }
-    // Later a surface met from behind says nothing: a matt sheet within the glass.
-    PathStateT<double> path{
-        .ray{.origin{0, 0, -1}, .direction{0, 0, 1}}, .medium = fog, .depth = 1};
-    RoomT<double> room;
-    room.add(QuadT<double>{{-9, -9, 0}, {0, 18, 0}, {18, 0, 0}},
-             room.add(LambertianT<double>{}));
-    CHECK(next_vertex(room, path, stream)->medium == fog);
-    CHECK(path.throughput.y == doctest::Approx(std::exp(-0.2)));
+    // Later a surface says nothing, met from the front or from behind: a matt sheet
+    // within the glass.
+    for (const bool behind : {false, true}) {
+        PathStateT<double> path{
+            .ray{.origin{0, 0, -1}, .direction{0, 0, 1}}, .medium = fog, .depth = 1};
+        RoomT<double> room;
+        const D3 u{0, 18, 0}, v{18, 0, 0}; // u x v = -z
+        room.add(QuadT<double>{{-9, -9, 0}, behind ? v : u, behind ? u : v},
+                 room.add(LambertianT<double>{}));
+        const auto vertex = next_vertex(room, path, stream);
+        REQUIRE(vertex);
+        CHECK((vertex->wo.z < 0) == behind);
+        CHECK(vertex->medium == fog);
+        CHECK(path.medium == fog);
+        CHECK(path.throughput.y == doctest::Approx(std::exp(-0.2)));
+    }
 }
 
 TEST_CASE("vertex: a matt surface sends a path on by the cosine, times its albedo") {
@@ -589,4 +598,245 @@ TEST_CASE("vertex: coordinates of a texture, for those that look up by them") {
     Scene<Shapes<Quad>, Materials<Lambertian>> bare;
     const auto id = bare.add(Lambertian{});
     CHECK_FALSE(detail::uses_uv(bare, id));
+}
+
+TEST_CASE("vertex: a path keeps nothing of how it was scattered before") {
+    VertexT<double> vertex;
+    vertex.point.normal = {0, 0, 1};
+    vertex.frame = frame_around(D3{0, 0, 1});
+    const LambertianT<double> matt{.albedo{0.8, 0.5, 0.2}};
+    const MirrorT<double> mirror{.reflectance = D3{0.9}};
+    auto stream = random_stream(6, Pass::user, 0, 0);
+    PathStateT<double> path{.eta_scale = 0.5};
+    for (int turn = 0; turn < 3; ++turn) {
+        REQUIRE(
+            continue_path(path, vertex, matt, Transport::radiance, Lobes::all, stream));
+        CHECK(path.pdf == doctest::Approx(path.ray.direction.z / std::numbers::pi));
+        CHECK_FALSE(path.specular);
+        CHECK(path.met_specular == (turn > 0)); // this it does keep
+        REQUIRE(continue_path(path, vertex, mirror, Transport::radiance, Lobes::all,
+                              stream));
+        CHECK(path.pdf == 0);
+        CHECK(path.specular);
+        CHECK(path.met_diffuse);
+        CHECK(path.met_specular);
+        CHECK(path.eta_scale == 0.5);
+    }
+}
+
+TEST_CASE("vertex: what two normals disagree about is sampled again, as it was asked") {
+    // Seen along the surface, a direction mirrored about the leaning normal lies below
+    // the surface. About its own normal Fresnel mirrors less: some go in, after all.
+    const D3 back = glm::normalize(D3{-0.9, 0.35, 0});
+    const auto vertex = leaning(back);
+    REQUIRE(vertex.wo.z > 0);
+    const GlassT<double> glass{.index = 1.5};
+    for (const Transport transport : {Transport::radiance, Transport::flux}) {
+        int refracted = 0;
+        for (int i = 0; i < 40; ++i) {
+            const double u = (i + 0.5) / 40;
+            const auto next = scatter(vertex, glass, D3{u, u, u}, transport);
+            REQUIRE(next);
+            const bool inside = next->wi.y < 0;
+            // In by the leaning normal from the first, or by the surface's own.
+            const D3 plane = inside ? glm::cross(next->wi, D3{0, 1, 0}) : D3{0};
+            const bool by_own =
+                inside && std::abs(glm::length(plane) - std::abs(back.x) / 1.5) < 1e-9;
+            refracted += by_own;
+            const double scale =
+                inside && transport == Transport::radiance ? 1 / 2.25 : 1;
+            if (by_own || !inside)
+                CHECK(next->sample.weight.x == doctest::Approx(scale));
+            if (!inside) CHECK(glm::distance(next->wi, D3{-back.x, back.y, 0}) < 1e-9);
+        }
+        CHECK(refracted > 5);
+    }
+    // Half a mirror, half matt: if the mirror is asked for, it is the mirror.
+    const MixtureT<double> half{.color{0.9, 0.9, 0.9}, .reflectivity = 0.5};
+    int matt = 0;
+    for (int i = 0; i < 40; ++i) {
+        const double u = (i + 0.5) / 40;
+        const auto next =
+            scatter(vertex, half, D3{u, u, u}, Transport::radiance, Lobes::specular);
+        REQUIRE(next);
+        CHECK(next->sample.specular);
+        CHECK(glm::distance(next->sample.weight, D3{0.5}) < 1e-12);
+        CHECK(glm::distance(next->wi, D3{-back.x, back.y, 0}) < 1e-9);
+        const auto any = scatter(vertex, half, D3{u, u, u}, Transport::radiance);
+        matt += !any || !any->sample.specular;
+    }
+    CHECK(matt > 5);
+    // A matt direction through the surface ends the path, and is no second chance for
+    // the boundary, which by the surface's own normal mirrors more.
+    const MixtureT<double> coated{.color = D3{0.9}, .specularity = 1};
+    const auto low = leaning(glm::normalize(D3{0.95, 0.1, 0}));
+    int through = 0, mirrored = 0;
+    auto numbers = random_stream(7, Pass::user, 0, 0);
+    for (int i = 0; i < 4000; ++i) {
+        const auto u = next_3d<double>(numbers);
+        const auto first = sample(coated, low.wo, u, Transport::radiance);
+        REQUIRE(first);
+        if (first->specular || to_world(low.frame, first->wi).y > 0) continue;
+        ++through;
+        CHECK_FALSE(scatter(low, coated, u, Transport::radiance));
+        const auto flat = frame_around(D3{0, 1, 0});
+        const D3 wo = to_local(flat, to_world(low.frame, low.wo));
+        const auto own = sample(coated, wo, u, Transport::radiance);
+        mirrored += own && own->specular;
+    }
+    CHECK(through > 50);
+    CHECK(mirrored > 10);
+}
+
+TEST_CASE("vertex: the numbers of a bounce are those of its place in the tree") {
+    const auto scene = slab();
+    for (const int depth : {0, 7})
+        for (const std::uint64_t branch :
+             {std::uint64_t(0), std::uint64_t(1) << 20, std::uint64_t(3) << 44}) {
+            auto stream = random_stream(4, Pass::user, 1, 2), twin = stream;
+            for (int i = 0; i < 5; ++i) (void)next_1d<double>(stream);
+            PathStateT<double> path{.ray{.origin{0, 0, 1}, .direction{0, 0, -1}},
+                                    .depth = depth,
+                                    .branch = branch};
+            REQUIRE(next_vertex(scene, path, stream));
+            CHECK(path.branch == branch);
+            start_bounce(twin, branch + std::uint64_t(depth) + 1);
+            CHECK(next_1d<double>(stream) == next_1d<double>(twin));
+        }
+}
+
+TEST_CASE("vertex: what stands in the way does so at its time") {
+    // A wall that goes from x = 0 to x = 10; with and without a pane beyond it.
+    const QuadT<double> wall{{-1, -1, 1}, {2, 0, 0}, {0, 2, 0}};
+    const QuadT<double> pane{{-30, -30, 2}, {60, 0, 0}, {0, 60, 0}};
+    const ThinGlassT<double> clear{1, D3{1}}; // reflects nothing
+    const auto check_in = [&](auto scene) {
+        const auto matt = scene.add(LambertianT<double>{});
+        scene.add(Moving<QuadT<double>>{wall, {10, 0, 0}}, matt);
+        for (const double time : {0.0, 0.25, 0.5, 1.0})
+            for (const double x : {0.0, 2.5, 5.0, 10.0}) {
+                const SurfacePointT<double> from{.position{x, 0, 0}, .normal{0, 0, 1}};
+                const SurfacePointT<double> to{.position{x, 0, 3}, .normal{0, 0, -1}};
+                const bool hidden = std::abs(x - 10 * time) < 1;
+                CAPTURE(time);
+                CAPTURE(x);
+                CHECK(visibility(scene, from, to, time).x ==
+                      doctest::Approx(hidden ? 0 : 1));
+                CHECK(visibility(scene, to, from, time).x ==
+                      doctest::Approx(hidden ? 0 : 1));
+                auto stream = random_stream(4, Pass::user, 1, 2);
+                PathStateT<double> path{
+                    .ray{.origin{x, 0, 3}, .direction{0, 0, -1}, .time = time}};
+                const auto vertex = next_vertex(scene, path, stream);
+                CHECK(vertex.has_value() == hidden);
+                if (vertex) CHECK(vertex->time == time);
+            }
+    };
+    check_in(Scene<Shapes<QuadT<double>, Moving<QuadT<double>>>,
+                   Materials<LambertianT<double>>>{});
+    Scene<Shapes<QuadT<double>, Moving<QuadT<double>>>,
+          Materials<LambertianT<double>, ThinGlassT<double>>>
+        with_pane;
+    check_in(with_pane); // lists such a material, and has none
+    with_pane.add(pane, with_pane.add(clear));
+    check_in(with_pane);
+}
+
+TEST_CASE("vertex: a path and a vertex, before anything is known of them") {
+    const PathStateT<double> path;
+    CHECK(path.throughput == D3{1});
+    CHECK(path.eta_scale == 1);
+    CHECK(path.medium == D3{0});
+    CHECK(path.pdf == 0);
+    CHECK_FALSE(path.specular);
+    CHECK_FALSE(path.met_diffuse);
+    CHECK_FALSE(path.met_specular);
+    CHECK(path.depth == 0);
+    CHECK(path.branch == 0);
+    const VertexT<double> vertex;
+    CHECK(vertex.wo == D3{0, 0, 1});
+    CHECK(vertex.medium == D3{0});
+    CHECK(vertex.stop_probability == 1);
+    CHECK_FALSE(vertex.smooth);
+    CHECK_FALSE(vertex.turned);
+    CHECK_FALSE(vertex.emits());
+    // Roulette: from a throughput of 1 on all are safe.
+    for (const double carried : {0.25, 1.0, 3.0})
+        for (const double u : {0.2, 0.3, 0.99}) {
+            D3 throughput{carried, carried / 2, 0};
+            const bool alive = survives(throughput, 1.0, u);
+            CHECK(alive == (u < carried));
+            if (alive)
+                CHECK(glm::distance(throughput, D3{1, 0.5, 0} * std::fmax(carried, 1)) <
+                      1e-15);
+        }
+}
+
+TEST_CASE("vertex: which of two normals decides what") {
+    const D3 up{0, 1, 0}, lean = glm::normalize(D3{0.3, 1, 0});
+    const auto seen = [&](const D3& direction, const D3& shading, bool inside_out) {
+        VertexT<double> vertex;
+        vertex.point.normal = up;
+        vertex.object.inside_out = inside_out;
+        detail::set_frame(vertex, RayT<double>{.direction = direction}, shading);
+        vertex.wo = to_local(vertex.frame, -direction);
+        return vertex;
+    };
+    for (const bool inside_out : {false, true}) {
+        const double turn = inside_out ? -1 : 1;
+        for (int i = 0; i < 72; ++i) {
+            const double angle = (i + 0.5) / 36 * std::numbers::pi;
+            const D3 direction{std::cos(angle), std::sin(angle), 0};
+            const auto flat = seen(direction, up, inside_out);
+            CHECK_FALSE(flat.smooth);
+            CHECK_FALSE(flat.turned);
+            CHECK(flat.point.normal == turn * up);
+            CHECK(flat.frame.normal == turn * up);
+            CHECK(detail::landing_factor(flat, direction) == 1);
+
+            const auto vertex = seen(direction, lean, inside_out);
+            const double by_own = glm::dot(direction, up),
+                         by_lean = glm::dot(direction, lean);
+            const bool turned = (by_own < 0) != (by_lean < 0);
+            CAPTURE(i);
+            CHECK(vertex.turned == turned);
+            CHECK(vertex.smooth == !turned);
+            CHECK(vertex.point.normal == turn * up);
+            CHECK(vertex.frame.normal == turn * (turned ? up : lean));
+            // No surface is seen from behind: wo tells the side of the surface's own.
+            CHECK((vertex.wo.z < 0) == (turn * by_own > 0));
+            CHECK(detail::landing_factor(vertex, direction) ==
+                  doctest::Approx(turned ? 0 : std::abs(by_lean / by_own)));
+            // Of another direction both say the same, above and below.
+            for (int k = 0; k < 72; ++k) {
+                const double other = (k + 0.5) / 36 * std::numbers::pi;
+                const D3 way{std::cos(other), std::sin(other), 0};
+                const bool one_side =
+                    (glm::dot(way, up) < 0) == (glm::dot(way, lean) < 0);
+                CHECK(detail::agrees(vertex, to_local(vertex.frame, way), way) ==
+                      (turned || one_side));
+            }
+        }
+    }
+    CHECK(seen(-up, lean, false).smooth);
+}
+
+TEST_CASE("vertex: a material is what it is at that place") {
+    // Two by two fields of a wall of 4 by 2, by the coordinates of the wall.
+    using Paper = Textured<LambertianT<double>, CheckerT<double, UvMapT<double>>>;
+    Scene<Shapes<QuadT<double>>, Materials<LambertianT<double>, Paper>> scene;
+    scene.add(
+        QuadT<double>{{5, 0, 0}, {4, 0, 0}, {0, 2, 0}},
+        scene.add(Paper{{.albedo = D3{1}}, {.even{0.9, 0.8, 0.7}, .odd = D3{0.2}}}));
+    for (int i = 0; i < 64; ++i) {
+        const int column = i % 8, row = i / 8;
+        const RayT<double> ray{.origin{5 + (column + 0.3) / 2, (row + 0.3) / 4, 1},
+                               .direction{0, 0, -1}};
+        const auto vertex = vertex_at(scene, ray, *closest_hit(scene, ray));
+        const D3 albedo = visit_material_at(scene, vertex, [](const auto& material) {
+            return std::numbers::pi * evaluate(material, D3{0, 0, 1}, D3{0.6, 0, 0.8});
+        });
+        const bool even = (column / 4 + row / 4) % 2 == 0;
+        CHECK(glm::distance(albedo, even ? D3{0.9, 0.8, 0.7} : D3{0.2}) < 1e-12);
+    }
 }

@@ -19,6 +19,7 @@
 #include "ljus/render/render.hpp"
 #include "ljus/render/whitted.hpp"
 #include "support/mean.hpp"
+#include "support/refusal.hpp"
 
 using namespace ljus;
 using ljus_test::apart;
@@ -265,6 +266,16 @@ TEST_CASE("whitted: a mirror costs one ray, a matt floor none but its shadow ray
     const RayT<double> up{.origin{0.3, 5, -0.2}, .direction{0, -1, 0}};
     (void)radiance(make_whitted(scene), up, stream, counts);
     CHECK(counts.shadow_rays == 0);
+    // The depth cuts a path at the mirror, and none at the floor, which sends none on.
+    for (const int depth : {0, 1})
+        for (const auto& ray : {at_the_ball<double>(), down}) {
+            counts = {};
+            (void)radiance(make_whitted(scene, {.max_depth = depth}), ray, stream,
+                           counts);
+            const bool mirror = ray.direction != down.direction;
+            CHECK(counts.cut_paths == (mirror && depth == 0 ? 1u : 0u));
+            CHECK(counts.bounce_rays == (mirror && depth > 0 ? 1u : 0u));
+        }
 }
 
 TEST_CASE("whitted: the tree doubles only if every ray meets glass again") {
@@ -535,12 +546,19 @@ TEST_CASE("whitted: at the extremes") {
     CHECK_THROWS_WITH_AS((void)make_whitted(glass, {.max_depth = 1001}),
                          "max_depth is 1001; it must be within [0, 1000].",
                          std::invalid_argument);
-    CHECK_THROWS_AS((void)make_whitted(glass, {.ambient = Rgb{-1.0f}}),
-                    std::invalid_argument);
-    CHECK_THROWS_AS(
-        (void)make_whitted(glass,
-                           {.ambient = Rgb{std::numeric_limits<float>::quiet_NaN()}}),
-        std::invalid_argument);
+    const auto said = [&](const WhittedSettings& settings) {
+        return ljus_test::refusal([&] { (void)make_whitted(glass, settings); });
+    };
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    CHECK(said({.ambient{0, -1, 0}}).find("whitted.ambient is (0, -1, 0); ") == 0);
+    CHECK(said({.ambient{0, 0, nan}}).find("whitted.ambient is (0, 0, NaN); ") == 0);
+    CHECK(said({.max_depth = 0}).empty());
+    CHECK(said({.max_depth = 1000}).empty());
+    const WhittedSettings silent = make_whitted(glass).settings;
+    CHECK(silent.max_depth == 5);
+    CHECK(silent.both_ways);
+    CHECK(silent.lamps);
+    CHECK(silent.ambient == Rgb{0});
     // A light on the floor, in the middle of the glass, at the camera: no NaN.
     for (const Vec3& place :
          {Vec3{0.5f, 0, 1.5f}, Vec3(ball_center), Vec3{1, 2.6f, 6}}) {

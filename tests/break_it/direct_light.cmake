@@ -35,3 +35,15 @@ ljus_break_it(NAME direct-light-inverted HEADER path/direct_light.hpp TEST direc
     TO   "visible = visibility(scene, point, sampled->point, vertex.time);
         if (light.kind == LightKind::point) visible = RgbT<T>{T(1)} - visible;"
     CASES "direct light: what stands between*")
+
+# The lamp where it was when the shutter opened.
+ljus_break_it(NAME direct-light-lamp-time HEADER path/direct_light.hpp TEST direct_light
+    FROM "sample_light(scene, light, point.position, u, vertex.time)"
+    TO   "sample_light(scene, light, point.position, u)"
+    CASES "direct light: a lamp? and what stands*")
+
+# The mirror of a mixture has its part in the density of its matt part.
+ljus_break_it(NAME all-lights-lobes HEADER path/all_lights.hpp TEST all_lights
+    FROM "pdf(material, vertex.wo, wi, Lobes::non_specular)"
+    TO   "pdf(material, vertex.wo, wi)"
+    CASES "all lights: of a material that is part mirror*")

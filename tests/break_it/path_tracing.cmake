@@ -65,3 +65,16 @@ ljus_break_it(NAME path-tracing-plain-twice HEADER render/plain_path_tracing.hpp
     FROM "lamps_count = next->specular;"
     TO   ""
     CASES "path tracing: the plain one*")
+
+# The density of a moving lamp's point as if it had not moved.
+ljus_break_it(NAME path-tracing-lamp-time HEADER render/path_tracing.hpp
+    TEST path_tracing
+    FROM "at_time(shape, vertex.time)"
+    TO   "at_time(shape, T(0))"
+    CASES "path tracing: a lamp's share*")
+
+# Roulette takes what n^2 does to the throughput for a loss.
+ljus_break_it(NAME path-tracing-eta HEADER render/path_tracing.hpp TEST path_tracing
+    FROM "!survives(path.throughput, path.eta_scale,"
+    TO   "!survives(path.throughput, T(1),"
+    CASES "path tracing: what n^2 takes*")

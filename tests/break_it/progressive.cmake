@@ -79,3 +79,10 @@ ljus_break_it(NAME progressive-shares HEADER render/progressive.hpp TEST progres
     FROM "settings.caustics.shares = caustic_shares(scene, settings);"
     TO   ";"
     CASES "progressive: radii and shares*")
+
+# The general map's photons are the same in each pass.
+ljus_break_it(NAME progressive-general-photons HEADER render/progressive.hpp
+    TEST progressive
+    FROM "settings.caustics.iteration = settings.general.iteration = number;"
+    TO   "settings.caustics.iteration = number;"
+    CASES "progressive: each pass has photons*")

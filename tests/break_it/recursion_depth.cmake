@@ -65,3 +65,16 @@ ljus_break_it(NAME depth-photons HEADER render/photon_mapping.hpp TEST recursion
     FROM "while (path.depth < settings.max_depth) {"
     TO   "while (path.depth + 1 < settings.max_depth) {"
     CASES "recursion_depth: the depth of*")
+
+# A last batch that there are not rays enough for.
+ljus_break_it(NAME adaptive-last-batch HEADER render/detail/adaptive_blocks.hpp
+    TEST adaptive
+    FROM "std::floor(spare / cost * (1 + 1e-9))"
+    TO   "std::ceil(spare / cost)"
+    CASES "adaptive: batches fit*")
+
+# A stage that is left out, because rays that will be forgotten reach the target.
+ljus_break_it(NAME adaptive-second-stage HEADER render/adaptive.hpp TEST adaptive
+    FROM "estimate() <= rule.target && !rule.two_stage"
+    TO   "estimate() <= rule.target"
+    CASES "adaptive: of two stages the second*")

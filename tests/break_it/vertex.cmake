@@ -39,3 +39,39 @@ ljus_break_it(NAME vertex-known_area HEADER scene/scene.hpp TEST vertex
     FROM "lights.back().area = area(shape)"
     TO   "lights.back().area = area(shape) / 2"
     CASES "vertex: an index knows*")
+
+# The density of the scattering before, kept at a mirror: a lamp behind it is weighed as if
+# a shadow ray could have found it.
+ljus_break_it(NAME vertex-stale-pdf HEADER path/continue_path.hpp TEST vertex
+    FROM "path.pdf = next.pdf;"
+    TO   "if (!next.specular) path.pdf = next.pdf;"
+    CASES "vertex: a path keeps nothing*")
+
+# Any surface met from behind says what the path is in, and not only the first one.
+ljus_break_it(NAME vertex-later-inside HEADER path/next_vertex.hpp TEST vertex
+    FROM "if (path.depth == 1 && from_behind)"
+    TO   "if (from_behind)"
+    CASES "vertex: a path that begins in glass*")
+
+# Shadow rays that find all things where they were when the shutter opened; the second row
+# in scenes with thin surfaces.
+ljus_break_it(NAME vertex-shadow-time HEADER path/next_vertex.hpp TEST vertex
+    FROM "occluded(scene, spawn_ray_to(from, to, time))"
+    TO   "occluded(scene, spawn_ray_to(from, to))"
+    CASES "vertex: what stands in the way*")
+ljus_break_it(NAME vertex-shadow-time-thin HEADER path/next_vertex.hpp TEST vertex
+    FROM "spawn_ray_to(last, to, time)"
+    TO   "spawn_ray_to(last, to)"
+    CASES "vertex: what stands in the way*")
+
+# A path that split off has the numbers of the one that it left.
+ljus_break_it(NAME vertex-branch HEADER path/next_vertex.hpp TEST vertex
+    FROM "path.branch + static_cast<std::uint64_t>(++path.depth)"
+    TO   "static_cast<std::uint64_t>(++path.depth)"
+    CASES "vertex: the numbers of a bounce*")
+
+# Sampled again about the other normal, but of all lobes: a mirror's path ends by chance.
+ljus_break_it(NAME vertex-again-lobes HEADER path/continue_path.hpp TEST vertex
+    FROM "to_local(flat, back), u, transport, which)"
+    TO   "to_local(flat, back), u, transport)"
+    CASES "vertex: what two normals disagree*")

@@ -1,0 +1,289 @@
+// concept: photon_mapping
+// Who answers at a vertex, by a plain twin that asks each of them itself; and what a path
+// does at mirrors and glass, where nothing is left to chance or chance shows.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "ljus/materials/glossy.hpp"
+#include "ljus/render/photon_mapping.hpp"
+#include "support/rooms.hpp"
+
+using namespace ljus;
+using namespace ljus_test;
+
+namespace {
+
+struct Term {
+    std::string owner, letters;
+    Rgb light;
+    bool operator==(const Term&) const = default;
+};
+using Terms = std::vector<Term>;
+
+/// Settings that differ wherever one could be taken for another.
+PhotonMappingSettings distinct(IndirectLight indirect, DirectLight direct) {
+    PhotonMappingSettings settings{
+        .shadow_rays = 3, .direct = direct, .indirect = indirect};
+    settings.caustics = {.photons = 3000, .seed = 2, .threads = 1};
+    settings.general = {.photons = 6000, .seed = 3, .threads = 1};
+    settings.caustics_estimate.radius = 0.15f;
+    settings.general_estimate.radius = 0.4f;
+    settings.keep_general_map = true;
+    settings.gather.rays = 5;
+    return settings;
+}
+
+} // namespace
+
+TEST_CASE("photon mapping: who answers at a vertex, term by term") {
+    Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass, Mirror, Glossy>> room;
+    const Lambertian matt{.albedo{0.8f, 0.5f, 0.2f}};
+    const Glossy gloss{.reflectance{0.9f, 0.7f, 0.5f}, .roughness = 0.3f};
+    const auto grey = room.add(Lambertian{.albedo = Rgb{0.5f}});
+    for (const float y : {-1.0f, 1.0f})
+        room.add(Quad{{-2, y, -2}, {0, 0, 4}, {4, 0, 0}}, grey);
+    room.add(Sphere{.center{0.1f, 0.3f, 0}, .radius = 0.3f}, room.add(Glass{}));
+    const auto black = room.add(Lambertian{.albedo = Rgb{0}});
+    room.add(Quad{{-0.5f, 0.9f, -0.5f}, {1, 0, 0}, {0, 0, 1}}, black, Rgb{9, 8, 7});
+    room.add(Sphere{.center{1.5f, 0, 0}, .radius = 0.2f}, black, Rgb{2, 5, 9});
+    const Camera camera = look_at(View{.position{0, 0.8f, 1.5f}, .target{0, -1, 0}});
+
+    const Rgb in_all{std::numbers::inv_pi_v<float>};
+    for (const IndirectLight indirect :
+         {IndirectLight::rays, IndirectLight::map, IndirectLight::photons,
+          IndirectLight::gather, IndirectLight::cache, IndirectLight::none})
+        for (const DirectLight direct :
+             {DirectLight::sampled, DirectLight::analytic, DirectLight::mis})
+            for (const bool skip : {false, true}) {
+                PhotonMappingSettings settings = distinct(indirect, direct);
+                if (skip) settings.skip.rule = SkipRule::any;
+                auto maps = make_photon_maps(room, settings);
+                add_irradiance_cache(maps, room, camera,
+                                     {.width = 30, .height = 30, .threads = 1},
+                                     settings);
+                REQUIRE_FALSE(maps.caustics.empty());
+                REQUIRE_FALSE(maps.general.empty());
+                REQUIRE(maps.verdicts.empty() != skip);
+                const auto mapper = make_photon_mapper(room, maps, settings);
+                const bool gathers = detail::gathers(indirect);
+                for (int i = 0; i < 12; ++i) {
+                    // Up and down, so that the floor is seen from both sides.
+                    const float side = i % 2 == 0 ? 1.0f : -1.0f;
+                    const Ray ray{.origin{0.3f * float(i / 2) - 0.7f, -1 + 0.1f * side,
+                                          0.05f * float(i)},
+                                  .direction{0, -side, 0}};
+                    const auto hit = closest_hit(room, ray);
+                    REQUIRE(hit);
+                    const auto vertex = vertex_at(room, ray, *hit);
+                    REQUIRE(vertex.wo.z * side > 0);
+                    const Vec3 normal{0, side, 0};
+                    const auto check_with = [&](const auto& material, bool diffuse,
+                                                bool gather) {
+                        auto stream = random_stream(1, Pass::user, 0, std::uint64_t(i));
+                        auto twin = stream;
+                        Counts counts, cost;
+                        Terms seen, right;
+                        auto add = [&](const char* owner, const char* letters,
+                                       const Rgb& light) {
+                            seen.push_back({owner, letters, light});
+                        };
+                        light_at(mapper, vertex, material, gather, stream, counts, add);
+                        const auto ask = [&](const PhotonMap& map,
+                                             const DensityEstimateSettings& how,
+                                             PhotonKinds kinds) {
+                            ++cost.map_queries;
+                            return estimate_radiance(map, vertex, material, vertex.wo,
+                                                     how, kinds, cost.map_photons);
+                        };
+                        const auto caustics = [&] {
+                            right.push_back(
+                                {"caustics map", "DS+L",
+                                 ask(maps.caustics, settings.caustics_estimate,
+                                     light_kinds)});
+                        };
+                        if (gather && indirect == IndirectLight::map) {
+                            right.push_back(
+                                {"general map", "DL|D..DL",
+                                 ask(maps.general, settings.general_estimate,
+                                     light_kinds)});
+                            caustics();
+                        } else if (gather) {
+                            ++cost.map_queries;
+                            const Rgb known = irradiance_at(
+                                maps.irradiance, vertex.point.position, normal);
+                            right.push_back(
+                                {"irradiance points", "DL|D..DL|DS+L",
+                                 detail::reflected(material, vertex.wo, known,
+                                                   Lobes::non_specular, twin)});
+                        } else {
+                            right.push_back(
+                                {"shadow ray", "DL",
+                                 detail::sample_all_lights(
+                                     mapper.scene, vertex, material, direct, 3, twin,
+                                     cost,
+                                     detail::verdicts_at(maps.verdicts, vertex))});
+                            if (indirect == IndirectLight::photons)
+                                right.push_back(
+                                    {"general map", "D..DL",
+                                     ask(maps.general, settings.general_estimate,
+                                         one_kind(PhotonKind::indirect))});
+                            if (indirect == IndirectLight::cache && diffuse) {
+                                const Rgb known = irradiance_between(
+                                    mapper.scene, maps.irradiance, maps.cache, vertex,
+                                    settings.gather, twin, cost);
+                                right.push_back({"irradiance cache", "D..DL",
+                                                 known * in_all * matt.albedo});
+                                (void)next_3d<float>(twin);
+                            }
+                            caustics();
+                        }
+                        REQUIRE(seen.size() == right.size());
+                        for (std::size_t k = 0; k < seen.size(); ++k) {
+                            CAPTURE(right[k].owner);
+                            CHECK(seen[k].owner == right[k].owner);
+                            CHECK(seen[k].letters == right[k].letters);
+                            CHECK(glm::distance(seen[k].light, right[k].light) <=
+                                  1e-5f * glm::length(right[k].light));
+                        }
+                        CHECK(next_1d(stream) == next_1d(twin));
+                        CHECK(counts.map_queries == cost.map_queries);
+                        CHECK(counts.map_photons == cost.map_photons);
+                        CHECK(counts.shadow_rays == cost.shadow_rays);
+                        CHECK(counts.skipped_rays == cost.skipped_rays);
+                    };
+                    for (const bool gather : {false, true}) {
+                        if (gather && !gathers) continue;
+                        check_with(matt, true, gather);
+                        check_with(gloss, false, gather);
+                    }
+                }
+            }
+}
+
+TEST_CASE("photon mapping: a path goes both ways eight times, and loses nothing") {
+    // A pane of thick clear glass in light of radiance 1 from all around: whatever ways
+    // the path takes, together they bring 1, and each way out is one term.
+    Room room;
+    const auto black = room.add(Lambertian{.albedo = Rgb{0}});
+    room.add(Sphere{.radius = 100}, black, Rgb{1}, true);
+    const auto glass = room.add(Glass{.index = 2.4f});
+    room.add(Quad{{-50, -50, 0}, {100, 0, 0}, {0, 100, 0}}, glass);
+    room.add(Quad{{-50, -50, -1}, {0, 100, 0}, {100, 0, 0}}, glass);
+    const Ray ray{.origin{0, 0, 1}, .direction{0, 0, -1}};
+    for (const bool split : {false, true}) {
+        PhotonMappingSettings settings{.roulette_depth = 1000, .split_glass = split};
+        settings.caustics.photons = 0;
+        const auto maps = make_photon_maps(room, settings);
+        const auto mapper = make_photon_mapper(room, maps, settings);
+        for (std::uint64_t i = 0; i < 50; ++i) {
+            auto stream = random_stream(1, Pass::user, 0, i);
+            Counts counts;
+            PathLog log;
+            const Rgb seen = radiance(mapper, ray, stream, counts, log);
+            CHECK(seen.x == doctest::Approx(1).epsilon(1e-5));
+            const auto ends =
+                std::count_if(log.lines.begin(), log.lines.end(),
+                              [](const auto& line) { return line.what == "emission"; });
+            CHECK(ends == (split ? 9 : 1));
+            // A ray for each surface on the way, and one more for each that split off.
+            std::uint64_t rays = 0, longest = 0;
+            for (const auto& line : log.lines)
+                if (line.what == "emission") {
+                    rays += line.path.size() - 2; // E and L are none
+                    longest = std::max<std::uint64_t>(longest, line.path.size());
+                }
+            CHECK(counts.cut_paths == 0);
+            CHECK(longest > 2);
+            if (!split) CHECK(counts.bounce_rays == rays);
+            if (split) {
+                // Of the tree of paths each edge once: what two ways share is one ray.
+                CHECK(counts.bounce_rays < rays);
+                CHECK(counts.bounce_rays >= 16);
+            }
+        }
+        // From the first surface on roulette may end it, but the n^2 of glass is no
+        // reason, and what has split off is in danger at a 16th of what it carries.
+        settings.roulette_depth = 1;
+        const auto short_lived = make_photon_mapper(room, maps, settings);
+        int mirrored = 0;
+        const double share = 1.4 * 1.4 / (3.4 * 3.4); // Fresnel's, head on
+        for (std::uint64_t i = 0; i < 400; ++i) {
+            auto stream = random_stream(2, Pass::user, 0, i);
+            Counts counts;
+            PathLog log;
+            const Rgb seen = radiance(short_lived, ray, stream, counts, log);
+            if (!split) CHECK(seen.x == doctest::Approx(1).epsilon(1e-5));
+            for (const auto& line : log.lines)
+                if (split && line.path == "ESL") {
+                    ++mirrored;
+                    CHECK(line.value.x == doctest::Approx(std::max(share, 1.0 / 16)));
+                }
+        }
+        if (split) CHECK(mirrored == 400); // it carries more than a 16th
+    }
+}
+
+TEST_CASE("photon mapping: roulette begins at the surface that is named") {
+    // In a hall of mirrors that are all but black a path ends where it first may.
+    Room room;
+    room.add(Sphere{.radius = 1}, room.add(Mirror{.reflectance = Rgb{1e-3f}}));
+    for (const int depth : {1, 2, 4}) {
+        PhotonMappingSettings settings{.roulette_depth = depth};
+        const auto maps = make_photon_maps(room, settings);
+        const auto mapper = make_photon_mapper(room, maps, settings);
+        int later = 0;
+        for (std::uint64_t i = 0; i < 50; ++i) {
+            auto stream = random_stream(3, Pass::user, 0, i);
+            Counts counts;
+            (void)radiance(mapper, Ray{.direction{0, 0, 1}}, stream, counts);
+            later += counts.bounce_rays != std::uint64_t(depth - 1);
+        }
+        CHECK(later <= 1); // by a chance of one in a thousand each, or less
+    }
+}
+
+TEST_CASE("photon mapping: by which lobes a path goes on until it is gathered") {
+    const Room matt = make_room<float>(Ball::lambertian, Lamp::quad, 1);
+    for (const auto& [indirect, lobes] :
+         {std::pair{IndirectLight::rays, Lobes::all},
+          {IndirectLight::map, Lobes::all},
+          {IndirectLight::gather, Lobes::all},
+          {IndirectLight::photons, Lobes::specular},
+          {IndirectLight::none, Lobes::specular},
+          {IndirectLight::cache, Lobes::glossy | Lobes::specular}}) {
+        const auto settings = distinct(indirect, DirectLight::sampled);
+        const auto maps = make_photon_maps(matt, settings);
+        CHECK(make_photon_mapper(matt, maps, settings).bounces == lobes);
+    }
+    // Where no photon says that light comes by an indirect ray, none is sent, but a
+    // mirror below the matt part still mirrors: one ray in two.
+    Room half;
+    half.add(Quad{{-9, -1, -9}, {0, 0, 18}, {18, 0, 0}},
+             half.add(Mixture{.color = Rgb{0.5f}, .reflectivity = 0.5f}));
+    half.add(PointLight{.position{0, 1, 0}, .intensity = Rgb{1}});
+    PhotonMappingSettings settings;
+    settings.general = {.photons = 20000, .threads = 1};
+    settings.caustics.photons = 0;
+    settings.skip.indirect_rays = true;
+    const auto maps = make_photon_maps(half, settings);
+    REQUIRE(maps.verdicts.dark_known);
+    const auto mapper = make_photon_mapper(half, maps, settings);
+    for (std::uint64_t i = 0; i < 100; ++i) {
+        auto stream = random_stream(4, Pass::user, 0, i);
+        Counts counts;
+        PathLog log;
+        (void)radiance(mapper, Ray{.direction{0, -1, 0}}, stream, counts, log);
+        CHECK(counts.skipped_bounces == 1);
+        CHECK(counts.bounce_rays == 1);
+        const auto mirrored =
+            std::count_if(log.lines.begin(), log.lines.end(), [](const auto& line) {
+                return line.what == "vertex" && line.path == "ES";
+            });
+        CHECK(mirrored == 1);
+    }
+}
