@@ -65,6 +65,8 @@ TEST_CASE("block_statistics: pixels that share their noise do not fool it") {
     for (const double value : {0.9, 1.1})
         runs.push_back(ljus::make_image<double>(100, 100, RgbD(value)));
     const auto found = block_statistics(runs);
+    REQUIRE(found.standard_error.width == 10); // of 10 x 10 pixels, if nothing is said
+    REQUIRE(found.standard_error.height == 10);
     for (const RgbD& sure : found.standard_error.pixels)
         CHECK(sure.x == doctest::Approx(0.1));
 }

@@ -6,6 +6,9 @@
 #include <doctest/doctest.h>
 
 #include <optional>
+#include <string>
+
+#include "ljus/materials/glass.hpp"
 
 using ljus::Lobes, ljus::Rgb, ljus::Transport, ljus::Vec3;
 
@@ -34,6 +37,13 @@ void check(const Paint&) {}
 struct Lamp : Paint {};
 Rgb emission(const Lamp&) {
     return Rgb{3};
+}
+
+struct Wall : Paint { // another one at each place
+    static constexpr bool uses_uv = true;
+};
+Paint at_point(const Wall&, const Vec3&, const ljus::Vec2&) {
+    return {};
 }
 
 struct Forgetful { // no pdf
@@ -112,4 +122,20 @@ TEST_CASE("bsdf: what a sample of a delta carries") {
         CHECK_FALSE(ljus::same_side(Vec3{1, 0, 0}, Vec3{0, 0, side}));
         CHECK_FALSE(ljus::same_side(Vec3{0, 0, side}, Vec3{1, 0, -0.0f}));
     }
+}
+
+TEST_CASE("bsdf: which hooks a material has, by name") {
+    const auto names = [](const auto& hooks) {
+        std::string all;
+        for (const auto& hook : hooks)
+            if (hook.provided) all.append(hook.name).append(" ");
+        return all;
+    };
+    CHECK(names(ljus::detail::material_hooks<reader::Paint>()).empty());
+    CHECK(names(ljus::detail::material_hooks<reader::Lamp>()) == "emission ");
+    CHECK(names(ljus::detail::material_hooks<ljus::Glass>()) ==
+          "absorption both_ways only_specular ");
+    CHECK(names(ljus::detail::material_hooks<ljus::ThinGlass>()) ==
+          "pass_through only_specular ");
+    CHECK(names(ljus::detail::material_hooks<reader::Wall>()) == "at_point uses_uv ");
 }

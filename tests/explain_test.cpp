@@ -66,7 +66,52 @@ struct HalfNan {
     return value;
 }
 
+// A renderer with three owners, each of one colour.
+struct Colors {
+    using Stream = RandomStream;
+};
+
+[[maybe_unused]] Rgb radiance(const Colors&, const Ray&, RandomStream&, Counts&,
+                              auto&& log) {
+    log.begin();
+    log.term("red", "L", Rgb{2, 0, 0});
+    log.term("green", "DL", Rgb{1, 5, 0});
+    log.term("blue", "SL", Rgb{0, 0, 3});
+    return {3, 5, 3};
+}
+
 } // namespace
+
+TEST_CASE("explain: the largest sum is first, in whichever channel") {
+    const Camera camera = look_at({.position{0, 0, 0}, .target{0, 0, -1}});
+    const auto apart = detail::take_apart(
+        Colors{}, camera, {.width = 3, .height = 2, .samples = 4}, 2, 1);
+    REQUIRE(apart.sums.size() == 3);
+    CHECK(apart.sums[0].owner == "green");
+    CHECK(apart.sums[1].owner == "blue");
+    CHECK(apart.sums[2].owner == "red");
+    CHECK(apart.sums[0].value == glm::dvec3{1, 5, 0});
+    CHECK(apart.radiance == Rgb{3, 5, 3});
+}
+
+TEST_CASE("explain: each term counts as much as the filter says") {
+    // The rays of a pixel have weights, with Mitchell's filter of both signs: the sums
+    // are those of the pixel only if each term has its ray's.
+    const auto room = cornell_box();
+    const auto tracer = make_path_tracer(room.scene);
+    for (const Filter filter : {Filter::gaussian, Filter::mitchell}) {
+        RenderSettings filtered = picture;
+        filtered.filter = filter;
+        for (const auto& [x, y] : {std::pair{3, 9}, {6, 6}}) {
+            const auto apart = detail::take_apart(tracer, room.camera, filtered, x, y);
+            glm::dvec3 sum{0};
+            for (const detail::PathSum& part : apart.sums) sum += part.value;
+            for (int channel = 0; channel < 3; ++channel)
+                CHECK(sum[channel] ==
+                      doctest::Approx(double(apart.radiance[channel])).epsilon(1e-5));
+        }
+    }
+}
 
 TEST_CASE("explain: the sums by path add up to the pixel as it is rendered") {
     const auto room = cornell_box();
@@ -138,6 +183,12 @@ TEST_CASE("explain: long lists of paths end in one line for the rest") {
     CHECK(text.find("  E D D L ") != std::string::npos);
     CHECK(text.find("E D D D L") == std::string::npos);
     CHECK(text.find("2 more") != std::string::npos);
+    const std::string rest = "2 more                2         2         2\n";
+    CHECK(text.find(rest) != std::string::npos); // the sum of both
+    // As many as are shown leave no rest.
+    CHECK(detail::describe(apart, 5).find(" more") == std::string::npos);
+    CHECK(detail::describe(apart, 4).find("1 more                1         1") !=
+          std::string::npos);
 }
 
 TEST_CASE("explain: a scene alone is explained by path tracing") {

@@ -309,3 +309,56 @@ TEST_CASE("file: a failure to read names the path and the reason") {
                        "file.")
                           .c_str());
 }
+
+TEST_CASE("file: a file of too few bytes does not begin as it must") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("a");
+    for (const char* const bytes : {"", "P", "#?RADIANC"}) {
+        ScratchFolder::write(path, bytes);
+        for (const char* const begin : {"PF", "#?RADIANCE"})
+            CHECK_THROWS_WITH((void)ljus::load_file(path, 100, begin),
+                              ("cannot read '" + path + "': it does not begin with '" +
+                               begin + "', so that it is another kind of file.")
+                                  .c_str());
+    }
+}
+
+TEST_CASE("file: what another file names stands beside it, or at the root") {
+    using namespace ljus::detail;
+    CHECK(folder_of("a.obj").empty());
+    CHECK(folder_of("x/y/a.obj") == "x/y/");
+    CHECK(folder_of("x\\a.obj") == "x\\");
+    CHECK(folder_of("x/") == "x/");
+    CHECK(path_beside("x/a.obj", "b.mtl") == "x/b.mtl");
+    CHECK(path_beside("a.obj", "b.mtl") == "b.mtl");
+    CHECK(path_beside("x/a.obj", "y/b.mtl") == "x/y/b.mtl");
+    CHECK(path_beside("x/a.obj", "/y/b.mtl") == "/y/b.mtl");
+    CHECK(path_beside("x/a.obj", "").compare("x/") == 0);
+}
+
+#if __has_include(<sys/resource.h>)
+TEST_CASE("file: what somebody else may write is not replaced") {
+    // Only who may do everything can become somebody else.
+    if (::geteuid() != 0) return;
+    const ScratchFolder folder;
+    const std::string path = folder.file("a");
+    ScratchFolder::write(path, "older");
+    std::filesystem::permissions(folder.path, std::filesystem::perms::all);
+    ::chmod(path.c_str(), 0644);
+    const ::pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        const bool other = ::setgid(65534) == 0 && ::setuid(65534) == 0;
+        ::_exit(!other ? 2
+                : message_of_save(path, bytes_of("newer")) ==
+                        "cannot write '" + path + "': Permission denied."
+                    ? 0
+                    : 1);
+    }
+    int status = 0;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) != 1);
+    CHECK(ScratchFolder::read(path) == "older");
+}
+#endif

@@ -178,6 +178,15 @@ TEST_CASE("flip: HDR: the film's curve and the exposures, by hand") {
     CHECK(e.count == 2);
     pixel(image, 3, 0) = RgbD(1024);
     CHECK(detail::exposures_of(image).count == 10);
+    // Light without end counts as the most that a float holds.
+    pixel(image, 3, 0) = RgbD(std::numeric_limits<double>::infinity());
+    CHECK(detail::exposures_of(image).first == Approx(std::log2(2.1188723) - 128));
+    CHECK(detail::exposures_of(image).count == 128);
+    // The middle one of an even number is the brighter of two, and never below epsilon.
+    image.pixels = {RgbD(0), RgbD(0), RgbD(2), RgbD(8)};
+    CHECK(detail::exposures_of(image).last == Approx(std::log2(2.1188723 / 2)));
+    image.pixels = {RgbD(0), RgbD(-1), RgbD(0), RgbD(1e-9)};
+    CHECK(detail::exposures_of(image).last == Approx(std::log2(2.1188723) + 23));
 }
 
 TEST_CASE("flip: HDR: the second program's numbers; and what does not matter") {

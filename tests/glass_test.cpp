@@ -213,6 +213,11 @@ TEST_CASE("glass: what no glass can be is refused by name and value") {
     CHECK(refusal(Glass{.index = -1}) ==
           "glass.index is -1; it must be finite and above 0.");
     CHECK(refusal(Glass{.index = INFINITY}).find("glass.index") == 0);
+    CHECK(refusal(Glass{.index = 1000}).empty());
+    CHECK(refusal(Glass{.index = 0.001f}).empty());
+    for (const float beyond : {1000.1f, 0.000999f})
+        CHECK(refusal(Glass{.index = beyond}).find("within [0.001, 1000]") !=
+              std::string::npos);
     CHECK(refusal(Glass{.absorption = {0, -1, 0}})
               .find("glass.absorption is (0, -1, 0)") == 0);
     CHECK(refusal(Glass{.absorption = {0, NAN, 0}}).find("glass.absorption") == 0);

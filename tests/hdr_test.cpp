@@ -161,6 +161,11 @@ TEST_CASE("hdr: the ends of what the format holds, and a pixel beyond them by pl
     auto image = ljus::make_image<double>(3, 2);
     pixel(image, 2, 1) = {0, 1.68e38, 0};
     CHECK_NOTHROW(ljus::save_hdr(image, folder.file("a.hdr")));
+    // The limit itself is beyond it, the number before it is not.
+    pixel(image, 2, 1) = {0, std::nextafter(1.69e38, 0), 0};
+    CHECK_NOTHROW(ljus::save_hdr(image, folder.file("a.hdr")));
+    pixel(image, 2, 1) = {0, 1.69e38, 0};
+    CHECK_THROWS_AS(ljus::save_hdr(image, folder.file("b.hdr")), std::invalid_argument);
     pixel(image, 2, 1) = {0, 2e38, 0};
     CHECK_THROWS_WITH_AS(ljus::save_hdr(image, folder.file("b.hdr")),
                          doctest::Contains("Pixel (2, 1) has a channel of 19999"),
@@ -306,10 +311,35 @@ TEST_CASE("hdr: what is wrong with a header or a row is said, word by word") {
     for (const int run : {0, 9, 128, 128 + 9})
         CHECK(message(coded + bytes({0, 8, run}) + good.substr(3)) ==
               "a run of its coded pixels is empty or leaves its row.");
+    // The second run of a row ends with it, and no later.
+    for (const int run : {4, 128 + 4, 8, 128 + 8})
+        CHECK(message(coded + bytes({0, 8, 128 + 5, 7, run}) + good + good) ==
+              "a run of its coded pixels is empty or leaves its row.");
     CHECK(message(coded + bytes({0, 8, 3, 1, 2, 3, 128 + 5, 9}) + good.substr(4)) ==
           "loaded");
     const auto image = ljus::load_hdr(path);
     CHECK(image.pixels[2].x == 3 * std::ldexp(1.0f, 103 - 136));
     CHECK(image.pixels[3].x == 9 * std::ldexp(1.0f, 103 - 136));
     CHECK(image.pixels[7].z == 102 * std::ldexp(1.0f, 103 - 136));
+}
+
+TEST_CASE("hdr: a row too narrow or too wide for the coding is read as it stands") {
+    // Its first pixel is what a coded row of this width would begin with.
+    const ScratchFolder folder;
+    const std::string path = folder.file("a.hdr");
+    for (const int width : {1, 4, 7, 32768}) {
+        std::string row;
+        for (int x = 0; x < width; ++x) row += "\x03\x05\x07\x81";
+        row.replace(0, 4, {2, 2, char(width / 256 % 128), char(width % 256)});
+        ScratchFolder::write(path, "#?RADIANCE\n\n-Y 1 +X " + std::to_string(width) +
+                                       "\n" + row);
+        REQUIRE(message_of_load(path) == "loaded");
+        const ljus::Image image = ljus::load_hdr(path);
+        REQUIRE(image.width == width);
+        if (width > 1)
+            CHECK(image.pixels[std::size_t(width) - 1] ==
+                  ljus::Rgb{3 / 128.0f, 5 / 128.0f, 7 / 128.0f});
+        const float unit = std::ldexp(1.0f, width % 256 - 136);
+        CHECK(image.pixels[0].x == (width % 256 == 0 ? 0.0f : 2 * unit));
+    }
 }

@@ -61,6 +61,10 @@ TEST_CASE("image: one whose pixels do not fit its size is refused") {
     CHECK_THROWS_WITH_AS(ljus::check(image),
                          "The image has 12 pixels; its size, 5 x 3, requires 15.",
                          std::invalid_argument);
+    image.width = 3;
+    CHECK_THROWS_WITH_AS(ljus::check(image),
+                         "The image has 12 pixels; its size, 3 x 3, requires 9.",
+                         std::invalid_argument);
     CHECK_THROWS_AS(ljus::check(ljus::Image{}), std::invalid_argument);
 }
 
@@ -93,6 +97,10 @@ TEST_CASE("image: two are compared only if both sides fit, and both are whole") 
                          std::invalid_argument);
     CHECK_THROWS_WITH_AS(ljus::detail::require_same_size(image, ljus::make_image(4, 2)),
                          "The image's size is 3 x 2; the reference has 4 x 2.",
+                         std::invalid_argument);
+    // As many pixels, the other way round.
+    CHECK_THROWS_WITH_AS(ljus::detail::require_same_size(image, ljus::make_image(2, 3)),
+                         "The image's size is 3 x 2; the reference has 2 x 3.",
                          std::invalid_argument);
     ljus::Image torn = image;
     torn.pixels.pop_back();

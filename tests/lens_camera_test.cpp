@@ -136,6 +136,14 @@ TEST_CASE("lens: what it refuses") {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     CHECK_THROWS_AS((void)with_lens(pinhole, nan, 1.0f), std::invalid_argument);
     CHECK_THROWS_AS((void)with_lens(pinhole, 0.1f, nan), std::invalid_argument);
+    const float infinity = std::numeric_limits<float>::infinity();
+    CHECK_THROWS_WITH_AS((void)with_lens(pinhole, infinity, 5.0f),
+                         "camera.radius is infinity; it must be finite and at least 0.",
+                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS((void)with_lens(pinhole, 0.1f, infinity),
+                         "camera.focus is infinity; it must be finite and above 0.",
+                         std::invalid_argument);
+    CHECK_NOTHROW((void)with_lens(pinhole, 0.0f, 5.0f));
 }
 
 // --- The streams -------------------------------------------------------------------------

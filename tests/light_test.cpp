@@ -12,6 +12,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "ljus/geometry/moving.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/scene/make_scene.hpp"
 #include "support/numbers.hpp"
@@ -435,4 +436,45 @@ TEST_CASE("light: what no picture can be made with is refused, and a sample face
             Rgb{1e12f});
     CHECK_FALSE(sample_light(far, far.lights[0], Vec3{0, 0, 1e6f}, Vec2{0.5f, 0.5f}));
     CHECK(sample_light(far, far.lights[0], Vec3{0, 0, 1}, Vec2{0.5f, 0.5f}));
+}
+
+TEST_CASE("light: a lamp that moves is where it is at the time of the ray") {
+    Scene<Shapes<Moving<Sphere>>, Materials<Lambertian>> scene;
+    scene.add(Moving<Sphere>{Sphere{.radius = 0.5f}, {8, 0, 0}},
+              scene.add(Lambertian{}), Rgb{2});
+    Numbers n{31};
+    for (const float time : {0.0f, 0.25f, 1.0f})
+        for (int i = 0; i < 50; ++i) {
+            const auto sample = sample_light(scene, scene.lights[0], Vec3{0, 9, 0},
+                                             n.square<float>(), time);
+            REQUIRE(sample);
+            CHECK(glm::distance(sample->point.position, Vec3{8 * time, 0, 0}) ==
+                  doctest::Approx(0.5).epsilon(1e-5));
+        }
+}
+
+TEST_CASE("light: a sample says its density, and 0 where there is none") {
+    // Seen at right angles, a small square at distance d has the solid angle A / d^2.
+    Scene<Shapes<Quad, Sphere>, Materials<Lambertian>> scene;
+    const MaterialId matt = scene.add(Lambertian{});
+    scene.add(
+        Quad{.corner{-0.005f, -0.005f, 0}, .edge_u{0.01f, 0, 0}, .edge_v{0, 0.01f, 0}},
+        matt, Rgb{3});
+    scene.add(Sphere{.center{0, 0, 0}, .radius = 0.6f}, matt, Rgb{5});
+    scene.add(PointLight{.position{0, 0, 1}});
+    scene.add(SunLight{});
+    const auto sample = [&](std::size_t light) {
+        return sample_light(scene, scene.lights[light], Vec3{0, 0, 1},
+                            Vec2{0.3f, 0.7f});
+    };
+    REQUIRE(sample(0));
+    CHECK(sample(0)->pdf == doctest::Approx(1e4).epsilon(1e-4));
+    CHECK(sample(0)->weight.x * sample(0)->pdf == doctest::Approx(3));
+    // A ball's cone: sin = 0.6, and 2 pi (1 - cos) of it.
+    REQUIRE(sample(1));
+    CHECK(sample(1)->pdf == doctest::Approx(1 / (2 * pi * 0.2)));
+    CHECK(sample(1)->weight.x * sample(1)->pdf == doctest::Approx(5));
+    CHECK_FALSE(sample(2)); // it is on the light itself
+    REQUIRE(sample(3));
+    CHECK(sample(3)->pdf == 0);
 }

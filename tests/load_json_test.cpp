@@ -712,7 +712,162 @@ TEST_CASE("load_json: garbage is refused, or gives a scene that can be used") {
     CHECK(accepted > 300); // or the mutations test the parser only
 }
 
-#endif
+TEST_CASE("load_json: the numbers that the table above leaves out have limits, too") {
+    // With the least and the most it is accepted, just beyond it names field and range.
+    const auto limits = [](const std::string& from, const std::string& to,
+                           const std::string& field, double low, double high,
+                           const std::string& range) {
+        CAPTURE(field);
+        const auto with = [&](double value) {
+            std::string put = to;
+            put.replace(put.find('#'), 1, to_text(value));
+            return refusal(from, put);
+        };
+        CHECK(with(low) == "accepted");
+        CHECK(with(high) == "accepted");
+        const double under = low > 0 ? low * 0.999 : low < 0 ? low * 1.001 : -1e-6;
+        for (const double beyond : {under, high * 1.001}) {
+            const std::string message = with(beyond);
+            CHECK_MESSAGE(message.find("a.json: " + field + " is ") == 0, message);
+            CHECK_MESSAGE(message.find("it must be " + range) != message.npos, message);
+        }
+    };
+    const std::string glass = R"({"type": "dielectric", "ior": 1.5})";
+    limits("\"vfov_deg\": 40", "\"vfov_deg\": #", "camera.vfov_deg", 1e-3, 179.99,
+           "within [0.001, 179.99] degrees");
+    limits("\"position\": [0, 1, 5]", "\"position\": [#, 1, 5]", "camera.position[0]",
+           -1e9, 1e9, "within [-1e9, 1e9]");
+    limits("[5, 4, 2.5]", "[5, 4, #]", "objects[1].emission[2]", 0, 1e12,
+           "within [0, 1e12]");
+    for (const std::string start : {R"({"type": "dielectric", "ior": 1.5)",
+                                    R"({"type": "mixture", "color": [0.5, 0.5, 0.5])"})
+        limits(glass, start + R"(, "absorption": [1, #, 1]})",
+               "materials.glass.absorption[1]", 0, 1e12, "within [0, 1e12]");
+    const std::string board =
+        R"({"type": "checker", "even": [1, 1, 1], "odd": [0, 0, 0], "map": "uv")";
+    limits(glass, board + R"(, "scale": [1, #]})", "materials.glass.scale[1]", -1e6,
+           1e6, "within [-1e6, 1e6]");
+    limits(glass, board + R"(, "columns": #})", "materials.glass.columns", 2, 1e6,
+           "a whole number within [2, 1000000]");
+    limits(glass, board + R"(, "rows": #})", "materials.glass.rows", 2, 1e6,
+           "a whole number within [2, 1000000]");
+    CHECK(refusal(with(board + R"(, "rows": 1})"))
+              .find("glass.rows is 1; it must be a whole number within [2,") !=
+          std::string::npos);
+    limits(glass, R"({"type": "soap-film", "thickness_nm": 400, "ior": #})",
+           "materials.glass.ior", 1, 1000, "within [1, 1000]");
+    limits(glass, R"({"type": "soap-film", "thickness_nm": 400, "ior": 1.33,
+                      "scale": #, "level": [0, 0, 0], "up": [0, 1, 0]})",
+           "materials.glass.scale", 0, 1e9, "within [0, 1e9]");
+    // Not 0, but its square is none that float holds with all its digits.
+    for (const char* const edge : {"edge_u", "edge_v"}) {
+        std::string tiny = R"({"type": "checker", "even": [1, 1, 1], "odd": [0, 0, 0],
+            "origin": [0, 0, 0], "edge_u": [1, 0, 0], "edge_v": [1, 0, 0]})";
+        tiny.replace(tiny.find(edge) + 9, 9, "[1e-21, 0, 0]");
+        CHECK(refusal(with(tiny)) ==
+              std::string("a.json: materials.glass.") + edge +
+                  " is [1e-21,0,0]; it must be a vector that is not 0.");
+    }
+}
+
+TEST_CASE("load_json: who reads meshes is told the file, the scale and the normals") {
+    struct Call {
+        std::string path;
+        double scale;
+        std::string normals;
+    };
+    std::vector<Call> calls;
+    const auto load = [&](const std::string& path, double scale,
+                          const std::string& normals) {
+        calls.push_back({path, scale, normals});
+        return std::vector<MeshT<float>>{};
+    };
+    const auto read = [&](const std::string& rest) {
+        const std::string mesh =
+            R"("objects": [{"type": "mesh", "file": "m.obj", "material": "matt")";
+        try {
+            (void)read_json_scene(changed("\"objects\": [", mesh + rest + "}, "),
+                                  "sub/a.json", load);
+        } catch (const std::runtime_error& error) {
+            return std::string(error.what());
+        }
+        return std::string("accepted");
+    };
+    CHECK(read("") == "accepted");
+    CHECK(read(R"(, "scale": 1e-9, "normals": "smooth")") == "accepted");
+    CHECK(read(R"(, "scale": 1e9, "normals": "flat")") == "accepted");
+    CHECK(read(R"(, "scale": 2.5, "normals": "file")") == "accepted");
+    REQUIRE(calls.size() == 4);
+    for (const Call& call : calls) CHECK(call.path == "sub/m.obj");
+    CHECK(calls[0].scale == 1);
+    CHECK(calls[1].scale == 1e-9);
+    CHECK(calls[2].scale == 1e9);
+    CHECK(calls[3].scale == 2.5);
+    CHECK(calls[0].normals == "file");
+    CHECK(calls[1].normals == "smooth");
+    CHECK(calls[2].normals == "flat");
+    CHECK(calls[3].normals == "file");
+    for (const char* const scale : {"0", "-1", "0.99e-9", "1.01e9"})
+        CHECK(read(std::string(", \"scale\": ") + scale)
+                  .find("; it must be within [1e-9, 1e9].") != std::string::npos);
+    CHECK(read(R"(, "normals": "sharp")") ==
+          "sub/a.json: objects[0].normals is \"sharp\"; it must be file, smooth or "
+          "flat.");
+    CHECK(calls.size() == 4);
+}
+
+TEST_CASE("load_json: counts are right to the last one") {
+    // Names of 48 letters are plain; 12 names stand in a message, the rest is dots.
+    const auto named = [](std::size_t length) {
+        return refusal("\"format\"", "\"" + std::string(length, 'x') + "\"");
+    };
+    CHECK(named(48).find("a.json: " + std::string(48, 'x') + " is not known") == 0);
+    CHECK(named(49).find("a.json: [\"" + std::string(48, 'x') +
+                         "...\"] is not known") == 0);
+    const auto wrong = [](const std::string& more) {
+        std::string text = changed("\"material\": \"glass\"", "\"material\": \"no\"");
+        const std::string before = "\"materials\": {";
+        return refusal(text.replace(text.find(before), before.size(), before + more));
+    };
+    std::string more;
+    for (const char name : {'a', 'b', 'c', 'd', 'e', 'f', 'g', 'h'})
+        more.append("\"").append(1, name).append(
+            R"(": {"type": "mirror", "reflectance": [1, 1, 1]},)");
+    CHECK(wrong(more) == "a.json: objects[2].material is \"no\"; it must be one of the "
+                         "materials a, b, c, d, e, f, g, glass, h, matt, mirror or "
+                         "rough.");
+    more += R"("z": {"type": "mirror", "reflectance": [1, 1, 1]},)";
+    CHECK(wrong(more) == "a.json: objects[2].material is \"no\"; it must be one of the "
+                         "materials a, b, c, d, e, f, g, glass, h, matt, mirror, "
+                         "rough, ....");
+    // 32 lists in each other, and not one more.
+    const auto nested = [](std::size_t depth) {
+        return refusal(std::string(depth, '[') + std::string(depth, ']'));
+    };
+    CHECK(nested(32).find("it must be an object") != std::string::npos);
+    CHECK(nested(33).find(" is nested too deeply; at most 32 levels") !=
+          std::string::npos);
+    // 16 films: then it is the next mistake that is refused, before one is made.
+    const auto films = [](int count) {
+        std::string all = R"("a": {"type": "mirror"}, )";
+        for (int i = 0; i < count; ++i)
+            all += "\"f" + std::to_string(i) +
+                   R"(": {"type": "soap-film", "ior": 1.33, "thickness_nm": 400}, )";
+        return refusal("\"materials\": {", "\"materials\": {" + all);
+    };
+    CHECK(films(16) == "a.json: materials.a.reflectance is missing.");
+    CHECK(films(17).find("more than 16 soap films") != std::string::npos);
+}
+
+TEST_CASE("load_json: only a box is a filter, and a parser's words are plain letters") {
+    for (const char* const filter : {"b", "bo", "bos", "Box", " box", ""})
+        CHECK(refusal("box, exactly one pixel wide", filter).find("the only filter") !=
+              std::string::npos);
+    CHECK(refusal("box, exactly one pixel wide", "box") == "accepted");
+    for (const char* const text :
+         {"{\"a\": \xc3\xa9}", "{\"\xc3\xa9\": x}", "\xe2\x82\xac"})
+        for (const char c : refusal(text)) CHECK(static_cast<unsigned char>(c) < 0x80);
+}
 
 TEST_CASE("load_json: each number of each material and light has its limits") {
     // With the least and the most it is accepted, just beyond it is not.
@@ -805,3 +960,4 @@ TEST_CASE("load_json: a file beside the scene, or anywhere if its name is whole"
     CHECK(beside("scenes/a.json", "/whole/b.obj") == "/whole/b.obj");
     CHECK(beside("scenes/a.json", "") == "scenes/");
 }
+#endif

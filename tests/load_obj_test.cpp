@@ -695,3 +695,54 @@ TEST_CASE("load_obj: no file crashes it") {
     for (int i = 0; i < 300000; ++i) many += " 1";
     CHECK(message(many).find("more than 1000 corners") != std::string::npos);
 }
+
+TEST_CASE("load_obj: a report has the first line of each trouble, in any order") {
+    ObjReport report;
+    for (const long long line : {7, 3, 5}) report.add(ObjTrouble::no_area, line);
+    CHECK(report[ObjTrouble::no_area].count == 3);
+    CHECK(report[ObjTrouble::no_area].line == 3);
+    // Three triangles at one edge, and one whose first two corners are at one place:
+    // it has two edges, which are two sides of the same.
+    MeshData data{.positions{{0, 0, 0},
+                             {1, 0, 0},
+                             {0, 1, 0},
+                             {0, 0, 1},
+                             {0, -1, 0},
+                             {5, 0, 0},
+                             {5, 0, 0},
+                             {6, 0, 0}},
+                  .triangles{{0, 1, 2}, {0, 1, 3}, {1, 0, 4}, {5, 6, 7}}};
+    ObjReport edges;
+    detail::count_edges(data, {9, 4, 7, 2}, edges);
+    CHECK(edges[ObjTrouble::edge_of_many].count == 1);
+    CHECK(edges[ObjTrouble::edge_of_many].line == 4);
+    CHECK(edges[ObjTrouble::edge_open].count == 6);
+    CHECK(edges[ObjTrouble::edge_open].line == 4);
+    CHECK(edges[ObjTrouble::edge_turned].count == 0);
+}
+
+TEST_CASE("load_obj: the rarer words of a file") {
+    const ScratchFolder folder;
+    ScratchFolder::write(folder.file("a.mtl"),
+                         "newmtl both\nillum 3\nd 0.25\nnewmtl red\nKd 1 0 0\n");
+    // A tab behind a name; a texture coordinate of one number.
+    const auto loaded =
+        read_obj("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.25\nvt 0.5\t0.75\n"
+                 "usemtl both\nf 1 2 3\nusemtl red \t\nf 1/1 2/2 3/1\n",
+                 folder.file("x.obj"));
+    CHECK(loaded.report[ObjTrouble::no_material].count == 0);
+    CHECK(loaded.report[ObjTrouble::bad_uv].count == 0);
+    REQUIRE(loaded.parts.size() == 2);
+    CHECK(loaded.parts[1].mesh.data().uv[0] == Vec2{0.25f, 0});
+    CHECK(loaded.parts[1].mesh.data().uv[1] == Vec2{0.5f, 0.75f});
+    // What is both is glass, where a scene lists it, and else a mirror.
+    CHECK(loaded.parts[0].material.is_glass());
+    CHECK(loaded.parts[0].material.is_mirror());
+    Scene<Shapes<Mesh>, Materials<Lambertian, Glass, Mirror>> all;
+    add_obj(all, loaded);
+    CHECK(all.object({0, 0}).material.type == 1);
+    Scene<Shapes<Mesh>, Materials<Lambertian, Mirror>> no_glass;
+    add_obj(no_glass, loaded);
+    CHECK(no_glass.object({0, 0}).material.type == 1);
+    CHECK(no_glass.object({0, 1}).material.type == 0);
+}

@@ -268,6 +268,17 @@ TEST_CASE("low_discrepancy: after its dimensions a stream goes on at random; nev
         for (int i = 0; i < 4; ++i)
             CHECK(next_1d<double>(stream) == next_1d<double>(random));
     }
+    // What comes after the points is of the same seed, pass, iteration and path.
+    for (const Pass pass : {Pass::general_photons, Pass::user})
+        for (const std::uint64_t iteration : {0u, 3u})
+            for (const std::uint64_t path :
+                 {std::uint64_t(5), (std::uint64_t(2) << 32) + 7}) {
+                auto stream = sobol_stream(9, pass, iteration, path);
+                auto random = random_stream(9, pass, iteration, path);
+                for (std::uint32_t d = 0; d < detail::sobol_dimensions; ++d)
+                    (void)next_1d<double>(stream);
+                CHECK(next_1d<double>(stream) == next_1d<double>(random));
+            }
     // A scrambling that takes the first point to the last place of all: still below 1.
     const std::uint64_t far_seed = 4988170;
     REQUIRE(detail::owen_scrambled(0, far_seed) >= 0xffffff80u);

@@ -327,6 +327,10 @@ TEST_CASE("metaballs: refused are those without a surface, with a sentence") {
     CHECK(message(Metaballs{}).find("the sum of the positive weights") == 0);
     CHECK(message({.blobs{{.weight = 0.25f}}}).find("above metaballs.level") !=
           std::string::npos);
+    // What a carving blob takes away is no part of the sum.
+    CHECK(message({.blobs{{}, {.weight = -0.9f}}}) == "accepted");
+    CHECK(message({.blobs{{.weight = 3e38f}, {.weight = 3e38f}}}).find("finite") !=
+          std::string::npos);
     CHECK(message({.blobs{{}}, .level = 0}) ==
           "metaballs.level is 0; it must be finite and above 0.");
     CHECK(message({.blobs{{.radius = -1}}}) ==
@@ -542,4 +546,36 @@ TEST_CASE("metaballs: glass and grey ones in the path tracer and the photon mapp
     }
     CHECK(sum_b > 0);
     CHECK(sum_a == doctest::Approx(sum_b).epsilon(0.1));
+}
+
+TEST_CASE("metaballs: what a carving blob may round off is part of a hit's error") {
+    // Far from where it carves, the surface of the other one is a sphere, where
+    // |grad f| = 4 w s q / r, with s = 1/2 and q^2 = 1/2.
+    const Metaballs balls{.blobs{{}, {.center{0, 50, 0}, .weight = -100}}};
+    const Ray ray{.origin{10, 0, 0}, .direction{-1, 0, 0}};
+    const auto t = intersect(ray, balls);
+    REQUIRE(t);
+    const SurfacePoint p = surface_point(balls, ray, as_hit(*t));
+    const double eps = std::numeric_limits<double>::epsilon();
+    const double rounding = 64 * eps * (0.25 + 1 + 100) / std::sqrt(2);
+    CHECK(double(p.error.y) > 0.999 * rounding);
+    CHECK(double(p.error.y) < 1.3 * rounding); // and what Newton's step leaves of f
+}
+
+TEST_CASE("metaballs: on the surface is inside, as far as numbers can say") {
+    // f = (1 - |x|^2)^2 - (3/4)^2 is exactly 0 at 1/2: a ray that starts there and
+    // leaves meets the surface at once, one that goes inwards on the other side.
+    const Metaballs balls{.blobs{{}}, .level = 0.5625f};
+    const auto out = intersect(Ray{.origin{0.5f, 0, 0}, .direction{1, 0, 0}}, balls);
+    const auto in = intersect(Ray{.origin{0.5f, 0, 0}, .direction{-1, 0, 0}}, balls);
+    REQUIRE(out);
+    REQUIRE(in);
+    CHECK(*out == doctest::Approx(0).epsilon(1e-6));
+    CHECK(*in == doctest::Approx(1).epsilon(1e-6));
+}
+
+TEST_CASE("solvers: a field that is no number is met nowhere") {
+    const Straight line{.zero = not_a_number};
+    CHECK_FALSE(detail::first_meeting(SphereTracing{}, line, 0.0, 9.0));
+    CHECK_FALSE(detail::first_meeting(Bisection{}, line, 0.0, 9.0));
 }

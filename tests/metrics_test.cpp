@@ -172,3 +172,53 @@ TEST_CASE("metrics: sizes that differ, and arguments without sense, are refused"
     for (const int size : {0, -1})
         CHECK_THROWS_AS((void)ljus::block_error(a, a, size), std::invalid_argument);
 }
+
+TEST_CASE(
+    "metrics: epsilon and the side of a block are the caller's, and so are runs") {
+    const ImageD x = ljus::make_image<double>(4, 4, {3.0, 1.0, 0.0});
+    ImageD r = ljus::make_image<double>(4, 4, {1.0, 2.0, 0.5});
+    const double with_1 = (4 / 2.0 + 1 / 5.0 + 0.25 / 1.25) / 3;
+    CHECK(ljus::block_error(x, r, 2, 1.0) == Approx(with_1));
+    CHECK(ljus::trimmed_rel_mse(x, r, 0.5, 1.0) == Approx(with_1));
+    // Black and white in turns: blocks of 2 x 2 are grey, single pixels are not.
+    ImageD board = ljus::make_image<double>(4, 4);
+    for (std::size_t i = 0; i < 16; ++i)
+        board.pixels[i] = RgbD((i + i / 4) % 2 ? 1 : 0);
+    const ImageD grey = ljus::make_image<double>(4, 4, RgbD(0.5));
+    CHECK(ljus::block_error(board, grey, 2) == 0.0);
+    CHECK(ljus::block_error(board, grey, 1) == Approx(0.25 / 0.26));
+    // 25 % of 16 pixels are dropped, the worst four, wherever they stand.
+    for (const std::size_t i : {0u, 5u, 9u, 15u}) r.pixels[i] = RgbD(50.0);
+    CHECK(ljus::trimmed_rel_mse(x, r, 0.25, 1.0) == Approx(with_1));
+    CHECK(ljus::trimmed_rel_mse(x, r, 0.2, 1.0) < with_1 + 0.2);
+    CHECK(ljus::trimmed_rel_mse(x, r, 0.2, 1.0) > with_1 + 0.01);
+}
+
+TEST_CASE("metrics: what is refused is named with its value") {
+    const ImageD a = ljus::make_image<double>(4, 3);
+    const ImageD turned = ljus::make_image<double>(3, 4);
+    const double infinity = std::numeric_limits<double>::infinity();
+    CHECK_THROWS_WITH_AS((void)ljus::rel_mse(a, a, -1.0),
+                         "The epsilon of a relative error is -1.000000; it must be "
+                         "finite and above 0.",
+                         std::invalid_argument);
+    CHECK_THROWS_AS((void)ljus::rel_mse(a, a, infinity), std::invalid_argument);
+    CHECK_THROWS_AS((void)ljus::trimmed_rel_mse(a, a, 0.01, infinity),
+                    std::invalid_argument);
+    CHECK_THROWS_AS((void)ljus::block_error(a, a, 10, 0.0), std::invalid_argument);
+    CHECK_THROWS_WITH_AS((void)ljus::trimmed_rel_mse(a, a, 1.0),
+                         "The part of the pixels to drop is 1.000000; it must be "
+                         "within [0, 1).",
+                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS((void)ljus::block_means(a, 0),
+                         "The side of a block is 0 pixels; it must be at least 1.",
+                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS((void)ljus::bias_variance(std::vector{a}, a),
+                         "Bias and variance were asked of 1 runs; there must be at "
+                         "least 2.",
+                         std::invalid_argument);
+    // Each run is compared, not the first alone; and with the same number of pixels.
+    CHECK_THROWS_WITH_AS((void)ljus::bias_variance(std::vector{a, turned}, a),
+                         "The image's size is 3 x 4; the reference has 4 x 3.",
+                         std::invalid_argument);
+}

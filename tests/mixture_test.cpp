@@ -262,6 +262,11 @@ TEST_CASE("mixture: every slider outside its range is refused by name and value"
           "mixture.emissivity is -3; it must be finite and at least 0.");
     CHECK(refusal(Mixture{.emissivity = INFINITY}).find("mixture.emissivity") == 0);
     CHECK(refusal(Mixture{.sigma = -1}).find("mixture.sigma") == 0);
+    CHECK(refusal(Mixture{.sigma = 1001}).find("mixture.sigma is 1001") == 0);
+    CHECK(refusal(Mixture{.index = 1001}).find("mixture.index is 1001") == 0);
+    CHECK(refusal(Mixture{.index = 0.0009f}).find("mixture.index is 0.0009") == 0);
+    CHECK(refusal(Mixture{.emissivity = NAN}).find("mixture.emissivity is NaN") == 0);
+    CHECK(refusal(Mixture{.absorption = {0, INFINITY, 0}}).find("mixture.abs") == 0);
     CHECK(refusal(Mixture{.absorption = {0, 0, -1}}).find("mixture.absorption") == 0);
 }
 

@@ -189,6 +189,9 @@ TEST_CASE("oren_nayar: what is no angle is refused by name and value") {
           "oren_nayar.sigma is -0.5; it must be within [0, 1000] radians (the model "
           "saturates near 1).");
     CHECK(refusal(OrenNayar{.sigma = NAN}).find("oren_nayar.sigma is NaN") == 0);
+    CHECK(refusal(OrenNayar{.sigma = 1000}).empty());
+    for (const float beyond : {std::nextafter(1000.0f, 2000.0f), INFINITY})
+        CHECK(refusal(OrenNayar{.sigma = beyond}).find("oren_nayar.sigma is ") == 0);
     CHECK(refusal(OrenNayar{.albedo = {1, 1, 2}}).find("oren_nayar.albedo") == 0);
 }
 

@@ -145,3 +145,44 @@ TEST_CASE("pfm: a decimal of a header is the nearest number") {
     for (const char* const none : {"", "-", ".", "1.", "1e", "1 ", "x", "0x1"})
         CHECK(std::isnan(to_number(none)) == (std::string(none) != "1."));
 }
+
+TEST_CASE("pfm: infinity and NaN are what they are at any scale") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("a.pfm");
+    const float infinity = std::numeric_limits<float>::infinity();
+    for (const char* const scale : {"-1", "-2.5", "1", "2.5"}) {
+        const bool little = scale[0] == '-';
+        std::string text = std::string("PF\n1 1\n") + scale + "\n";
+        for (const float x :
+             {infinity, -infinity, std::numeric_limits<float>::quiet_NaN()})
+            for (int i = 0; i < 4; ++i)
+                text += static_cast<char>(std::bit_cast<std::uint32_t>(x) >>
+                                          8 * (little ? i : 3 - i));
+        ScratchFolder::write(path, text);
+        const ljus::Rgb c = ljus::load_pfm(path).pixels.at(0);
+        CHECK(c.x == infinity);
+        CHECK(c.y == -infinity);
+        CHECK(std::isnan(c.z));
+    }
+}
+
+TEST_CASE("pfm: a size with many digits is no small one, a word has at most 64") {
+    // 2^64 + 1 and 2^32 + 1 would be 1 in a number that has no room for them.
+    const ScratchFolder folder;
+    const std::string path = folder.file("a.pfm");
+    const auto message = [&](const std::string& width) {
+        ScratchFolder::write(path, "PF\n" + width + " 1\n-1\n" + std::string(12, 'x'));
+        return message_of_load(path);
+    };
+    CHECK(message("1") == "loaded");
+    CHECK(message("+1") != "loaded");
+    CHECK(message("0000000000001") == "loaded");
+    for (const char* const width : {"18446744073709551617", "4294967297",
+                                    "340282366920938463463374607431768211457"})
+        CHECK(message(width) == std::string("its width or height is '") + width +
+                                    "', which must be a whole number of at least 1, "
+                                    "and not above 268435456.");
+    CHECK(message(std::string(63, '0') + "1") == "loaded");
+    CHECK(message(std::string(64, '0') + "1") ==
+          "its header has a word of more than 64 letters.");
+}

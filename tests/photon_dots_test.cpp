@@ -234,3 +234,46 @@ TEST_CASE("photon dots: the drawing darkens by the cosine, as it says") {
     faint.flux *= 1e-6f;
     CHECK(glm::distance(dot_color(faint), Rgb{0.25f, 0.5f, 1}) < 1e-6f);
 }
+
+TEST_CASE("photon dots: two at one place add up, and the picture ends at its size") {
+    Room room;
+    room.add(Quad{.corner{-50, -50, 0}, .edge_u{100, 0, 0}, .edge_v{0, 100, 0}},
+             room.add(Lambertian{.albedo = Rgb{0.5f}}));
+    const Photon photon = photon_at({0.125f, 0.125f, 0}, {0, 0, -1});
+    Image image = make_image(40, 40, Rgb{0.5f});
+    CHECK(add_photon_dots(image, room, front(), {photon, photon},
+                          {.radius = 1, .brightness = 0.5f},
+                          [](const Photon& p) { return dot_color(p); }) == 2);
+    CHECK(glm::distance(pixel(image, 20, 19), Rgb{0.75f, 1, 1.5f}) < 1e-3f);
+    // Ten pixels a unit from the middle (50, 50): the first column and row count, those
+    // behind the last do not.
+    const auto seen = [&](float x, float y) {
+        return photon_in_sight(room, front(), photon_at({x, y, 0}, {0, 0, -1}), 100,
+                               100)
+            .has_value();
+    };
+    CHECK(project(front(), Vec3{5, 5, 0}, 100, 100) == Vec2{100, 0});
+    CHECK(seen(-5, 0));
+    CHECK(seen(0, 5));
+    CHECK_FALSE(seen(5, 0));
+    CHECK_FALSE(seen(0, -5));
+    CHECK(
+        seen(std::nextafter(5.0f, 0.0f), 0) ==
+        (project(front(), Vec3{std::nextafter(5.0f, 0.0f), 0, 0}, 100, 100)->x < 100));
+}
+
+TEST_CASE("photon dots: what mirrors or refracts is drawn grey") {
+    for (const Ball ball : {Ball::mirror, Ball::glass, Ball::mixture}) {
+        Room room;
+        const Quad all{.corner{-50, -50, 0}, .edge_u{100, 0, 0}, .edge_v{0, 100, 0}};
+        if (ball == Ball::mirror)
+            room.add(all, room.add(Mirror{.reflectance{1, 0, 0}}));
+        if (ball == Ball::glass) room.add(all, room.add(Glass{}));
+        if (ball == Ball::mixture)
+            room.add(all, room.add(Mixture{.color{1, 0, 0}, .reflectivity = 0.5f}));
+        const Image image = scene_drawing(room, front(), 11, 11);
+        const Rgb& middle = pixel(image, 5, 5); // seen straight on
+        for (const float channel : {middle.x, middle.y, middle.z})
+            CHECK(channel == ljus_test::within(0.16 * 0.25, 1e-5));
+    }
+}

@@ -117,3 +117,25 @@ TEST_CASE("query: in an empty scene, and for bad rays, nothing is met") {
         CHECK_FALSE(occluded(scene, bad));
     }
 }
+
+TEST_CASE("query: in the precision that is asked for, whether the first or any") {
+    // Rays that graze a far ball: float and double often disagree on whether they meet.
+    const Sphere ball{.radius = 1};
+    const auto scene = make_scene(placed(ball, Lambertian{}));
+    Numbers n{5};
+    int differ = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const glm::dvec3 out = n.direction(), side = n.direction();
+        const glm::dvec3 edge = glm::normalize(glm::cross(out, side));
+        const Vec3 from(300.0 * out);
+        const Ray ray{.origin = from, .direction = Vec3(edge) - from};
+        const bool in_float = intersect<float>(ray, ball).has_value();
+        const bool in_double = intersect<double>(ray, ball).has_value();
+        differ += in_float != in_double;
+        REQUIRE(closest_hit<float>(scene, ray).has_value() == in_float);
+        REQUIRE(occluded<float>(scene, ray) == in_float);
+        REQUIRE(closest_hit<double>(scene, ray).has_value() == in_double);
+        REQUIRE(occluded<double>(scene, ray) == in_double);
+    }
+    CHECK(differ > 100);
+}

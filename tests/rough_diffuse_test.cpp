@@ -166,6 +166,16 @@ TEST_CASE("rough_diffuse: what is no albedo and no roughness is refused") {
     CHECK(refusal(RoughDiffuse{.sigma = NAN}).find("rough_diffuse.sigma") == 0);
     CHECK(refusal(RoughDiffuse{.sigma = 2}).find("rough_diffuse.sigma") == 0);
     CHECK(refusal(RoughDiffuse{.sigma = 2, .model = RoughModel::full}).empty());
+    for (const auto model :
+         {RoughModel::as_printed, RoughModel::full, RoughModel::fujii}) {
+        CHECK(refusal(RoughDiffuse{.sigma = 1000, .model = model}).empty());
+        CHECK(refusal(RoughDiffuse{.sigma = 1001, .model = model}) ==
+              "rough_diffuse.sigma is 1001; it must be within [0, 1000] radians (the "
+              "model saturates near 1).");
+    }
+    CHECK(refusal(RoughDiffuse{.sigma = 1}).empty());
+    CHECK(refusal(RoughDiffuse{.sigma = 1.001f}) ==
+          "rough_diffuse.sigma is 1.001; it must be within [0, 1].");
     CHECK(refusal(RoughDiffuse{.sigma = -1, .model = RoughModel::full})
               .find("rough_diffuse.sigma") == 0);
 }

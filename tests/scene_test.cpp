@@ -262,3 +262,27 @@ TEST_CASE("scene: what cannot be a light is refused as one, and shines on nobody
               scene.add(Sphere{}, MaterialId{1, 1});
           }).find("the material's number is 1") == 0);
 }
+
+TEST_CASE("scene: an object knows its light, a flat light its normal and area") {
+    Room room;
+    const MaterialId matt = room.add(Lambertian{});
+    const ObjectId dark = room.add(Sphere{}, matt);
+    room.add(PointLight{});
+    const ObjectId lamp =
+        room.add(Quad{.edge_u{2, 0, 0}, .edge_v{0, 0, 3}}, matt, Rgb{1});
+    const ObjectId wedge = room.add(Triangle{.v1{0, 0, 0}, .v2{4, 0, 0}, .v3{0, 2, 0}},
+                                    matt, Rgb{1}, true);
+    const ObjectId later = room.add(Quad{}, matt);
+    const ObjectId ball = room.add(Sphere{}, matt, Rgb{1});
+    CHECK(room.object(dark).light == detail::no_light);
+    CHECK(room.object(later).light == detail::no_light);
+    CHECK(room.object(lamp).light == 1);
+    CHECK(room.object(wedge).light == 2);
+    CHECK(room.object(ball).light == 3);
+    // Of the shape itself: where it is inside out, sample_light() turns it.
+    CHECK(room.lights[1].direction == Vec3{0, -1, 0});
+    CHECK(room.lights[1].area == 6);
+    CHECK(room.lights[2].direction == Vec3{0, 0, 1});
+    CHECK(room.lights[2].area == 4);
+    CHECK(room.lights[3].area == 0); // asked for its solid angle
+}

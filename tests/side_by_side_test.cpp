@@ -227,9 +227,27 @@ TEST_CASE("side_by_side: classes are measured, and add up to the picture") {
     const auto tracer = make_path_tracer(room.scene);
     CHECK(class_means(tracer, room.camera, one, classes) ==
           class_means(tracer, room.camera, threads, classes));
-    threads.samples = 0;
-    CHECK_THROWS_AS((void)class_means(tracer, room.camera, threads, classes),
-                    std::invalid_argument);
+    for (const char* const what : {"width", "height", "samples"}) {
+        RenderSettings none = one;
+        (what[0] == 'w' ? none.width : what[0] == 'h' ? none.height : none.samples) = 0;
+        CHECK_THROWS_WITH_AS(
+            (void)class_means(tracer, room.camera, none, classes),
+            (std::string(what) + " is 0; it must be at least 1.").c_str(),
+            std::invalid_argument);
+    }
+    // With a filter each ray has a weight of its own; the picture need not be square.
+    for (const Filter filter : {Filter::gaussian, Filter::mitchell}) {
+        RenderSettings wide = one;
+        wide.width = 9;
+        wide.height = 4;
+        wide.filter = filter;
+        const auto sums = class_means(tracer, room.camera, wide, classes);
+        const auto picture = render(tracer, room.camera, wide).image;
+        RgbT<double> whole(0);
+        for (const Rgb& color : picture.pixels) whole += RgbT<double>(color) / 36.0;
+        for (int c = 0; c < 3; ++c)
+            CHECK(sums.back()[c] == doctest::Approx(whole[c]).epsilon(1e-5));
+    }
 }
 
 TEST_CASE("side_by_side: what maps hold does not know who looks") {

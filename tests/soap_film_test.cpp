@@ -138,6 +138,20 @@ TEST_CASE("soap film: one that cannot be is refused in a sentence") {
     CHECK(refusal({.level{NAN, 0, 0}}).find("soap_film.level") == 0);
     CHECK(refusal({.up{0, 0, 2}}).find("soap_film.up") == 0);
     CHECK(refusal({.color = FilmColor::table}).find("soap_film.table.index is 0") == 0);
+    // A table that is there, but of another film.
+    CHECK(refusal({.color = FilmColor::table, .table{.index = 1.5f}}) ==
+          "soap_film.table.index is 1.5; it must be soap_film.index: make it with "
+          "bake_film_table(index).");
+    CHECK(refusal({.color = FilmColor::table, .table{.index = 1.33f}}).empty());
+    CHECK(refusal({.table{.index = 1.5f}}).empty()); // nobody asks it
+    CHECK(refusal({.thickness = 1000001}).find("soap_film.thickness is 1000001") == 0);
+    CHECK(refusal({.scale = INFINITY}).find("soap_film.scale is infinity") == 0);
+    CHECK(refusal({.scale = NAN}).find("soap_film.scale is NaN") == 0);
+    CHECK(refusal({.index = 1}).empty());
+    CHECK(refusal({.index = 1001}).find("soap_film.index is 1001") == 0);
+    CHECK(refusal({.up{0, 1.0003f, 0}}).find("soap_film.up") == 0);
+    CHECK(refusal({.up{0, 1.00003f, 0}}).empty());
+    CHECK(refusal({.up{0, 0, 0}}).find("soap_film.up is (0, 0, 0)") == 0);
     Room room;
     CHECK_THROWS_AS(room.add(SoapFilm{.thickness = -1}), std::invalid_argument);
     const auto film = room.add(SoapFilm{});

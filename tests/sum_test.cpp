@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -51,4 +52,32 @@ TEST_CASE("sum: pairwise sums of nothing, of one, of colours") {
     const std::vector<ljus::Rgb> colours(1000, ljus::Rgb{1, 2, 3});
     CHECK(ljus::detail::pairwise_sum(colours) == ljus::Rgb{1000, 2000, 3000});
     CHECK(ljus::detail::pairwise_sum(std::vector<ljus::Rgb>{}) == ljus::Rgb{0, 0, 0});
+}
+
+namespace {
+
+/// A number that knows through how many additions its terms have gone at most.
+struct Counted {
+    double value = 0;
+    int additions = 0;
+    Counted() = default;
+    Counted(double x) : value(x) {} // NOLINT: as 0 is of any number
+    friend Counted operator+(const Counted& a, const Counted& b) {
+        Counted sum(a.value + b.value);
+        sum.additions = std::max(a.additions, b.additions) + 1;
+        return sum;
+    }
+};
+
+} // namespace
+
+TEST_CASE("sum: no term goes through more than 16 + log2(n) additions") {
+    for (const std::size_t n :
+         {1u, 2u, 15u, 16u, 17u, 31u, 33u, 100u, 1000u, 1024u, 4097u, 100003u}) {
+        const Counted sum = ljus::detail::pairwise_sum(std::vector<Counted>(n, 1.0));
+        CHECK(sum.value == double(n));
+        CHECK(sum.additions <= 16 + std::ceil(std::log2(double(n))));
+    }
+    // Short runs are plain: that is where the speed is.
+    CHECK(ljus::detail::pairwise_sum(std::vector<Counted>(16, 1.0)).additions == 16);
 }

@@ -234,3 +234,25 @@ TEST_CASE_TEMPLATE("surface: slivers do not meet again what leaves them", T, flo
             CHECK(at_floor == 0);
         }
 }
+
+TEST_CASE_TEMPLATE("surface: a ray has the time that it is given, a copy all there is",
+                   T, float, double) {
+    const SurfacePointT<T> a{.position{T(1), T(2), T(3)},
+                             .error{T(4), T(5), T(6)},
+                             .normal{T(0), T(1), T(0)},
+                             .tilt = T(7)};
+    const SurfacePointT<T> b{.position{T(9), T(8), T(3)}};
+    const Vec3T<T> up{T(0), T(1), T(0)};
+    CHECK(spawn_ray(a, up).time == T(0));
+    CHECK(spawn_ray(a, up, T(0.25)).time == T(0.25));
+    CHECK(spawn_ray_to(a, b).time == T(0));
+    CHECK(spawn_ray_to(a, b, T(0.75)).time == T(0.75));
+    CHECK(spawn_ray_to(a, b).t_max == T(1));
+    CHECK(spawn_ray(a, up).t_max == std::numeric_limits<T>::infinity());
+    SurfacePointT<T> copy{.tilt = T(3)};
+    detail::set_point(copy, a);
+    CHECK(copy.position == a.position);
+    CHECK(copy.error == a.error);
+    CHECK(copy.normal == a.normal);
+    CHECK(copy.tilt == a.tilt);
+}

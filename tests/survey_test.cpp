@@ -144,6 +144,7 @@ TEST_CASE("survey: each pass is on or off for a reason that is printed") {
     plan = survey(matt, settings);
     CHECK(plan.general_map.on);
     CHECK_FALSE(plan.shadow_photons.on);
+    CHECK(plan.shadow_photons.why == "no map keeps them");
     settings.general.photons = 0;
     CHECK_FALSE(survey(matt, settings).general_map.on);
 
@@ -522,4 +523,75 @@ TEST_CASE("survey: which passes each way of indirect light needs, and from how m
     CHECK_FALSE(needs(bubble).films);
     bubble.add(SoapFilm{});
     CHECK(needs(bubble).films);
+}
+
+TEST_CASE("survey: every reason, in the order in which they are printed") {
+    const SceneNeeds lit{.objects = 30, .diffuse = 20, .specular = 10, .lights = 2};
+    const auto plan_of = [](const SceneNeeds& found, auto change) {
+        PhotonMappingSettings settings;
+        change(settings);
+        return detail::make_plan(found, settings);
+    };
+    const Plan plan = plan_of(lit, [](auto&) {});
+    const char* const names[] = {"shadow rays",
+                                 "indirect rays",
+                                 "caustics map",
+                                 "general map",
+                                 "shadow photons",
+                                 "skipped rays",
+                                 "skipped bounces",
+                                 "irradiance",
+                                 "irradiance cache",
+                                 "thin film",
+                                 "tree"};
+    REQUIRE(plan.items().size() == std::size(names));
+    for (std::size_t i = 0; i < std::size(names); ++i)
+        CHECK(std::string(plan.items()[i]->pass) == names[i]);
+    CHECK(plan.tree.on);
+    CHECK(plan.tree.why == "30 objects, a tree finds the first on a ray");
+    CHECK(plan.irradiance.why == "no gather ray asks for it");
+    CHECK(plan.cache.why == "not asked for");
+
+    // Skipping: with enough photons for the lights, with one too few, and in the dark.
+    const auto skip = [&](const SceneNeeds& found, long long photons) {
+        return plan_of(found, [&](PhotonMappingSettings& settings) {
+            settings.skip = {.rule = SkipRule::enough, .indirect_rays = true};
+            settings.general.photons = photons;
+        });
+    };
+    PhotonMappingSettings enough;
+    enough.skip.rule = SkipRule::enough;
+    const long long needed = photons_needed(enough.skip);
+    const std::string n = std::to_string(needed), twice = std::to_string(2 * needed);
+    const Plan on = skip(lit, 2 * needed), off = skip(lit, 2 * needed - 1);
+    CHECK(on.skipped_rays.on);
+    CHECK(on.skipped_rays.why == "where " + n + " of " + twice + " photons agree");
+    CHECK(on.shadow_photons.why == "they tell which shadow rays are needless");
+    CHECK(on.skipped_bounces.why == "where none of " + twice + " photons is near");
+    CHECK_FALSE(off.skipped_rays.on);
+    CHECK(off.skipped_rays.why ==
+          std::to_string(2 * needed - 1) + " photons, and each light takes " + n);
+    SceneNeeds dark = lit;
+    dark.lights = 0;
+    CHECK(skip(dark, 1000).skipped_rays.why == "nothing is lit");
+    CHECK(skip(dark, 1000).skipped_bounces.why == "there are no indirect rays");
+    CHECK(skip(dark, 1000).indirect_rays.why == "nothing is lit");
+
+    const auto indirect = [&](IndirectLight way) {
+        return plan_of(lit, [&](PhotonMappingSettings& s) { s.indirect = way; });
+    };
+    const Plan gather = indirect(IndirectLight::gather);
+    CHECK(gather.irradiance.on);
+    CHECK(gather.irradiance.why == "gather rays look it up where they end");
+    CHECK_FALSE(gather.cache.on);
+    const Plan cache = indirect(IndirectLight::cache);
+    CHECK(cache.cache.on);
+    CHECK(cache.cache.why == "pixels interpolate what few points gather");
+    CHECK(cache.irradiance.on);
+    CHECK(indirect(IndirectLight::none).indirect_rays.why == "not asked for");
+    SceneNeeds films = lit;
+    films.films = true;
+    const Plan bubble = plan_of(films, [](auto&) {});
+    CHECK(bubble.thin_film.on);
+    CHECK(bubble.thin_film.why == "paths pass through the listed films");
 }

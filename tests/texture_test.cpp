@@ -93,6 +93,12 @@ TEST_CASE("texture: an image stands upright, is smooth between pixels, and repea
     CHECK(at(0.5f, 0.75f) == Rgb{0.5f, 0.5f, 0});
     CHECK(at(3.25f, -1.25f) == Rgb{1, 0, 0});
     CHECK(at(0.0f, 0.75f) == at(1.0f, 0.75f));
+    // At its borders it goes over into its other side, in both directions.
+    CHECK(at(0.0f, 0.75f) == Rgb{0.5f, 0.5f, 0});
+    CHECK(at(0.25f, 0.0f) == Rgb{0.5f, 0, 0.5f});
+    CHECK(at(0.25f, 1.0f) == Rgb{0.5f, 0, 0.5f});
+    CHECK(at(0.25f, 0.125f) == Rgb{0.25f, 0, 0.75f});
+    CHECK(at(0.25f, 0.875f) == Rgb{0.75f, 0, 0.25f});
     Draws draws;
     for (int i = 0; i < 20000; ++i) {
         const float size = std::pow(10.0f, draws.between(-30.0f, 30.0f));
@@ -157,6 +163,16 @@ TEST_CASE(
     CHECK(matt(GlobeChecker{}).empty());
     CHECK(matt(Checker{.columns = 3}).find("checker.columns is 3") == 0);
     CHECK(matt(Checker{.rows = 0}).find("checker.rows is 0") == 0);
+    for (const int fine : {2, 4, 1000000}) {
+        CHECK(matt(Checker{.columns = fine}).empty());
+        CHECK(matt(Checker{.rows = fine}).empty());
+    }
+    for (const int wrong : {-2, 0, 1, 5, 1000002}) {
+        const std::string is =
+            " is " + std::to_string(wrong) + "; it must be even, from 2 to 1000000.";
+        CHECK(matt(Checker{.columns = wrong}) == "checker.columns" + is);
+        CHECK(matt(Checker{.rows = wrong}) == "checker.rows" + is);
+    }
     CHECK(matt(Checker{.even{1.5f, 0, 0}}).find("checker.even") == 0);
     CHECK(matt(Checker{.odd{NAN, 0, 0}}).find("checker.odd") == 0);
     CHECK(matt(Checker{.map{.edge_u{0, 0, 0}}}).find("plane_map.edge_u") == 0);
@@ -185,6 +201,9 @@ TEST_CASE("texture: a UvMap looks up by the shape's own coordinates, and repeats
     const Textured<Lambertian, UvPicture> still{{},
                                                 {.image = four(), .map{.scale{0, 1}}}};
     CHECK(refusal(still).find("uv_map.scale is 0; it must be finite and not 0.") == 0);
+    const Textured<Lambertian, UvPicture> flatter{
+        {}, {.image = four(), .map{.scale{1, INFINITY}}}};
+    CHECK(refusal(flatter) == "uv_map.scale is infinity; it must be finite and not 0.");
     const CheckerT<float, UvMap> board{.even = Rgb{1}, .odd = Rgb{0}};
     CHECK(color_at(board, Vec3{9}, Vec2{0.25f, 0.25f}) == Rgb{1});
     CHECK(color_at(board, Vec3{9}, Vec2{0.75f, 0.25f}) == Rgb{0});
@@ -271,6 +290,11 @@ TEST_CASE("texture: each shape has its own coordinates") {
                               .way{5, 0, 0}};
     CHECK(of(moving, Ray{.origin{0.25f, 0.5f, 1}, .direction{0, 0, -1}}) ==
           Vec2{0.25f, 0.5f});
+    // Of a ball that moves they are the globe's, wherever it is.
+    const Moving<Sphere> ball{.shape{.radius = 2}, .way{8, 0, 0}};
+    const Vec2 at = of(ball, Ray{.origin{4, 0, -9}, .direction{0, 0, 1}, .time = 0.5f});
+    CHECK(at.x == doctest::Approx(0.25));
+    CHECK(at.y == doctest::Approx(0.5));
 }
 
 #if __has_include(<stb/stb_image.h>)
@@ -311,6 +335,15 @@ TEST_CASE("texture: what is saved as PNG is loaded again; what is not is named")
                   (void)detail::decode_image(bitmap, "b\n.bmp");
               }).find("b?.bmp ") == 0);
     }
+    // A bitmap packs nothing: one of 100 x 100 pixels without them is cut short.
+    Bytes cut(54 + 4);
+    const Bytes front{'B', 'M', 58, 0, 0, 0, 0, 0, 0, 0, 54, 0, 0, 0, 40};
+    std::copy(front.begin(), front.end(), cut.begin());
+    cut[18] = cut[22] = 100;
+    cut[26] = 1;
+    cut[28] = 24;
+    CHECK(said([&] { (void)detail::decode_image(cut, "cut.bmp"); }) ==
+          "cut.bmp is damaged: it ends in the middle of its pixels.");
     CHECK(said([&] {
               (void)detail::decode_image({}, "empty.png");
           }).find("empty.png is no picture that can be read: ") == 0);

@@ -467,8 +467,8 @@ TEST_CASE("film colours: three times round, for each polarisation by itself") {
 }
 
 TEST_CASE("film table: each cell is the spectrum's colour, and what had to be greyed") {
-    const auto table = ljus::bake_film_table(
-        1.33, {.cosines = 3, .paths = 41, .longest = 1200});
+    const auto table =
+        ljus::bake_film_table(1.33, {.cosines = 3, .paths = 41, .longest = 1200});
     int greyed = 0;
     double worst = 0, far = 0;
     for (int row = 0; row < 41; ++row)
@@ -479,8 +479,8 @@ TEST_CASE("film table: each cell is the spectrum's colour, and what had to be gr
             greyed += ljus::into_gamut(color) != color;
             worst = std::min({worst, color.x, color.y, color.z});
             const auto cell = table.cells[std::size_t(row * 3 + column)];
-            far = std::max(far, ljus::max_component(
-                                    glm::abs(ljus::into_gamut(color) - cell)));
+            far = std::max(
+                far, ljus::max_component(glm::abs(ljus::into_gamut(color) - cell)));
         }
     MESSAGE("farthest ", far, ", worst ", worst, " and ", table.worst);
     CHECK(far < 2e-4);
@@ -491,8 +491,7 @@ TEST_CASE("film table: each cell is the spectrum's colour, and what had to be gr
     const auto thin =
         ljus::bake_film_table(1.33, {.cosines = 2, .paths = 2, .longest = 100});
     const auto right = ljus::into_gamut(ljus::film_spectral(1.0, 1.33, 100 / 1.33));
-    for (int i = 0; i < 3; ++i)
-        CHECK(std::abs(thin.cells[3][i] - right[i]) < 1e-5);
+    for (int i = 0; i < 3; ++i) CHECK(std::abs(thin.cells[3][i] - right[i]) < 1e-5);
 }
 
 TEST_CASE("thin film: what is small keeps its digits, and nothing is no film") {
@@ -509,4 +508,44 @@ TEST_CASE("thin film: what is small keeps its digits, and nothing is no film") {
           ljus_test::within(2 * r0 / (1 + r0), 1e-6));
     CHECK(ljus::thick_film(0.0, 1.0) == 0);
     CHECK(ljus::thick_film(0.0, 1.33) == 1);
+}
+
+TEST_CASE("observer: what is brighter than the screen is white, below black is black") {
+    for (const ljus::RgbT<double>& bright :
+         {ljus::RgbT<double>{3, 3, 3}, {2, 1.5, 1}, {0.5, 3, 0.5}, {1, 40, -2}})
+        CHECK(ljus::into_gamut(bright) == ljus::RgbT<double>{1, 1, 1});
+    for (const ljus::RgbT<double>& dark :
+         {ljus::RgbT<double>{-1, -1, -1}, {-1, 0.2, 0}, {0.1, -0.5, 0.5}})
+        CHECK(ljus::into_gamut(dark) == ljus::RgbT<double>{0, 0, 0});
+}
+
+TEST_CASE("film table: long paths are asked at more wavelengths") {
+    // The phase 2 pi path / lambda moves by at most 1/2 from one to the next.
+    for (const double longest : {1.0, 4000.0, 6000.0, 40000.0}) {
+        const auto spectrum = ljus::detail::film_spectrum(longest);
+        const auto& w = spectrum.wavelengths;
+        REQUIRE(w.size() == spectrum.eye.size());
+        REQUIRE(w.size() >= 235); // 2 nm
+        CHECK(2 * std::numbers::pi * longest * (1 / w[0] - 1 / w[1]) <= 0.5);
+        CHECK(w[1] - w[0] == doctest::Approx(470.0 / double(w.size())));
+        CHECK(w[0] - 360 == doctest::Approx((w[1] - w[0]) / 2));
+        CHECK(830 - w.back() == doctest::Approx((w[1] - w[0]) / 2));
+    }
+}
+
+TEST_CASE("thin film: exactly at the critical angle it is as beside it") {
+    int exact = 0;
+    for (int i = 1; i < 400; ++i) {
+        const double n = 0.3 + i * 0.0017, c = std::sqrt((1 - n) * (1 + n));
+        if (ljus::film_cosine2(c, n) != 0) continue;
+        ++exact;
+        const double at = ljus::thin_film(c, n, 300.0, 550.0).reflected;
+        CHECK(at > 0.01);
+        for (const double beside : {c - 1e-7, c + 1e-7})
+            CHECK(ljus::thin_film(beside, n, 300.0, 550.0).reflected ==
+                  doctest::Approx(at).epsilon(1e-4));
+    }
+#ifndef __FMA__
+    CHECK(exact > 20);
+#endif
 }

@@ -27,6 +27,8 @@ TEST_CASE_TEMPLATE("vector: finite means no NaN and no infinity in any place", T
     using Limits = std::numeric_limits<T>;
     CHECK(is_finite(Vec3T<T>{T(0), T(-0.0), T(1)}));
     CHECK(is_finite(Vec3T<T>{Limits::max(), Limits::lowest(), Limits::denorm_min()}));
+    CHECK(is_finite(Vec3T<T>{Limits::max()})); // though their sum is not
+    CHECK(is_finite(Vec3T<T>{Limits::lowest()}));
     for (const T bad : {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity()})
         for (int place = 0; place < 3; ++place) {
             Vec3T<T> v{T(1), T(2), T(3)};
@@ -38,6 +40,8 @@ TEST_CASE_TEMPLATE("vector: finite means no NaN and no infinity in any place", T
 TEST_CASE("vector: black is zero in every channel") {
     CHECK(is_black(Rgb{0, 0, 0}));
     CHECK(is_black(Rgb{-0.0f, 0, 0}));
+    CHECK_FALSE(is_black(Rgb{1, -1, 0})); // though their sum is
+    CHECK_FALSE(is_black(Rgb{-1, -1, 2}));
     for (int channel = 0; channel < 3; ++channel) {
         Rgb color{0, 0, 0};
         color[channel] = std::numeric_limits<float>::denorm_min();

@@ -46,3 +46,9 @@ ljus_break_it(NAME flip-exposures HEADER image/hdr_flip.hpp TEST flip
     FROM "std::exp2(exposures.first + part * (exposures.last - exposures.first))"
     TO   "std::exp2(exposures.last + 0 * part)"
     CASES "flip: HDR: the second*")
+
+# A pixel without end, for which no exposure would be dark enough.
+ljus_break_it(NAME flip-hdr-most HEADER image/hdr_flip.hpp TEST flip
+    FROM "std::min(y, most)"
+    TO   "y"
+    CASES "flip: HDR: the film's curve*")

@@ -3,3 +3,9 @@ ljus_break_it(NAME hdr-exposure-end HEADER io/hdr.hpp TEST hdr
     FROM "if (!is_finite(color))"
     TO   "if (false)"
     CASES "hdr: the exposure*")
+
+# A row is coded only if it has at least eight pixels.
+ljus_break_it(NAME hdr-narrow-row HEADER io/hdr.hpp TEST hdr
+    FROM "width >= 8 && width <= 0x7fff"
+    TO   "width <= 0x7fff"
+    CASES "hdr: a row too narrow*")

@@ -27,3 +27,15 @@ ljus_break_it(NAME light-density HEADER scene/light.hpp TEST light
     FROM "std::isfinite(seen.pdf)"
     TO   "true"
     CASES "light: what no picture*")
+
+# A lamp that moves shines from where it was at first.
+ljus_break_it(NAME light-time HEADER scene/light.hpp TEST light
+    FROM "sample_towards(at_time(shape, time), from, u)"
+    TO   "sample_towards(at_time(shape, T(0)), from, u)"
+    CASES "light: a lamp that moves*")
+
+# The density of a sample is forgotten.
+ljus_break_it(NAME light-pdf HEADER scene/light.hpp TEST light
+    FROM ".pdf = seen.pdf};"
+    TO   ".pdf = T(0)};"
+    CASES "light: a sample says its density*")

@@ -69,3 +69,15 @@ ljus_break_it(NAME obj-exponent-names HEADER io/detail/obj_text.hpp TEST load_ob
     FROM "(c == 'e' || c == 'E') && number"
     TO   "c == 'e' || c == 'E'"
     CASES "load_obj: an exponent*")
+
+# The first line that is met in place of the first line of the file.
+ljus_break_it(NAME load-obj-first-line HEADER io/obj_report.hpp TEST load_obj
+    FROM "if (at.count++ == 0 || line < at.line) at.line = line;"
+    TO   "if (at.count++ == 0) at.line = line;"
+    CASES "load_obj: a report has the first line*")
+
+# What is glass and a mirror at once.
+ljus_break_it(NAME load-obj-glass-first HEADER io/load_obj.hpp TEST load_obj
+    FROM "if (is.is_glass()) return scene.add(glass);"
+    TO   "if (is.is_glass() && !is.is_mirror()) return scene.add(glass);"
+    CASES "load_obj: the rarer words*")

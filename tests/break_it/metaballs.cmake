@@ -72,3 +72,16 @@ ljus_break_it(NAME metaballs-light HEADER scene/scene.hpp TEST metaballs
     FROM "require(is_black(radiance), \"the radiance"
     TO   "require(true, \"the radiance"
     CASES "metaballs: no light*")
+
+# What carves adds to what the field may have been rounded by, and takes nothing away.
+ljus_break_it(NAME metaballs-carving-error HEADER geometry/metaballs.hpp TEST metaballs
+    FROM "size += std::abs(WideT<T>(blob.weight));"
+    TO   "size += WideT<T>(blob.weight);"
+    CASES "metaballs: what a carving blob*")
+
+# A ray that starts on the surface finds it behind itself.
+ljus_break_it(NAME metaballs-on-surface HEADER geometry/detail/metaball_quartic.hpp
+    TEST metaballs
+    FROM "if (p.c[0] == C(0)) p.c[0] = std::numeric_limits<C>::min();"
+    TO   ""
+    CASES "metaballs: on the surface*")

@@ -58,3 +58,15 @@ ljus_break_it(NAME thin_film-small HEADER optics/thin_film.hpp TEST thin_film
     FROM "ratio < T(1) ? ratio"
     TO   "ratio < T(0) ? ratio"
     CASES "thin film: what is small*")
+
+# Grey brighter than the screen.
+ljus_break_it(NAME thin_film-gamut-grey HEADER optics/cie_observer.hpp TEST thin_film
+    FROM "std::clamp(luminance(c), T(0), T(1))"
+    TO   "luminance(c)"
+    CASES "observer: what is brighter*")
+
+# The fringes of long paths need more wavelengths.
+ljus_break_it(NAME thin_film-table-step HEADER optics/film_table.hpp TEST thin_film
+    FROM "std::min(2.0, finest)"
+    TO   "2.0"
+    CASES "film table: long paths*")
