@@ -183,7 +183,7 @@ void residuals(const examples::Options& options, const Sizes& sizes) {
                         .columns = {"sweeps: as many steps as there are patches",
                                     "shooting", "Gauss-Seidel", "Jacobi",
                                     "largest albedo ^ sweeps"},
-                        .y_label = "flux not yet sent, of what is emitted",
+                        .y_label = "unsent flux over emitted flux",
                         .log_y = true,
                         .more = "set yrange [1e-14:1.5]\n"};
     const double nothing = std::numeric_limits<double>::quiet_NaN();

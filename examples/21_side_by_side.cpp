@@ -40,7 +40,7 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 struct Sizes {
     int rungs = 0; ///< Efforts tried, each four times the one before.
     int seeds = 0; ///< Runs of each.
-    int truth = 0; ///< Rays a pixel of the reference.
+    int truth = 0; ///< Rays per pixel of the reference.
 };
 
 // --- The renderers --------------------------------------------------------------------
@@ -693,7 +693,7 @@ void views(const Study& study, const std::vector<Method>& all,
                                        .vfov_degrees = 33}));
     }
     examples::Table table{.name = "side_by_side-" + study.name + "-views",
-                          .columns = {"", "solution, s", "a view, s",
+                          .columns = {"", "solution, s", "per view, s",
                                       "a further view over the first", "kept",
                                       "while it is made"}};
     const double effort = std::pow(4.0, sizes.rungs - 1);
@@ -743,7 +743,8 @@ int main(int argc, char** argv) {
         line.add("--rungs", sizes.rungs,
                  "Efforts tried, each four times the one before", 2, 8);
         line.add("--seeds", sizes.seeds, "Runs of each effort", 2, 1000);
-        line.add("--truth", sizes.truth, "Rays a pixel of the reference", 8, 10000000);
+        line.add("--truth", sizes.truth, "Rays per pixel of the reference", 8,
+                 10000000);
         const examples::Options options =
             line.parse({.draft{.width = 40, .height = 40, .samples = 1},
                         .report{.width = 100, .height = 100, .samples = 1},
