@@ -517,7 +517,7 @@ void compare_full(const examples::Options& options) {
 /// Plot: error against time for gold of two glosses: the one loses light, and more rays
 /// do not bring it back.
 void plot_full(const examples::Options& options) {
-    const int size = options.pick(48, 150, 300), most = options.pick(64, 256, 1024);
+    const int size = options.pick(48, 100, 200), most = options.pick(64, 256, 256);
     const ljus::RoughMetal gold{.reflectance = ljus::gold<float>, .roughness = 0.7f};
     const ljus::FullRoughMetal full = compensated_glossy(gold);
     const Image truth =
