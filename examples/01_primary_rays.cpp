@@ -278,7 +278,7 @@ void plot_errors(const std::string& folder, int pixels, int most) {
                 error({true}, sampling, rays, pixels, truth[1], 8), "%.4f"));
         table.rows.push_back(row);
     }
-    std::vector<std::string> row{"ns a point, of 64"};
+    std::vector<std::string> row{"ns per point, of 64"};
     for (const Sampling sampling : patterns) {
         const auto pattern = make_pattern(sampling, 64);
         double best = 1e9;

@@ -196,14 +196,14 @@ double in_furnace(const MeshData& body, const Material& material, int paths,
 }
 
 void energy(const examples::Options& options, const Sizes& sizes) {
-    examples::Plot plot{
-        .name = "mesh-energy",
-        .columns = {"triangles", "matt white", "glass", "caustic without the factor"},
-        .y_label = "relative error",
-        .rows = {},
-        .log_x = true,
-        .log_y = true,
-        .more = "set key samplen 1\n"};
+    examples::Plot plot{.name = "mesh-energy",
+                        .columns = {"triangles", "diffuse white", "glass",
+                                    "caustic without the factor"},
+                        .y_label = "relative error",
+                        .rows = {},
+                        .log_x = true,
+                        .log_y = true,
+                        .more = "set key samplen 1\n"};
     const int paths = options.pick(20000, 200000, 1000000);
     const auto error = [](double off) {
         return std::abs(off) > 0 ? std::abs(off)
@@ -223,7 +223,7 @@ void energy(const examples::Options& options, const Sizes& sizes) {
                              error(1 - glass), error(without / with - 1)});
         if (!options.quiet)
             std::printf(
-                "%7.0f triangles: matt %.5f, glass %.5f, on the floor %.4f with "
+                "%7.0f triangles: diffuse %.5f, glass %.5f, on the floor %.4f with "
                 "the factor, %.4f without (%+.2f %%)\n",
                 plot.rows.back()[0], matt, glass, with, without,
                 100 * (without / with - 1));
@@ -236,7 +236,7 @@ void energy(const examples::Options& options, const Sizes& sizes) {
 void costs(const examples::Options& options, const Sizes& sizes) {
     examples::Table table{
         .name = "mesh-costs",
-        .columns = {"triangles", "bytes a triangle", "its tree, ms", "its file, ms"},
+        .columns = {"triangles", "bytes per triangle", "its tree, ms", "its file, ms"},
         .rows = {}};
     for (int cuts = 1; cuts <= sizes.cuts; ++cuts) {
         const MeshData data = icosphere(Sphere{}, cuts);

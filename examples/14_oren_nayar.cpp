@@ -210,22 +210,84 @@ double nanoseconds(const Material& material) {
     });
 }
 
-/// The variance of a sample's weight, which a path's throughput is multiplied by.
+/// The weights of many samples, which a path's throughput is multiplied by; 0 for a
+/// sample that fails.
 template <typename Material>
-double weight_variance(const Material& material, double degrees) {
+std::vector<double> weights(const Material& material, double degrees, int count) {
     const double theta = degrees * std::numbers::pi / 180;
     const Vec3 wo(Vec3T<double>{std::sin(theta), 0, std::cos(theta)});
     ljus::RandomStream stream = ljus::random_stream(13, ljus::Pass::user, 0, 0);
-    double sum = 0, squares = 0;
-    constexpr int count = 200000;
+    std::vector<double> list;
     for (int i = 0; i < count; ++i) {
         const auto s =
             sample(material, wo, next_3d<float>(stream), ljus::Transport::radiance);
-        const double weight = s ? double(s->weight.x) : 0.0;
+        list.push_back(s ? double(s->weight.x) : 0.0);
+    }
+    return list;
+}
+
+/// Their variance.
+template <typename Material>
+double weight_variance(const Material& material, double degrees) {
+    constexpr int count = 200000;
+    double sum = 0, squares = 0;
+    for (const double weight : weights(material, degrees, count)) {
         sum += weight;
         squares += weight * weight;
     }
     return squares / count - (sum / count) * (sum / count);
+}
+
+/// Nanoseconds to draw a sample, the best of 21 runs.
+template <typename Material>
+double nanoseconds_a_sample(const Material& material, double degrees) {
+    constexpr int count = 16384;
+    return examples::nanoseconds_a_call(count, [&] {
+        const auto list = weights(material, degrees, count);
+        return float(list.back());
+    });
+}
+
+/// The error of the means of n values, where the truth is 1: root mean square.
+double error_of_means(const std::vector<double>& values, std::size_t n) {
+    double squares = 0;
+    std::size_t means = 0;
+    for (std::size_t i = 0; i + n <= values.size(); i += n, ++means) {
+        double mean = 0;
+        for (std::size_t k = i; k < i + n; ++k) mean += values[k] / double(n);
+        squares += (mean - 1) * (mean - 1);
+    }
+    return std::sqrt(squares / double(means));
+}
+
+/// Plot: what a white surface sends back of a white sky at 75 degrees, by few samples
+/// and by many: error against time.
+void plot_trade(const examples::Options& options) {
+    constexpr float sigma = 0.7f;
+    examples::Plot plot{.name = "oren_nayar-error",
+                        .columns = {"nanoseconds for all samples"},
+                        .y_label = "rms error of the radiance",
+                        .log_x = true,
+                        .log_y = true,
+                        .more = "set yrange [1e-3:1]\n"};
+    const int count = options.pick(1 << 16, 1 << 18, 1 << 20);
+    constexpr std::size_t models = 4;
+    const auto add = [&](const char* name, const auto& white) {
+        const double ns = nanoseconds_a_sample(white, 75);
+        const auto values = weights(white, 75, count);
+        plot.columns.emplace_back(name);
+        for (std::size_t n = 1; n <= 4096; n *= 4) {
+            examples::Row row(1 + models, std::nan(""));
+            row[0] = ns * double(n);
+            row[plot.columns.size() - 1] = error_of_means(values, n);
+            plot.rows.push_back(row);
+        }
+    };
+    add("as the report's program", rough(RoughModel::as_printed, 1.0f, sigma));
+    add("qualitative 1994", ljus::OrenNayar{Rgb{1}, sigma});
+    add("full 1994", rough(RoughModel::full, 1.0f, sigma));
+    add("EON", ljus::Eon{Rgb{1}, sigma});
+    save_plot(options.path(""), plot);
 }
 
 /// Table: what each model costs, returns, and changes in a picture.
@@ -285,5 +347,6 @@ int main(int argc, char** argv) {
         plot_albedo(folder, size);
         plot_retroreflection(folder);
         tabulate_trade(options, size);
+        plot_trade(options);
     });
 }

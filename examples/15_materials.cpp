@@ -514,6 +514,40 @@ void compare_full(const examples::Options& options) {
     examples::save_table(options.path(""), table);
 }
 
+/// Plot: error against time for gold of two glosses: the one loses light, and more rays
+/// do not bring it back.
+void plot_full(const examples::Options& options) {
+    const int size = options.pick(48, 100, 200), most = options.pick(64, 256, 256);
+    const ljus::RoughMetal gold{.reflectance = ljus::gold<float>, .roughness = 0.7f};
+    const ljus::FullRoughMetal full = compensated_glossy(gold);
+    const Image truth =
+        ball_picture(size, 8 * most, options.seed, full, options.threads);
+    examples::Plot plot{
+        .name = "materials-error",
+        .columns = {"processor seconds", "gloss that loses light", "full gloss"},
+        .y_label = "relMSE of 10 x 10 blocks",
+        .log_x = true,
+        .log_y = true};
+    const double nothing = std::numeric_limits<double>::quiet_NaN();
+    const auto measure = [&](const auto& material, int rays) {
+        const double start = examples::processor_seconds();
+        const Image image =
+            ball_picture(size, rays, options.seed + 1, material, options.threads);
+        const double seconds = examples::processor_seconds() - start;
+        examples::stop_if_asked();
+        return std::pair{seconds, ljus::block_error(image, truth)};
+    };
+    for (int rays = 1; rays <= most; rays *= 4) {
+        const auto [seconds, error] = measure(gold, rays);
+        plot.rows.push_back({seconds, error, nothing});
+    }
+    for (int rays = 1; rays <= most; rays *= 4) {
+        const auto [seconds, error] = measure(full, rays);
+        plot.rows.push_back({seconds, nothing, error});
+    }
+    save_plot(options.path(""), plot);
+}
+
 /// What can go wrong with a matt surface.
 enum class Mistake { none, missing_pi, doubled_cosine };
 
@@ -599,6 +633,7 @@ int main(int argc, char** argv) {
         plot_gloss(options.path(""), options.pick(20000, 200000, 1000000));
         tabulate_trade(options);
         compare_full(options);
+        plot_full(options);
         picture_mistakes(options);
     });
 }

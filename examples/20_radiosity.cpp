@@ -57,6 +57,17 @@ Image rendered(const std::string& name, const Renderer& renderer, const Camera& 
     return examples::rendered(name, renderer, camera, picture, options).image;
 }
 
+/// Seconds of processor time since the last call.
+struct Lap {
+    double start = examples::processor_seconds();
+    double operator()() {
+        const double now = examples::processor_seconds();
+        const double spent = now - start;
+        start = now;
+        return spent;
+    }
+};
+
 // --- The rooms ------------------------------------------------------------------------
 
 /// A block that stands on the floor, turned around its middle.
@@ -172,7 +183,7 @@ void residuals(const examples::Options& options, const Sizes& sizes) {
                         .columns = {"sweeps: as many steps as there are patches",
                                     "shooting", "Gauss-Seidel", "Jacobi",
                                     "largest albedo ^ sweeps"},
-                        .y_label = "flux not yet sent, of what is emitted",
+                        .y_label = "unsent flux over emitted flux",
                         .log_y = true,
                         .more = "set yrange [1e-14:1.5]\n"};
     const double nothing = std::numeric_limits<double>::quiet_NaN();
@@ -272,6 +283,49 @@ void error_of_size(const examples::Options& options, const Sizes& sizes) {
 
 // --- The room -------------------------------------------------------------------------
 
+/// The relative error of the means of blocks of pixels, in percent.
+std::string error_text(const Image& image, const Image& truth) {
+    return examples::text(100 * std::sqrt(block_error(image, truth)), "%.1f %%");
+}
+
+/// The room by patches of one size: its row of the table, and its pictures.
+/// \param file  Name of the pictures; empty: none are saved.
+std::vector<std::string> by_patches(const Room<Stage>& room, double size, bool analytic,
+                                    const Image& truth, const std::string& file,
+                                    const examples::Options& options) {
+    examples::ProgressBar bar("form factors", options.quiet);
+    Lap lap;
+    const Patches patches = make_patches(room.scene, {.size = size});
+    const auto factors = make_form_factors(room.scene, patches,
+                                           {.analytic = analytic,
+                                            .rays = 1024,
+                                            .seed = options.seed,
+                                            .threads = options.threads,
+                                            .progress = bar});
+    examples::stop_if_asked();
+    const double factor_time = lap();
+    const auto solution = solve_radiosity(*factors, patches.patches, {});
+    const double solve_time = lap();
+    const auto map = make_light_map(room.scene, patches, *factors, solution.radiosity);
+    const auto view = make_light_map_view(room.scene, map);
+    (void)lap();
+    const Image smooth = rendered("view", view, room.camera, options);
+    const double view_time = lap();
+    if (!file.empty()) {
+        save_png(smooth, options.path(file + "-smooth.png"));
+        save_png(rendered("view",
+                          make_light_map_view(room.scene, map, {.smooth = false}),
+                          room.camera, options),
+                 options.path(file + "-flat.png"));
+    }
+    return {analytic ? "closed forms" : "1024 rays per patch",
+            std::to_string(factors->size()),
+            examples::text(factor_time, "%.2f"),
+            examples::text(solve_time, "%.2f"),
+            examples::text(view_time, "%.2f"),
+            error_text(smooth, truth)};
+}
+
 /// The room at several sizes of patches, beside path tracing: pictures, time and error.
 void room_pictures(const examples::Options& options, const Sizes& sizes) {
     const auto room = block_room();
@@ -283,60 +337,105 @@ void room_pictures(const examples::Options& options, const Sizes& sizes) {
     examples::Table table{
         .name = "radiosity-trade",
         .columns = {"way", "patches", "factors, s", "solve, s", "view, s", "error"}};
-    const auto error = [&](const Image& image) {
-        return examples::text(100 * std::sqrt(block_error(image, truth)), "%.1f %%");
-    };
-    for (int step = sizes.steps - 1; step >= 0; --step) {
-        const double size = sizes.patch * (1 << step);
-        for (const bool analytic : {true, false}) {
-            examples::ProgressBar bar("form factors", options.quiet);
-            double start = examples::processor_seconds();
-            const auto next = [&] {
-                const double now = examples::processor_seconds();
-                const double spent = now - start;
-                start = now;
-                return examples::text(spent, "%.2f");
-            };
-            const Patches patches = make_patches(room.scene, {.size = size});
-            const auto factors = make_form_factors(room.scene, patches,
-                                                   {.analytic = analytic,
-                                                    .rays = 1024,
-                                                    .seed = options.seed,
-                                                    .threads = options.threads,
-                                                    .progress = bar});
-            examples::stop_if_asked();
-            const std::string factor_time = next();
-            const auto solution = solve_radiosity(*factors, patches.patches, {});
-            const std::string solve_time = next();
-            const auto map =
-                make_light_map(room.scene, patches, *factors, solution.radiosity);
-            const auto view = make_light_map_view(room.scene, map);
-            (void)next();
-            const Image smooth = rendered("view", view, room.camera, options);
-            table.rows.push_back({analytic ? "closed forms" : "1024 rays per patch",
-                                  std::to_string(factors->size()), factor_time,
-                                  solve_time, next(), error(smooth)});
-            if (!analytic) continue;
-            const std::string name = "radiosity-room-" + std::to_string(step);
-            save_png(smooth, options.path(name + "-smooth.png"));
-            save_png(rendered("view",
-                              make_light_map_view(room.scene, map, {.smooth = false}),
-                              room.camera, options),
-                     options.path(name + "-flat.png"));
-        }
-    }
+    for (int step = sizes.steps - 1; step >= 0; --step)
+        for (const bool analytic : {true, false})
+            table.rows.push_back(by_patches(
+                room, sizes.patch * (1 << step), analytic, truth,
+                analytic ? "radiosity-room-" + std::to_string(step) : std::string(),
+                options));
     for (const int rays : {1, 4, 16}) {
-        const double start = examples::processor_seconds();
+        Lap lap;
         RenderSettings other{options.width, options.height, rays, options.seed + 77};
         other.threads = options.threads;
         const Image image = render(tracer, room.camera, other).image;
-        const double time = examples::processor_seconds() - start;
         table.rows.push_back({"path tracing, " + std::to_string(rays) + " per pixel",
-                              "", "", "", examples::text(time, "%.2f"),
-                              error(image)});
+                              "", "", "", examples::text(lap(), "%.2f"),
+                              error_text(image, truth)});
     }
     save_table(options.out, table);
     if (!options.quiet) examples::print_rows(table, 18);
+}
+
+/// A mean over paths.
+struct Estimate {
+    double mean = 0;  ///< Irradiance over pi.
+    double error = 0; ///< Its standard error.
+};
+
+constexpr std::uint32_t wall_count = 5; ///< Of the room, before its blocks.
+
+/// One number for each quarter of each wall.
+template <typename Value>
+using Quarters = std::array<std::array<Value, 4>, wall_count>;
+
+/// The light on a quarter of a wall, by paths that begin there.
+template <typename Tracer>
+Estimate traced_light(const Tracer& tracer, const Stage& scene, std::uint32_t wall,
+                      std::uint32_t quarter, int paths, std::uint64_t seed) {
+    constexpr std::array albedo{0.75, 0.75, 0.75, 0.06, 0.45}; // of the green channel
+    Counts counts;
+    double sum = 0, squares = 0;
+    for (int path = 0; path < paths; ++path) {
+        auto stream = random_stream(seed, Pass::user, 4 * wall + quarter,
+                                    static_cast<std::uint64_t>(path));
+        const Vec2 u = next_2d(stream);
+        const auto at =
+            point_at(std::get<0>(scene.shapes)[wall], (float(quarter % 2) + u.x) / 2,
+                     (float(quarter / 2) + u.y) / 2);
+        // Seen from close by: albedo / pi of the light on the wall.
+        const Ray look{.origin = at.position + 0.0002f * at.normal,
+                       .direction = -at.normal};
+        const double light =
+            double(radiance(tracer, look, stream, counts).y) / albedo[wall];
+        sum += light;
+        squares += light * light;
+    }
+    examples::stop_if_asked();
+    const double mean = sum / paths;
+    return {mean, std::sqrt((squares / paths - mean * mean) / paths)};
+}
+
+/// The mean irradiance that a solution gives to each quarter of a wall.
+std::array<double, 4> quarters_of(const LightMap& map, std::uint32_t wall) {
+    // Which part of a row or column of patches lies in a half of the wall: one across
+    // the middle belongs to both halves.
+    const auto part = [](std::uint32_t i, std::uint32_t n, bool high) {
+        const double from = high ? 0.5 : 0, to = from + 0.5;
+        return std::max(0.0,
+                        std::min(to, (i + 1.0) / n) - std::max(from, double(i) / n));
+    };
+    const PatchGrid& grid = map.grids[wall];
+    std::array<double, 4> mean{};
+    for (std::uint32_t cell = 0; cell < grid.size(); ++cell) {
+        const CellPlace place = place_of(grid, cell);
+        for (std::size_t quarter = 0; quarter < 4; ++quarter)
+            mean[quarter] += 4 * part(place.column, grid.columns, quarter % 2 == 1) *
+                             part(place.row, grid.rows, quarter / 2 == 1) *
+                             map.irradiance[grid.first + cell].y;
+    }
+    return mean;
+}
+
+/// How far a solution is from the paths: mean squares over all quarters.
+struct Difference {
+    double relative = 0; ///< Of the light.
+    double error = 0;    ///< The paths' own relative standard error.
+    double over = 0;     ///< The difference over that standard error.
+};
+
+Difference difference(const LightMap& map, const Quarters<Estimate>& traced) {
+    Difference found;
+    for (std::uint32_t wall = 0; wall < wall_count; ++wall) {
+        const auto mean = quarters_of(map, wall);
+        for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+            const Estimate& right = traced[wall][quarter];
+            const double off = mean[quarter] / pi - right.mean;
+            found.relative += off * off / (right.mean * right.mean) / 20;
+            found.error += right.error * right.error / (right.mean * right.mean) / 20;
+            found.over += off * off / (right.error * right.error) / 20;
+        }
+    }
+    return found;
 }
 
 /// The light on each quarter of each wall: by radiosity, and by paths that begin there.
@@ -344,37 +443,11 @@ void agreement(const examples::Options& options, const Sizes& sizes) {
     const auto room = block_room();
     const auto tracer = make_path_tracer(room.scene);
     const int paths = options.pick(4000, 40000, 1000000);
-    struct Estimate {
-        double mean = 0;  ///< Irradiance over pi.
-        double error = 0; ///< Its standard error.
-    };
-    std::array<std::array<Estimate, 4>, 5> traced{};
-    constexpr std::array albedo{0.75, 0.75, 0.75, 0.06, 0.45}; // of the green channel
-    Counts counts;
-    for (std::uint32_t wall = 0; wall < 5; ++wall)
-        for (int quarter = 0; quarter < 4; ++quarter) {
-            double sum = 0, squares = 0;
-            for (int path = 0; path < paths; ++path) {
-                auto stream = random_stream(options.seed, Pass::user,
-                                            4 * wall + std::uint32_t(quarter),
-                                            static_cast<std::uint64_t>(path));
-                const Vec2 u = next_2d(stream);
-                const auto at = point_at(std::get<0>(room.scene.shapes)[wall],
-                                         (float(quarter % 2) + u.x) / 2,
-                                         (float(quarter / 2) + u.y) / 2);
-                // Seen from close by: albedo / pi of the light on the wall.
-                const Ray look{.origin = at.position + 0.0002f * at.normal,
-                               .direction = -at.normal};
-                const double light =
-                    double(radiance(tracer, look, stream, counts).y) / albedo[wall];
-                sum += light;
-                squares += light * light;
-            }
-            examples::stop_if_asked();
-            const double mean = sum / paths;
-            traced[wall][std::size_t(quarter)] = {
-                mean, std::sqrt((squares / paths - mean * mean) / paths)};
-        }
+    Quarters<Estimate> traced{};
+    for (std::uint32_t wall = 0; wall < wall_count; ++wall)
+        for (std::uint32_t quarter = 0; quarter < 4; ++quarter)
+            traced[wall][quarter] =
+                traced_light(tracer, room.scene, wall, quarter, paths, options.seed);
     examples::Table table{.name = "radiosity-agreement",
                           .columns = {"side of a patch", "patches", "difference",
                                       "standard error of the paths",
@@ -385,37 +458,12 @@ void agreement(const examples::Options& options, const Sizes& sizes) {
             room.scene,
             {.patches = {.size = size},
              .factors = {.analytic = false, .rays = options.pick(1024, 4096, 4096)}});
-        double difference = 0, error = 0, both = 0;
-        for (std::uint32_t wall = 0; wall < 5; ++wall) {
-            const PatchGrid& grid = all->map.grids[wall];
-            std::array<double, 4> mean{};
-            for (std::uint32_t cell = 0; cell < grid.size(); ++cell) {
-                const CellPlace place = place_of(grid, cell);
-                // A patch across the middle belongs to both halves.
-                for (std::size_t quarter = 0; quarter < 4; ++quarter) {
-                    const auto part = [](std::uint32_t i, std::uint32_t n, bool high) {
-                        const double from = high ? 0.5 : 0, to = from + 0.5;
-                        return std::max(0.0, std::min(to, (i + 1.0) / n) -
-                                                 std::max(from, double(i) / n));
-                    };
-                    mean[quarter] +=
-                        4 * part(place.column, grid.columns, quarter % 2 == 1) *
-                        part(place.row, grid.rows, quarter / 2 == 1) *
-                        all->map.irradiance[grid.first + cell].y;
-                }
-            }
-            for (std::size_t quarter = 0; quarter < 4; ++quarter) {
-                const Estimate& right = traced[wall][quarter];
-                const double off = mean[quarter] / pi - right.mean;
-                difference += off * off / (right.mean * right.mean) / 20;
-                error += right.error * right.error / (right.mean * right.mean) / 20;
-                both += off * off / (right.error * right.error) / 20;
-            }
-        }
-        table.rows.push_back({examples::text(size), std::to_string(all->factors.size()),
-                              examples::text(100 * std::sqrt(difference), "%.2f %%"),
-                              examples::text(100 * std::sqrt(error), "%.2f %%"),
-                              examples::text(std::sqrt(both), "%.2f")});
+        const Difference found = difference(all->map, traced);
+        table.rows.push_back(
+            {examples::text(size), std::to_string(all->factors.size()),
+             examples::text(100 * std::sqrt(found.relative), "%.2f %%"),
+             examples::text(100 * std::sqrt(found.error), "%.2f %%"),
+             examples::text(std::sqrt(found.over), "%.2f")});
     }
     save_table(options.out, table);
     if (!options.quiet)
@@ -428,18 +476,12 @@ void agreement(const examples::Options& options, const Sizes& sizes) {
 /// One solution, many views: the first, each further one, and one from a file.
 void views(const examples::Options& options, const Sizes& sizes) {
     const auto room = block_room();
-    double start = examples::processor_seconds();
-    const auto next = [&] {
-        const double now = examples::processor_seconds();
-        const double spent = now - start;
-        start = now;
-        return spent;
-    };
+    Lap lap;
     const RadiositySettings settings{.patches = {.size = sizes.patch},
                                      .factors = {.analytic = false, .rays = 1024}};
     const auto all = make_radiosity(room.scene, settings);
     const auto view = make_light_map_view(room.scene, all->map);
-    const double solved = next();
+    const double solved = lap();
     constexpr int count = 5;
     double seen = 0;
     for (int i = 0; i < count; ++i) {
@@ -448,22 +490,22 @@ void views(const examples::Options& options, const Sizes& sizes) {
                                            .target{0, 1, 0},
                                            .up{0, 1, 0},
                                            .vfov_degrees = 33});
-        (void)next();
+        (void)lap();
         const Image image = rendered("view", view, camera, options);
-        seen += next() / count;
+        seen += lap() / count;
         save_png(image, options.path("radiosity-view-" + std::to_string(i) + ".png"));
     }
     const std::string file = options.path("radiosity.light");
     save_light_map(file, all->map, light_map_key(room.scene, settings));
-    (void)next();
+    (void)lap();
     const LightMap map = load_light_map(file, light_map_key(room.scene, settings));
-    const double loaded = next();
+    const double loaded = lap();
     const auto again = make_light_map_view(room.scene, map);
     const bool same = rendered("again", again, room.camera, options).pixels ==
                       rendered("again", view, room.camera, options).pixels;
-    (void)next();
+    (void)lap();
     (void)rendered("paths", make_path_tracer(room.scene), room.camera, options);
-    const double traced = next();
+    const double traced = lap();
     examples::Table table{.name = "radiosity-views",
                           .columns = {"", "s", "of the first view"}};
     const auto add = [&](const std::string& what, double seconds) {

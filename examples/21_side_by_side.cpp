@@ -40,7 +40,7 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 struct Sizes {
     int rungs = 0; ///< Efforts tried, each four times the one before.
     int seeds = 0; ///< Runs of each.
-    int truth = 0; ///< Rays a pixel of the reference.
+    int truth = 0; ///< Rays per pixel of the reference.
 };
 
 // --- The renderers --------------------------------------------------------------------
@@ -125,70 +125,80 @@ PhotonMappingSettings photon_settings(IndirectLight indirect, double effort,
 }
 // [photon effort]
 
+using Cameras = std::vector<Camera>;
+
+/// A method whose renderer needs nothing but the scene.
+template <typename Make>
+Method by_rays(const std::string& name, const std::string& file, Make make,
+               const examples::Options& options) {
+    return {name, file,
+            [&options, make](const Cornell& scene, const Cameras& cameras,
+                             double effort, std::uint64_t seed) {
+                return views_of(make(scene), cameras, options, effort, seed);
+            }};
+}
+
+/// Radiosity: patches that shrink as the effort grows.
+Method by_radiosity(const examples::Options& options) {
+    return {"radiosity", "radiosity",
+            [&options](const Cornell& scene, const Cameras& cameras, double effort,
+                       std::uint64_t seed) {
+                Lap lap;
+                const auto solved = make_radiosity(
+                    scene,
+                    {.patches = {.size = std::max(0.8 / std::sqrt(effort), 0.07)},
+                     .factors = {.analytic = false,
+                                 .rays = 512,
+                                 .seed = seed,
+                                 .threads = options.threads}});
+                const auto view = make_light_map_view(scene, solved->map);
+                const std::size_t kept =
+                    solved->map.irradiance.size() * sizeof(RgbT<double>);
+                return views_of(view, cameras, options, std::max(effort / 4, 4.0), seed,
+                                {.solution = lap(),
+                                 .memory = kept,
+                                 .working = kept + solved->factors.exchange.size() *
+                                                       sizeof(double)});
+            }};
+}
+
+/// Photon mapping: the general map where an indirect ray ends, or where the camera
+/// looks.
+Method by_photons(IndirectLight indirect, const examples::Options& options) {
+    const bool direct = indirect == IndirectLight::photons;
+    return {direct ? "photon map seen" : "two passes", direct ? "seen" : "photons",
+            [&options, indirect, direct](const Cornell& scene, const Cameras& cameras,
+                                         double effort, std::uint64_t seed) {
+                const auto settings = photon_settings(indirect, effort, seed);
+                Lap lap;
+                const auto maps = make_photon_maps(scene, settings);
+                const auto mapper = make_photon_mapper(scene, maps, settings);
+                const std::size_t kept =
+                    bytes_of(maps.general) + bytes_of(maps.caustics);
+                const long long passes = maps.caustics.empty() ? 1 : 2;
+                return views_of(mapper, cameras, options, direct ? effort / 4 : effort,
+                                seed,
+                                {.solution = lap(),
+                                 .memory = kept,
+                                 .working = kept,
+                                 .photons = passes * settings.general.photons});
+            }};
+}
+
 /// All renderers of the book so far, and two ways to use photons.
 std::vector<Method> methods(const examples::Options& options) {
-    std::vector<Method> all;
-    using Cameras = std::vector<Camera>;
-    all.push_back({"Whitted", "whitted",
-                   [&options](const Cornell& scene, const Cameras& cameras,
-                              double effort, std::uint64_t seed) {
-                       return views_of(make_whitted(scene), cameras, options, effort,
-                                       seed);
-                   }});
-    all.push_back({"distributed rays", "distributed",
-                   [&options](const Cornell& scene, const Cameras& cameras,
-                              double effort, std::uint64_t seed) {
-                       return views_of(make_distributed(scene), cameras, options,
-                                       effort, seed);
-                   }});
-    all.push_back({"path tracing", "paths",
-                   [&options](const Cornell& scene, const Cameras& cameras,
-                              double effort, std::uint64_t seed) {
-                       return views_of(make_path_tracer(scene), cameras, options,
-                                       effort, seed);
-                   }});
-    all.push_back(
-        {"radiosity", "radiosity",
-         [&options](const Cornell& scene, const Cameras& cameras, double effort,
-                    std::uint64_t seed) {
-             Lap lap;
-             const auto solved = make_radiosity(
-                 scene, {.patches = {.size = std::max(0.8 / std::sqrt(effort), 0.07)},
-                         .factors = {.analytic = false,
-                                     .rays = 512,
-                                     .seed = seed,
-                                     .threads = options.threads}});
-             const auto view = make_light_map_view(scene, solved->map);
-             const std::size_t kept =
-                 solved->map.irradiance.size() * sizeof(RgbT<double>);
-             return views_of(
-                 view, cameras, options, std::max(effort / 4, 4.0), seed,
-                 {.solution = lap(),
-                  .memory = kept,
-                  .working = kept + solved->factors.exchange.size() * sizeof(double)});
-         }});
-    for (const auto indirect : {IndirectLight::map, IndirectLight::photons}) {
-        const bool direct = indirect == IndirectLight::photons;
-        all.push_back(
-            {direct ? "photon map seen" : "two passes", direct ? "seen" : "photons",
-             [&options, indirect, direct](const Cornell& scene, const Cameras& cameras,
-                                          double effort, std::uint64_t seed) {
-                 const auto settings = photon_settings(indirect, effort, seed);
-                 Lap lap;
-                 const auto maps = make_photon_maps(scene, settings);
-                 const auto mapper = make_photon_mapper(scene, maps, settings);
-                 const std::size_t kept =
-                     bytes_of(maps.general) + bytes_of(maps.caustics);
-                 const long long passes = maps.caustics.empty() ? 1 : 2;
-                 return views_of(mapper, cameras, options, direct ? effort / 4 : effort,
-                                 seed,
-                                 {.solution = lap(),
-                                  .memory = kept,
-                                  .working = kept,
-                                  .photons = passes * settings.general.photons});
-             }});
-    }
-    return all;
+    return {by_rays(
+                "Whitted", "whitted",
+                [](const Cornell& scene) { return make_whitted(scene); }, options),
+            by_rays(
+                "distributed rays", "distributed",
+                [](const Cornell& scene) { return make_distributed(scene); }, options),
+            by_rays(
+                "path tracing", "paths",
+                [](const Cornell& scene) { return make_path_tracer(scene); }, options),
+            by_radiosity(options),
+            by_photons(IndirectLight::map, options),
+            by_photons(IndirectLight::photons, options)};
 }
 
 // --- Error against time ---------------------------------------------------------------
@@ -457,11 +467,10 @@ double effort_for(const std::vector<Rung>& rungs, double seconds) {
 /// All renderers, each as good as it gets in the same time.
 void equal_time(const Study& study, const std::vector<Method>& all,
                 const examples::Options& options) {
-    examples::Table table{.name = "side_by_side-" + study.name + "-time",
-                          .columns = {"", "budget, s", "taken, s", "rays per pixel",
-                                      "photons", "relMSE",
-                                      "times the reference's error",
-                                      "of 10 x 10 blocks", "FLIP"}};
+    examples::Table table{
+        .name = "side_by_side-" + study.name + "-time",
+        .columns = {"", "budget, s", "taken, s", "rays per pixel", "photons", "relMSE",
+                    "times the reference's error", "of 10 x 10 blocks", "FLIP"}};
     const std::vector<double> budgets =
         options.pick<std::vector<double>>({0.1}, {1, 10}, {1, 10, 100});
     for (std::size_t b = 0; b < budgets.size(); ++b)
@@ -536,62 +545,84 @@ void equal_error(const Study& study, const std::vector<Method>& all,
 
 // --- Who carries what -----------------------------------------------------------------
 
-/// Each class of paths: what a renderer brings of it, over what path tracing brings.
-void class_table(const Study& study, const examples::Options& options,
-                 const Sizes& sizes) {
-    static constexpr std::array names{"EL",      "ES+L",       "EDL", "ES+DL",
-                                      "ES*DS+L", "E.*D.*D.*L", "E.*L"};
-    std::vector<LightPathExpression> classes;
-    for (const char* name : names) classes.push_back(light_path_expression(name));
-    const Cornell& scene = study.room.scene;
-    const int seeds = std::max(sizes.seeds, 4);
-    struct Sum {
-        double mean = 0, squares = 0;
-    };
-    const auto measured = [&](auto make) {
-        std::array<Sum, names.size()> sums{};
-        for (int seed = 1; seed <= seeds; ++seed) {
-            const RenderSettings picture{.width = options.width,
-                                         .height = options.height,
-                                         .samples = options.pick(2, 16, 64),
-                                         .seed =
-                                             options.seed + 5000 + std::uint64_t(seed),
-                                         .threads = options.threads};
-            const std::vector<RgbT<double>> means = make(picture);
-            examples::stop_if_asked();
-            for (std::size_t k = 0; k < means.size(); ++k) {
-                const double value = (means[k].x + means[k].y + means[k].z) / 3;
-                sums[k].mean += value / seeds;
-                sums[k].squares += value * value / seeds;
-            }
+/// The classes of paths that are told apart.
+constexpr std::array class_names{"EL",      "ES+L",       "EDL", "ES+DL",
+                                 "ES*DS+L", "E.*D.*D.*L", "E.*L"};
+
+/// What a renderer brings of one class, over several seeds.
+struct ClassSum {
+    double mean = 0, squares = 0;
+
+    /// The relative standard error of the mean.
+    [[nodiscard]] double error(int seeds) const {
+        const double spread = std::max(squares - mean * mean, 0.0);
+        return mean > 0 ? std::sqrt(spread / (seeds - 1)) / mean : 0;
+    }
+};
+using ClassSums = std::array<ClassSum, class_names.size()>;
+
+/// What all renderers have in common when their classes are measured.
+struct ClassStudy {
+    const Study& study;
+    const examples::Options& options;
+    int seeds;
+    std::vector<LightPathExpression> classes{};
+};
+
+/// The means over the seeds of what `make` finds in a picture.
+template <typename Make>
+ClassSums over_seeds(const ClassStudy& of, Make make) {
+    ClassSums sums{};
+    for (int seed = 1; seed <= of.seeds; ++seed) {
+        const std::vector<RgbT<double>> means =
+            make({.width = of.options.width,
+                  .height = of.options.height,
+                  .samples = of.options.pick(2, 16, 64),
+                  .seed = of.options.seed + 5000 + std::uint64_t(seed),
+                  .threads = of.options.threads});
+        examples::stop_if_asked();
+        for (std::size_t k = 0; k < means.size(); ++k) {
+            const double value = (means[k].x + means[k].y + means[k].z) / 3;
+            sums[k].mean += value / of.seeds;
+            sums[k].squares += value * value / of.seeds;
         }
-        return sums;
-    };
-    const auto of = [&](const auto& renderer) {
-        return measured([&](const RenderSettings& picture) {
-            return class_means(renderer, study.room.camera, picture, classes);
-        });
-    };
-    const auto mapped = [&](IndirectLight indirect) {
-        return measured([&](const RenderSettings& picture) {
-            const auto settings = photon_settings(
-                indirect, options.pick(16.0, 64.0, 256.0), picture.seed);
-            const auto maps = make_photon_maps(scene, settings);
-            return class_means(make_photon_mapper(scene, maps, settings),
-                               study.room.camera, picture, classes);
-        });
-    };
-    // Radiosity answers for E D+ L at once. What its lamps' patches send out, and no
-    // others, is E D L; the rest is E D+ D L.
-    const auto patches = measured([&](const RenderSettings& picture) {
+    }
+    return sums;
+}
+
+/// The classes of a renderer that is ready.
+template <typename Renderer>
+ClassSums classes_of(const ClassStudy& of, const Renderer& renderer) {
+    return over_seeds(of, [&](const RenderSettings& picture) {
+        return class_means(renderer, of.study.room.camera, picture, of.classes);
+    });
+}
+
+/// The classes of photon mapping, with maps of its own for each seed.
+ClassSums classes_of_photons(const ClassStudy& of, IndirectLight indirect) {
+    const Cornell& scene = of.study.room.scene;
+    return over_seeds(of, [&](const RenderSettings& picture) {
+        const auto settings =
+            photon_settings(indirect, of.options.pick(16.0, 64.0, 256.0), picture.seed);
+        const auto maps = make_photon_maps(scene, settings);
+        return class_means(make_photon_mapper(scene, maps, settings),
+                           of.study.room.camera, picture, of.classes);
+    });
+}
+
+/// The classes of radiosity, which answers for E D+ L at once. What its lamps' patches
+/// send out, and no others, is E D L; the rest is E D+ D L.
+ClassSums classes_of_radiosity(const ClassStudy& of) {
+    const Cornell& scene = of.study.room.scene;
+    return over_seeds(of, [&](const RenderSettings& picture) {
         const auto all = make_radiosity(
-            scene, {.patches = {.size = options.pick(0.4, 0.2, 0.1)},
+            scene, {.patches = {.size = of.options.pick(0.4, 0.2, 0.1)},
                     .factors = {.analytic = false, .rays = 512, .seed = picture.seed}});
         std::vector<RgbT<double>> lamp;
         for (const Patch& patch : all->patches.patches) lamp.push_back(patch.emitted);
         const auto view = [&](const LightMap& map) {
-            return class_means(make_light_map_view(scene, map), study.room.camera,
-                               picture, classes);
+            return class_means(make_light_map_view(scene, map), of.study.room.camera,
+                               picture, of.classes);
         };
         auto whole = view(all->map);
         const auto direct =
@@ -600,50 +631,51 @@ void class_table(const Study& study, const examples::Options& options,
         whole[2] = direct[2];
         return whole;
     });
-    const auto truth = of(make_path_tracer(scene));
-    struct Line {
-        const char* name;
-        std::array<Sum, names.size()> sums;
-    };
-    const std::array lines{Line{"Whitted", of(make_whitted(scene))},
-                           Line{"distributed rays", of(make_distributed(scene))},
-                           Line{"path tracing", truth},
-                           Line{"radiosity", patches},
-                           Line{"two passes", mapped(IndirectLight::map)},
-                           Line{"photon map seen", mapped(IndirectLight::photons)}};
+}
+
+/// "0.998(3)": a class over the true one, and the standard error of its last digit.
+/// Empty if the room has no such light.
+std::string class_ratio(const ClassSum& its, const ClassSum& right, int seeds) {
+    if (!(right.mean > 0)) return its.mean > 0 ? "?" : "";
+    // The difference of two light maps may leave a rest by rounding.
+    if (!(its.mean > 1e-6 * right.mean)) return "0";
+    const double ratio = its.mean / right.mean;
+    const double error = ratio * std::hypot(its.error(seeds), right.error(seeds));
+    return examples::text(ratio, "%.3f(") + std::to_string(std::lround(1000 * error)) +
+           ")";
+}
+
+/// Each class of paths: what a renderer brings of it, over what path tracing brings.
+void class_table(const Study& study, const examples::Options& options,
+                 const Sizes& sizes) {
+    const Cornell& scene = study.room.scene;
+    ClassStudy of{study, options, std::max(sizes.seeds, 4)};
+    for (const char* name : class_names)
+        of.classes.push_back(light_path_expression(name));
+    const ClassSums truth = classes_of(of, make_path_tracer(scene));
+    const std::array<std::pair<const char*, ClassSums>, 6> renderers{
+        {{"Whitted", classes_of(of, make_whitted(scene))},
+         {"distributed rays", classes_of(of, make_distributed(scene))},
+         {"path tracing", truth},
+         {"radiosity", classes_of_radiosity(of)},
+         {"two passes", classes_of_photons(of, IndirectLight::map)},
+         {"photon map seen", classes_of_photons(of, IndirectLight::photons)}}};
+
     examples::Table table{.name = "side_by_side-" + study.name + "-classes",
                           .columns = {""}};
-    for (const char* name : names) table.columns.push_back(name);
+    table.columns.insert(table.columns.end(), class_names.begin(), class_names.end());
     std::vector<std::string> share{"share of the light"};
-    for (std::size_t k = 0; k < names.size(); ++k)
-        share.push_back(
-            examples::text(100 * truth[k].mean / truth.back().mean, "%.1f %%"));
+    for (const ClassSum& sum : truth)
+        share.push_back(examples::text(100 * sum.mean / truth.back().mean, "%.1f %%"));
     table.rows.push_back(share);
-    for (const Line& line : lines) {
-        std::vector<std::string> row{line.name};
-        for (std::size_t k = 0; k < names.size(); ++k) {
-            const auto error = [&](const Sum& sum) { // relative, of the mean
-                const double spread = std::max(sum.squares - sum.mean * sum.mean, 0.0);
-                return sum.mean > 0 ? std::sqrt(spread / (seeds - 1)) / sum.mean : 0;
-            };
-            const Sum &its = line.sums[k], &right = truth[k];
-            if (!(right.mean > 0))
-                row.push_back(its.mean > 0 ? "?" : "");
-            else if (!(its.mean >
-                       1e-6 * right.mean)) // a rest of two light maps is rounding
-                row.push_back("0");
-            else
-                row.push_back(
-                    examples::text(its.mean / right.mean, "%.3f(") +
-                    std::to_string(std::lround(1000 * its.mean / right.mean *
-                                               std::hypot(error(its), error(right)))) +
-                    ")");
-        }
+    for (const auto& [name, sums] : renderers) {
+        std::vector<std::string> row{name};
+        for (std::size_t k = 0; k < sums.size(); ++k)
+            row.push_back(class_ratio(sums[k], truth[k], of.seeds));
         table.rows.push_back(row);
     }
     save_table(options.out, table);
-    if (options.quiet) return;
-    examples::print_rows(table, 18);
+    if (!options.quiet) examples::print_rows(table, 18);
 }
 
 // --- One solution, many views ---------------------------------------------------------
@@ -661,7 +693,7 @@ void views(const Study& study, const std::vector<Method>& all,
                                        .vfov_degrees = 33}));
     }
     examples::Table table{.name = "side_by_side-" + study.name + "-views",
-                          .columns = {"", "solution, s", "a view, s",
+                          .columns = {"", "solution, s", "per view, s",
                                       "a further view over the first", "kept",
                                       "while it is made"}};
     const double effort = std::pow(4.0, sizes.rungs - 1);
@@ -711,7 +743,8 @@ int main(int argc, char** argv) {
         line.add("--rungs", sizes.rungs,
                  "Efforts tried, each four times the one before", 2, 8);
         line.add("--seeds", sizes.seeds, "Runs of each effort", 2, 1000);
-        line.add("--truth", sizes.truth, "Rays a pixel of the reference", 8, 10000000);
+        line.add("--truth", sizes.truth, "Rays per pixel of the reference", 8,
+                 10000000);
         const examples::Options options =
             line.parse({.draft{.width = 40, .height = 40, .samples = 1},
                         .report{.width = 100, .height = 100, .samples = 1},

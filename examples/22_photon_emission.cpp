@@ -209,7 +209,7 @@ void compare_roulettes(const examples::Options& options, long long paths) {
     examples::Plot plot{.name = "emission-roulette",
                         .columns = {"surface on the photon's way", "exact",
                                     "divided by the probability", "not divided"},
-                        .y_label = "flux that arrives, of the light's",
+                        .y_label = "fraction of the flux that arrives",
                         .rows = {},
                         .log_y = true};
     for (std::size_t i = 0; i < fair.at.size(); ++i) {
@@ -220,7 +220,7 @@ void compare_roulettes(const examples::Options& options, long long paths) {
     examples::save_plot(options.out, plot);
 
     examples::Table table{.name = "emission-roulette-table",
-                          .columns = {"a photon's life ends", "surfaces a photon",
+                          .columns = {"a photon's life ends", "surfaces per photon",
                                       "flux that arrives", "error"},
                           .rows = {}};
     const double exact = 1 / (1 - double(albedo));
@@ -247,9 +247,92 @@ void compare_roulettes(const examples::Options& options, long long paths) {
 struct Brought {
     double mean = 0, squares = 0; ///< Of the flux of a photon sent, W.
     long long met = 0;            ///< Photons that met the glass first.
-    double nanoseconds = 0;       ///< A photon.
+    double nanoseconds = 0;       ///< Per photon.
+    std::vector<float> each{};    ///< The flux of each photon, W.
 };
 
+/// Sends photons one by one.
+/// \param one_photon  Sends one, and returns the flux that it brings.
+template <typename OnePhoton>
+Brought send(const examples::Options& options, long long paths, OnePhoton one_photon) {
+    Brought brought;
+    brought.each.reserve(static_cast<std::size_t>(paths));
+    const examples::StopWatch watch;
+    for (long long path = 0; path < paths; ++path) {
+        RandomStream stream = random_stream(options.seed, Pass::user, 1,
+                                            static_cast<std::uint64_t>(path));
+        const double flux = one_photon(stream);
+        if (flux > 0) ++brought.met;
+        brought.mean += flux / double(paths);
+        brought.squares += flux * flux / double(paths);
+        brought.each.push_back(float(flux));
+    }
+    brought.nanoseconds = watch.seconds() * 1e9 / double(paths);
+    return brought;
+}
+
+/// Table: what each way brings, and what an error of one percent costs.
+void tabulate_aims(const examples::Options& options, const Brought& everywhere,
+                   const Brought& aimed) {
+    examples::Table table{.name = "emission-aim",
+                          .columns = {"photons are sent", "meet glass first",
+                                      "flux to the glass, W", "standard error, W",
+                                      "photons for 1 %", "ns per photon", "ms for 1 %"},
+                          .rows = {}};
+    const auto row = [&](const char* name, const Brought& b) {
+        const auto paths = double(b.each.size());
+        const double deviation = std::sqrt(b.squares - b.mean * b.mean);
+        const double needed = std::pow(deviation / (0.01 * b.mean), 2);
+        table.rows.push_back(
+            {name, examples::text(100 * double(b.met) / paths, "%.1f %%"),
+             examples::text(b.mean, "%.2f"),
+             examples::text(deviation / std::sqrt(paths), "%.2f"),
+             examples::text(needed, "%.0f"), examples::text(b.nanoseconds, "%.0f"),
+             examples::text(needed * b.nanoseconds * 1e-6, "%.2g")});
+    };
+    row("everywhere", everywhere);
+    row("at the glass", aimed);
+    examples::save_table(options.out, table);
+    if (!options.quiet) examples::print_rows(table, 14);
+}
+
+/// How far the means of n photons are from the mean of all: relative, root mean square.
+double spread_of_means(const Brought& brought, std::size_t n) {
+    double squares = 0;
+    std::size_t means = 0;
+    for (std::size_t i = 0; i + n <= brought.each.size(); i += n, ++means) {
+        double mean = 0;
+        for (std::size_t k = i; k < i + n; ++k)
+            mean += double(brought.each[k]) / double(n);
+        squares += std::pow(mean / brought.mean - 1, 2);
+    }
+    return std::sqrt(squares / double(means));
+}
+
+/// Plot: the error of the flux to the glass against time.
+void plot_aims(const examples::Options& options, const Brought& everywhere,
+               const Brought& aimed) {
+    examples::Plot plot{.name = "emission-aim-error",
+                        .columns = {"milliseconds", "everywhere", "at the glass"},
+                        .y_label = "relative rms error of the flux to the glass",
+                        .rows = {},
+                        .log_x = true,
+                        .log_y = true};
+    const double nothing = std::nan("");
+    const auto milliseconds = [](const Brought& b, std::size_t n) {
+        return double(n) * b.nanoseconds * 1e-6;
+    };
+    // No fewer than 16 means behind a point.
+    for (std::size_t n = 1; 16 * n <= everywhere.each.size(); n *= 4)
+        plot.rows.push_back(
+            {milliseconds(everywhere, n), spread_of_means(everywhere, n), nothing});
+    for (std::size_t n = 1; 16 * n <= aimed.each.size(); n *= 4)
+        plot.rows.push_back(
+            {milliseconds(aimed, n), nothing, spread_of_means(aimed, n)});
+    examples::save_plot(options.out, plot);
+}
+
+/// Photons sent everywhere, and photons sent at the glass of the report's figure 11.
 void compare_aims(const examples::Options& options, long long paths) {
     const auto room = four_glass_room<float>();
     const LightChoice choice = light_choice(room.scene.lights);
@@ -259,56 +342,19 @@ void compare_aims(const examples::Options& options, long long paths) {
             if (target == id) return true;
         return false;
     };
-    const auto send = [&](auto one_photon) {
-        Brought brought;
-        const examples::StopWatch watch;
-        for (long long path = 0; path < paths; ++path) {
-            RandomStream stream = random_stream(options.seed, Pass::user, 1,
-                                                static_cast<std::uint64_t>(path));
-            const double flux = one_photon(stream);
-            if (flux > 0) ++brought.met;
-            brought.mean += flux / double(paths);
-            brought.squares += flux * flux / double(paths);
-        }
-        brought.nanoseconds = watch.seconds() * 1e9 / double(paths);
-        return brought;
-    };
-
-    const Brought everywhere = send([&](RandomStream& stream) {
+    const Brought everywhere = send(options, paths, [&](RandomStream& stream) {
         const auto flight = emit(room.scene, choice, stream);
         const auto hit = closest_hit(room.scene, flight.ray);
         return hit && is_target(hit->object) ? double(flight.flux.y) : 0.0;
     });
-    const Brought aimed = send([&](RandomStream& stream) {
+    const Brought aimed = send(options, paths, [&](RandomStream& stream) {
         const auto sent = aim(room.scene, choice, targets, stream);
         if (!sent) return 0.0;
         const auto hit = closest_hit(room.scene, sent->photon.ray);
         return hit && hit->object == sent->target ? double(sent->photon.flux.y) : 0.0;
     });
-
-    examples::Table table{.name = "emission-aim",
-                          .columns = {"photons are sent", "meet glass first",
-                                      "flux to the glass, W", "standard error, W",
-                                      "photons for 1 %", "ns a photon", "ms for 1 %"},
-                          .rows = {}};
-    const auto row = [&](const char* name, const Brought& b) {
-        const double deviation = std::sqrt(b.squares - b.mean * b.mean);
-        const double needed = std::pow(deviation / (0.01 * b.mean), 2);
-        table.rows.push_back(
-            {name, examples::text(100 * double(b.met) / double(paths), "%.1f %%"),
-             examples::text(b.mean, "%.2f"),
-             examples::text(deviation / std::sqrt(double(paths)), "%.2f"),
-             examples::text(needed, "%.0f"), examples::text(b.nanoseconds, "%.0f"),
-             examples::text(needed * b.nanoseconds * 1e-6, "%.2g")});
-    };
-    row("everywhere", everywhere);
-    row("at the glass", aimed);
-    examples::save_table(options.out, table);
-    if (!options.quiet)
-        for (const auto& cells : table.rows) {
-            for (const auto& cell : cells) std::printf("%-14s ", cell.c_str());
-            std::printf("\n");
-        }
+    tabulate_aims(options, everywhere, aimed);
+    plot_aims(options, everywhere, aimed);
 }
 
 // --- Spots and suns -------------------------------------------------------------------
@@ -528,7 +574,7 @@ void compare_numbers(const examples::Options& options) {
 void compare_probabilities(const examples::Options& options, long long paths) {
     const double rho = 0.75;
     examples::Table table{.name = "emission-probability",
-                          .columns = {"p", "surfaces a photon", "flux that arrives",
+                          .columns = {"p", "surfaces per photon", "flux that arrives",
                                       "deviation", "deviation (exact)", "efficiency"},
                           .rows = {}};
     const auto variance_of = [&](double p) {

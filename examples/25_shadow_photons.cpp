@@ -322,7 +322,7 @@ void over_photons(const examples::Options& options, long long most) {
         "set xrange [1000:" + std::to_string(most) + "]\nset yrange [0:100]\n";
     examples::Plot lost = skipped;
     lost.name = "shadow-lost";
-    lost.y_label = "of the shadow called lit, %";
+    lost.y_label = "shadow taken for lit, %";
     const int seeds = options.pick(1, 4, 8);
     for (int i = 6;; ++i) {
         const double photons = std::round(std::pow(10, i / 2.0));
@@ -370,7 +370,7 @@ void over_radius(const examples::Options& options, long long photons) {
         .log_x = true};
     examples::Plot lost = skipped;
     lost.name = "shadow-radius-lost";
-    lost.y_label = "of the shadow called lit, %";
+    lost.y_label = "shadow taken for lit, %";
     for (int i = 0; i <= options.pick(10, 14, 14); ++i) {
         const double radius = 0.02 * std::pow(2, i / 2.0);
         examples::Row skip_row{radius}, lost_row{radius};
@@ -415,7 +415,7 @@ void wire(const examples::Options& options, long long photons) {
     examples::Plot plot{.name = "shadow-wire",
                         .columns = {"width of the wire, in cells", "measured",
                                     "exp(-photons on the strip)"},
-                        .y_label = "of the shadow lost, %",
+                        .y_label = "shadow lost, %",
                         .rows = {}};
     const int points = 400;
     for (int i = 1; i <= options.pick(6, 12, 16); ++i) {
@@ -686,8 +686,8 @@ void savings(const examples::Options& options, long long photons, int cuts) {
     const Camera camera =
         look_at({.position{0, 3.2f, 9}, .target{0, 1, 0}, .vfov_degrees = 45});
     examples::Table costs{.name = "shadow-costs",
-                          .columns = {"room", "a shadow ray, ns", "the grid, ns",
-                                      "the map itself, ns", "a photon, ns",
+                          .columns = {"room", "ns per shadow ray", "the grid, ns",
+                                      "the map itself, ns", "ns per photon",
                                       "rays it must save"},
                           .rows = {}};
     examples::Table table{.name = "shadow-seconds",

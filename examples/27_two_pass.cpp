@@ -95,7 +95,7 @@ void trade(const ljus::Room<Scene>& room, const PhotonMappingSettings& settings,
                         .log_x = true,
                         .log_y = true};
     examples::Table table{.name = "two_pass-trade-table",
-                          .columns = {"rays a pixel", "method", "seconds", "relMSE",
+                          .columns = {"rays per pixel", "method", "seconds", "relMSE",
                                       "10x10-block error", "99 % trimmed relMSE"}};
     const double empty = std::numeric_limits<double>::quiet_NaN();
     const auto row = [&](int rays, const char* method, double seconds,

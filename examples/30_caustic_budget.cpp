@@ -224,8 +224,9 @@ void two_rooms(const std::vector<Known>& rooms, const Grid& grid, float radius,
     examples::Table table{.name = "budget-two-balls",
                           .columns = {"room", "budget", "photons of index 1.05",
                                       "of index 1.5", "squared bias", "variance",
-                                      "variance of own light", "variance of all light",
-                                      "squared bias of it", "FLIP"}};
+                                      "variance relative to own caustic",
+                                      "variance relative to all light",
+                                      "squared bias relative to all light", "FLIP"}};
     for (const Known& known : rooms)
         for (std::size_t b = 0; b < budgets.size(); ++b) {
             const auto shares = caustic_shares(budgets[b], known.pilots);
@@ -247,8 +248,8 @@ void two_rooms(const std::vector<Known>& rooms, const Grid& grid, float radius,
     save_table(options.out, table);
 
     examples::Table found{.name = "budget-pilot",
-                          .columns = {"room", "index", "stored of the pilot", "flux, W",
-                                      "on, m^2", "a for flux", "a for area",
+                          .columns = {"room", "index", "photons stored in the pilot",
+                                      "flux, W", "area, m²", "a for flux", "a for area",
                                       "a for brightness"}};
     for (const Known& known : rooms)
         for (std::size_t k = 0; k < known.pilots.size(); ++k) {
@@ -265,12 +266,13 @@ void two_rooms(const std::vector<Known>& rooms, const Grid& grid, float radius,
 /// Variance in the dark against the share of the light glass, beside the law.
 void by_share(const std::vector<Known>& rooms, const Grid& grid, float radius,
               const Sizes& sizes, const examples::Options& options) {
-    examples::Plot plot{.name = "budget-shares",
-                        .columns = {"share of the ball of index 1.05", "in watts",
-                                    "its law", "of own light", "its law of own",
-                                    "of all light", "its law of all"},
-                        .y_label = "variance over that of one half each",
-                        .more = "set yrange [0:3]\n"};
+    examples::Plot plot{
+        .name = "budget-shares",
+        .columns = {"share of the ball of index 1.05", "in W/m²", "predicted in W/m²",
+                    "relative to own caustic", "predicted relative to own caustic",
+                    "relative to all light", "predicted relative to all light"},
+        .y_label = "variance over that of equal shares",
+        .more = "set yrange [0:3]\n"};
     const auto law = [](double a, double b, double share) {
         return (a * a / share + b * b / (1 - share)) / (2 * a * a + 2 * b * b);
     };
@@ -356,107 +358,153 @@ void draw_rays(const examples::Options& options) {
 
 // --- The report's four balls ---------------------------------------------------------
 
-/// What each ball of figure 11 gets, and what it does to the picture.
-void four_balls(const examples::Options& options, const Sizes& sizes) {
-    const auto room = four_glass_room();
-    const auto scene = index_scene(room.scene);
-    const float radius = 0.15f;
-    const PhotonPassSettings pass{
-        .photons = sizes.photons, .seed = options.seed, .threads = options.threads};
-    const auto general =
-        trace_photons(room.scene, MapType::general,
+/// The four balls of figure 11, and what is known of their light.
+struct FourBalls {
+    decltype(four_glass_room()) room = four_glass_room();
+    float radius = 0.15f;          ///< Of the estimate.
+    PhotonPassSettings pass{};     ///< Of a caustics map.
+    std::vector<Photon> general{}; ///< The light of all but caustics.
+    std::vector<CausticPilot> pilots{};
+    std::array<std::vector<double>, budgets.size()> shares{}; ///< By each budget.
+};
+
+FourBalls known_balls(const examples::Options& options, const Sizes& sizes) {
+    FourBalls balls{.pass = {.photons = sizes.photons,
+                             .seed = options.seed,
+                             .threads = options.threads}};
+    balls.general =
+        trace_photons(balls.room.scene, MapType::general,
                       {.photons = options.pick(50000LL, 400000LL, 1000000LL),
                        .shadow_photons = false,
                        .threads = options.threads})
             .photons;
-    const auto pilots = pilot_caustics(room.scene, pass, radius, general, 0.5f);
-    // How often each is aimed at as lights see it.
-    const auto targets = specular_objects(room.scene);
-    const auto choice = light_choice(room.scene.lights);
+    balls.pilots =
+        pilot_caustics(balls.room.scene, balls.pass, balls.radius, balls.general, 0.5f);
+    for (std::size_t b = 0; b < budgets.size(); ++b)
+        balls.shares[b] = caustic_shares(budgets[b], balls.pilots);
+    return balls;
+}
+
+/// How often each object of glass is aimed at as lights see it.
+std::vector<double> aimed_as_seen(const FourBalls& balls,
+                                  const std::vector<ObjectId>& targets) {
+    const auto choice = light_choice(balls.room.scene.lights);
     std::vector<double> seen(targets.size());
     for (std::uint64_t path = 0; path < 20000; ++path) {
         auto stream = random_stream(7, Pass::caustics_photons, 0, path);
-        const auto aimed = aim(room.scene, choice, targets, stream);
+        const auto aimed = aim(balls.room.scene, choice, targets, stream);
         for (std::size_t k = 0; aimed && k < targets.size(); ++k)
             if (targets[k] == aimed->target) seen[k] += 1 / 20000.0;
     }
+    return seen;
+}
+
+/// What the pilot finds of each ball, and its share by each budget.
+void four_balls_shares(const FourBalls& balls, const examples::Options& options) {
     examples::Table table{.name = "budget-four-balls",
-                          .columns = {"ball", "index", "flux, W", "on, m^2", "as seen",
+                          .columns = {"ball", "index", "flux, W", "area, m²", "as seen",
                                       "by flux", "by area", "by brightness"}};
     constexpr std::array names{"large, right", "thin, left", "middle", "yellow, above"};
-    constexpr std::array report{"1.97", "1", "1.6", "1.7"};
-    std::array<std::vector<double>, budgets.size()> shares;
-    for (std::size_t b = 0; b < budgets.size(); ++b)
-        shares[b] = caustic_shares(budgets[b], pilots);
+    constexpr std::array indices{"1.97", "1", "1.6", "1.7"}; // the report's
+    const auto targets = specular_objects(balls.room.scene);
+    const auto seen = aimed_as_seen(balls, targets);
     const auto percent = [](double x) { return examples::text(100 * x, "%.0f %%"); };
     for (std::size_t k = 0; k < targets.size(); ++k) {
         // Glass comes before mixtures, or not: the ball is known by its place.
-        const float z = room.scene.visit_shape(targets[k], [](const auto& shape) {
+        const float z = balls.room.scene.visit_shape(targets[k], [](const auto& shape) {
             return bounding_sphere(shape).center.z;
         });
         const std::size_t name = z > 0 ? 0 : z == -3.5f ? 1 : z == -2.5f ? 2 : 3;
-        table.rows.push_back(
-            {names[name], report[name], examples::text(pilots[k].flux, "%.2f"),
-             examples::text(pilots[k].area, "%.2f"), percent(seen[k]),
-             percent(shares[2][k]), percent(shares[3][k]), percent(shares[4][k])});
+        const CausticPilot& pilot = balls.pilots[k];
+        table.rows.push_back({names[name], indices[name],
+                              examples::text(pilot.flux, "%.2f"),
+                              examples::text(pilot.area, "%.2f"), percent(seen[k]),
+                              percent(balls.shares[2][k]), percent(balls.shares[3][k]),
+                              percent(balls.shares[4][k])});
     }
     save_table(options.out, table);
+}
 
-    // The caustics of each run in a picture whose other light is always the same.
-    const RenderSettings picture{.width = options.width,
-                                 .height = options.height,
-                                 .samples = 4,
-                                 .threads = options.threads};
-    const auto caustics = [&](long long photons, std::uint64_t seed,
-                              const std::vector<double>& of) {
-        PhotonMappingSettings settings{.indirect = IndirectLight::none};
-        settings.caustics = pass;
-        settings.caustics.photons = photons;
-        settings.caustics.seed = seed;
-        settings.caustics.shares = of;
-        settings.caustics_estimate.radius = radius;
-        const auto maps = make_photon_maps(scene, settings);
-        const auto mapper = make_photon_mapper(scene, maps, settings);
-        auto image = render(only_paths(mapper, "ES*DS+L"), room.camera, picture).image;
-        examples::stop_if_asked();
-        return image;
-    };
-    const Image expected = caustics(options.pick(20, 100, 200) * sizes.photons, 99, {});
+/// A picture of the caustics alone.
+template <typename Indexed>
+Image caustics_seen(const Indexed& scene, const FourBalls& balls, long long photons,
+                    std::uint64_t seed, const std::vector<double>& shares,
+                    const RenderSettings& picture) {
+    PhotonMappingSettings settings{.indirect = IndirectLight::none};
+    settings.caustics = balls.pass;
+    settings.caustics.photons = photons;
+    settings.caustics.seed = seed;
+    settings.caustics.shares = shares;
+    settings.caustics_estimate.radius = balls.radius;
+    const auto maps = make_photon_maps(scene, settings);
+    const auto mapper = make_photon_mapper(scene, maps, settings);
+    auto image =
+        render(only_paths(mapper, "ES*DS+L"), balls.room.camera, picture).image;
+    examples::stop_if_asked();
+    return image;
+}
+
+/// A picture of all light but the caustics, the general map seen.
+template <typename Indexed>
+Image rest_seen(const Indexed& scene, const FourBalls& balls,
+                const RenderSettings& picture) {
     PhotonMappingSettings settings{.indirect = IndirectLight::photons};
     settings.caustics.photons = 0;
     settings.general_estimate.radius = 0.4f;
     PhotonMapsT<float> maps;
-    maps.general = make_photon_map(general);
+    maps.general = make_photon_map(balls.general);
+    return render(make_photon_mapper(scene, maps, settings), balls.room.camera, picture)
+        .image;
+}
+
+/// The errors of each budget: caustics of many maps, in a picture whose other light is
+/// always the same.
+void four_balls_errors(const FourBalls& balls, const examples::Options& options,
+                       const Sizes& sizes) {
+    const auto scene = index_scene(balls.room.scene);
+    const RenderSettings picture{.width = options.width,
+                                 .height = options.height,
+                                 .samples = 4,
+                                 .threads = options.threads};
     RenderSettings fine = picture;
     fine.samples = options.pick(16, 64, 256);
-    const Image rest =
-        render(make_photon_mapper(scene, maps, settings), room.camera, fine).image;
+    const Image expected = caustics_seen(
+        scene, balls, options.pick(20, 100, 200) * sizes.photons, 99, {}, picture);
+    const Image rest = rest_seen(scene, balls, fine);
     const Image truth = rest + expected;
-    examples::Table errors{
+    examples::Table table{
         .name = "budget-four-balls-errors",
         .columns = {"budget", "variance", "relative variance", "FLIP", "processor s"}};
     for (std::size_t b = 0; b < budgets.size(); ++b) {
         std::vector<Image> runs;
-        double seen_error = 0;
         const double begin = examples::processor_seconds();
         for (int seed = 1; seed <= sizes.seeds; ++seed)
-            runs.push_back(rest +
-                           caustics(sizes.photons, std::uint64_t(seed), shares[b]));
+            runs.push_back(rest + caustics_seen(scene, balls, sizes.photons,
+                                                std::uint64_t(seed), balls.shares[b],
+                                                picture));
         const double seconds = (examples::processor_seconds() - begin) / sizes.seeds;
-        for (std::size_t i = 0; i < std::min<std::size_t>(4, runs.size()); ++i)
-            seen_error +=
-                flip(runs[i], truth) / double(std::min<std::size_t>(4, runs.size()));
+        const std::size_t judged = std::min<std::size_t>(4, runs.size());
+        double seen_error = 0;
+        for (std::size_t i = 0; i < judged; ++i)
+            seen_error += flip(runs[i], truth) / double(judged);
         const auto split = bias_variance(runs, truth);
         const auto relative = examples::relative_split(runs, block_means(truth, 1));
-        errors.rows.push_back({budget_names[b], examples::text(split.variance, "%.3g"),
-                               examples::text(relative.variance, "%.3g"),
-                               examples::text(seen_error, "%.4f"),
-                               examples::text(seconds, "%.3f")});
+        table.rows.push_back({budget_names[b], examples::text(split.variance, "%.3g"),
+                              examples::text(relative.variance, "%.3g"),
+                              examples::text(seen_error, "%.4f"),
+                              examples::text(seconds, "%.3f")});
         if (!options.quiet)
             std::printf("four balls, %s: %.3g, relative %.3g, FLIP %.4f\n",
                         budget_names[b], split.variance, relative.variance, seen_error);
     }
-    save_table(options.out, errors);
+    save_table(options.out, table);
+}
+
+/// What each ball of figure 11 gets, and what it does to the picture.
+void four_balls(const examples::Options& options, const Sizes& sizes) {
+    const FourBalls balls = known_balls(options, sizes);
+    four_balls_shares(balls, options);
+    four_balls_errors(balls, options, sizes);
 }
 
 } // namespace

@@ -32,7 +32,7 @@ using examples::text;
 struct Sizes {
     int most = 0;    ///< The largest number of rays of table 1 that is tried.
     int repeats = 0; ///< Pairs of one thread and several.
-    int truth = 0;   ///< Rays a pixel of the reference.
+    int truth = 0;   ///< Rays per pixel of the reference.
 };
 
 /// A row of the report's table 1, in seconds.
@@ -203,9 +203,9 @@ FirstPass table_1(const R& room, const examples::Options& options, const Sizes& 
     save_table(options.path(""), table);
 
     const double pixels = double(options.width) * options.height;
-    examples::Table lines{
-        .name = "parallel-lines",
-        .columns = {"", "fixed, s", "a ray in every pixel, s", "a path, microseconds"}};
+    examples::Table lines{.name = "parallel-lines",
+                          .columns = {"", "fixed, s", "one ray in every pixel, s",
+                                      "microseconds per path"}};
     const auto add = [&](const std::string& name, const Line& line, double of_pixels) {
         lines.rows.push_back({name, text(line.fixed, "%.3g"), text(line.each, "%.3g"),
                               text(1e6 * line.each / of_pixels, "%.3g")});
@@ -232,7 +232,7 @@ FirstPass table_1(const R& room, const examples::Options& options, const Sizes& 
 
     examples::Table truth{
         .name = "parallel-truth",
-        .columns = {"reference", "rays a pixel", "its own relMSE"},
+        .columns = {"reference", "rays per pixel", "its own relMSE"},
         .rows = {{"path tracing, no limit of depth", std::to_string(oracle.rays),
                   text(oracle.noise, "%.2g")}}};
     save_table(options.path(""), truth);
@@ -408,13 +408,14 @@ void schedules(const Image& costs, const examples::Options& options) {
 void amdahl(const FirstPass& first, const Line& loop,
             const examples::Options& options) {
     examples::Plot plot{.name = "parallel-amdahl",
-                        .columns = {"threads", "1 ray a pixel", "10", "100", "1000"},
+                        .columns = {"threads", "1 ray per pixel", "10", "100", "1000"},
                         .y_label = "speed-up of both passes, by Amdahl's law",
                         .log_x = true,
                         .log_y = true,
                         .more = "set format xy '%g'\n"};
     examples::Table table{.name = "parallel-amdahl-table",
-                          .columns = {"rays a pixel", "shared out, s", "not shared, s",
+                          .columns = {"rays per pixel", "shared out, s",
+                                      "not shared, s",
                                       "at most, any number of threads"}};
     for (int threads = 1; threads <= 1024; threads *= 2) {
         examples::Row row{double(threads)};
@@ -580,7 +581,7 @@ double nanoseconds_of_counting(std::size_t bytes_apart, int threads, long long t
 void false_sharing(const examples::Options& options, int repeats) {
     examples::Table table{.name = "parallel-sharing",
                           .columns = {"bytes from one counter to the other",
-                                      "ns an increment", "beside 256 bytes"}};
+                                      "ns per increment", "beside 256 bytes"}};
     const std::array<std::size_t, 6> places{8, 16, 32, 64, 128, 256};
     const long long times = options.pick(1000000, 20000000, 20000000);
     std::array<std::vector<double>, places.size()> found;
@@ -595,9 +596,9 @@ void false_sharing(const examples::Options& options, int repeats) {
 
 /// A loop that does nothing: what it costs to wake the threads, and a block.
 void empty_loops(const examples::Options& options, int threads) {
-    examples::Table table{
-        .name = "parallel-empty",
-        .columns = {"threads", "a loop of 2 blocks, microseconds", "a block more, ns"}};
+    examples::Table table{.name = "parallel-empty",
+                          .columns = {"threads", "a loop of 2 blocks, microseconds",
+                                      "ns per further block"}};
     for (const int by : {1, threads}) {
         const auto loop = [by](long long blocks) {
             std::vector<double> taken;
@@ -624,7 +625,7 @@ void machines(const FirstPass& first, const Line& loop, std::size_t photons,
     constexpr double network = 1e9; // bytes a second
     examples::Table table{.name = "parallel-machines",
                           .columns = {"ranks", "photons, s", "joining them, s",
-                                      "tree, s", "64 rays a pixel, s", "picture, s",
+                                      "tree, s", "64 rays per pixel, s", "picture, s",
                                       "in all, s", "speed-up"}};
     const double bytes = double(photons) * sizeof(Photon);
     const double pixels = double(options.width) * options.height;
@@ -655,7 +656,8 @@ int main(int argc, char** argv) {
                  1000);
         line.add("--repeats", sizes.repeats, "Pairs of one thread and several", 1,
                  1000);
-        line.add("--truth", sizes.truth, "Rays a pixel of the reference", 8, 100000000);
+        line.add("--truth", sizes.truth, "Rays per pixel of the reference", 8,
+                 100000000);
         const examples::Options options =
             line.parse({.draft{.width = 48, .height = 48, .samples = 4},
                         .report{.width = 400, .height = 400, .samples = 64},

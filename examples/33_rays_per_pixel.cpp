@@ -34,12 +34,12 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 struct Sizes {
     int most = 0;  ///< The largest number of rays.
     int seeds = 0; ///< Runs behind each error.
-    int truth = 0; ///< Rays a pixel of the reference.
+    int truth = 0; ///< Rays per pixel of the reference.
 };
 
 /// A row of the report's table 3.
 struct ReportRow {
-    int rays;         ///< A pixel.
+    int rays;         ///< Per pixel.
     double seconds;   ///< Its time.
     const char* time; ///< As it is printed.
 };
@@ -63,12 +63,13 @@ using Room3 = decltype(all_materials_room());
 
 // --- Why one over the root -----------------------------------------------------------
 
-/// The means of n rays through one pixel, again and again: how they are spread.
-void one_pixel(const Room3& room, const examples::Options& options) {
+/// The luminance that each of many rays through one pixel brings: one of the floor,
+/// where the lamp is large and no glass is near.
+std::vector<double> values_of_pixel(const Room3& room,
+                                    const examples::Options& options) {
     const auto settings = settings_with(false, options.seed, options.threads);
     const auto maps = make_photon_maps(room.scene, settings);
     const auto mapper = make_photon_mapper(room.scene, maps, settings);
-    // A pixel of the floor, where the lamp is large and no glass is near.
     const int rays = options.pick(1 << 14, 1 << 18, 1 << 18);
     const RenderSettings picture{.width = 400,
                                  .height = 400,
@@ -87,43 +88,57 @@ void one_pixel(const Room3& room, const examples::Options& options) {
     };
     parallel_blocks(detail::block_count(rays, size), body,
                     {.threads = options.threads});
+    return values;
+}
 
-    constexpr std::array groups{1, 4, 16, 64, 256};
+/// The means of groups of n values, over the mean of all.
+std::vector<double> means_of(const std::vector<double>& values, std::size_t n) {
     double mean = 0;
     for (const double value : values) mean += value / double(values.size());
-    constexpr int bins = 60;
+    std::vector<double> means;
+    for (std::size_t i = 0; i + n <= values.size(); i += n) {
+        means.push_back(0);
+        for (std::size_t k = i; k < i + n; ++k)
+            means.back() += values[k] / double(n) / mean;
+    }
+    return means;
+}
+
+/// Adds a column to a histogram from 0 to 2: a density, whose integral is 1.
+void add_histogram(std::vector<examples::Row>& rows, const std::vector<double>& means) {
+    const int bins = static_cast<int>(rows.size());
+    std::vector<double> count(rows.size(), 0.0);
+    for (const double m : means) {
+        const int bin = static_cast<int>(std::floor(m / 2 * bins));
+        if (bin >= 0 && bin < bins) count[std::size_t(bin)] += 1;
+    }
+    for (int bin = 0; bin < bins; ++bin) {
+        auto& row = rows[std::size_t(bin)];
+        if (row.empty()) row.push_back((bin + 0.5) * 2 / bins);
+        row.push_back(count[std::size_t(bin)] / double(means.size()) * bins / 2);
+    }
+}
+
+/// The means of n rays through one pixel, again and again: how they are spread.
+void one_pixel(const Room3& room, const examples::Options& options) {
+    const auto values = values_of_pixel(room, options);
     examples::Plot plot{
         .name = "rays_per_pixel-spread",
         .columns = {"mean of n rays over the true one", "n = 4", "16", "64", "256"},
         .y_label = "how often",
-        .rows = std::vector<examples::Row>(bins)};
+        .rows = std::vector<examples::Row>(60)};
     examples::Table table{
         .name = "rays_per_pixel-spread-table",
         .columns = {"rays", "standard deviation, of the mean", "times the root of n"}};
-    for (std::size_t g = 0; g < groups.size(); ++g) {
-        const auto n = static_cast<std::size_t>(groups[g]);
-        std::vector<double> means;
-        for (std::size_t i = 0; i + n <= values.size(); i += n) {
-            means.push_back(0);
-            for (std::size_t k = i; k < i + n; ++k)
-                means.back() += values[k] / double(n) / mean;
-        }
+    for (const std::size_t n : {1u, 4u, 16u, 64u, 256u}) {
+        const auto means = means_of(values, n);
         double squares = 0;
         for (const double m : means)
             squares += (m - 1) * (m - 1) / double(means.size());
         table.rows.push_back({std::to_string(n), text(std::sqrt(squares), "%.3f"),
                               text(std::sqrt(squares * double(n)), "%.3f")});
-        if (g == 0) continue; // one ray: light or shadow, and little in between
-        std::vector<double> count(bins, 0.0);
-        for (const double m : means) {
-            const int bin = static_cast<int>(std::floor(m / 2 * bins));
-            if (bin >= 0 && bin < bins) count[std::size_t(bin)] += 1;
-        }
-        for (int bin = 0; bin < bins; ++bin) {
-            auto& row = plot.rows[std::size_t(bin)];
-            if (row.empty()) row.push_back((bin + 0.5) * 2 / bins);
-            row.push_back(count[std::size_t(bin)] / double(means.size()) * bins / 2);
-        }
+        // One ray brings light or shadow, and little in between.
+        if (n > 1) add_histogram(plot.rows, means);
     }
     save_plot(options.path(""), plot);
     save_table(options.path(""), table);
@@ -137,7 +152,7 @@ struct Shots {
     std::vector<double> seconds{}; ///< Of the second, for each number of rays.
 };
 
-Shots figure_12(const Room3& room, const std::vector<int>& rays,
+Shots figure_12(const Room3& room, const std::vector<ReportRow>& rows,
                 const examples::Options& options) {
     const auto settings = settings_with(true, options.seed, options.threads);
     Shots shots;
@@ -145,7 +160,8 @@ Shots figure_12(const Room3& room, const std::vector<int>& rays,
     const auto maps = make_photon_maps(room.scene, settings);
     shots.first = examples::processor_seconds() - start;
     const auto mapper = make_photon_mapper(room.scene, maps, settings);
-    for (const int n : rays) {
+    for (const ReportRow& row : rows) {
+        const int n = row.rays;
         examples::ProgressBar bar("fig-12, " + std::to_string(n) + " rays",
                                   options.quiet);
         const double before = examples::processor_seconds();
@@ -166,7 +182,7 @@ Shots figure_12(const Room3& room, const std::vector<int>& rays,
 
 /// What a number of rays brought, over several seeds.
 struct Rung {
-    int rays = 0;          ///< A pixel.
+    int rays = 0;          ///< Per pixel.
     double seconds = 0;    ///< Processor time of both passes, the mean.
     BiasVariance pixels{}; ///< The two parts of relMSE.
     BiasVariance blocks{}; ///< The same of the means of 10 x 10 pixels.
@@ -241,30 +257,37 @@ double error_at(const std::vector<double>& seconds, const std::vector<double>& e
     return nothing;
 }
 
-/// The plots and tables of errors.
-void show(const std::vector<Method>& methods,
-          const std::vector<std::vector<Rung>>& runs,
-          const examples::Options& options) {
+/// What the rungs of one method have, each as a list.
+struct Lists {
+    std::vector<double> rays{}, seconds{}, noise{}, errors{};
+};
+
+Lists lists_of(const std::vector<Rung>& rungs) {
+    Lists lists;
+    for (const Rung& rung : rungs) {
+        lists.rays.push_back(rung.rays);
+        lists.seconds.push_back(rung.seconds);
+        lists.noise.push_back(rung.rays_alone);
+        lists.errors.push_back(rung.error());
+    }
+    return lists;
+}
+
+/// Error against time, and the parts of each point's error.
+void show_errors(const std::vector<Method>& methods,
+                 const std::vector<std::vector<Rung>>& runs,
+                 const examples::Options& options) {
     examples::Plot plot{.name = "rays_per_pixel-trade",
                         .columns = {"processor seconds"},
                         .y_label = "relMSE",
                         .log_x = true,
                         .log_y = true};
     for (const Method& method : methods) plot.columns.push_back(method.name);
-    examples::Table slopes{.name = "rays_per_pixel-slopes",
-                           .columns = {"", "slope of the rays' noise", "bias²",
-                                       "noise of the photons", "bias² of blocks"}};
     examples::Table split{.name = "rays_per_pixel-split",
                           .columns = {"rays", "", "bias²", "noise", "of which rays",
                                       "blocks: bias²", "noise", "trimmed", "FLIP"}};
-    examples::Table half{.name = "rays_per_pixel-half", .columns = {"rays"}};
-    for (std::size_t m = 0; m < methods.size(); ++m) {
-        std::vector<double> rays, seconds, noise, errors;
+    for (std::size_t m = 0; m < methods.size(); ++m)
         for (const Rung& rung : runs[m]) {
-            rays.push_back(rung.rays);
-            seconds.push_back(rung.seconds);
-            noise.push_back(rung.rays_alone);
-            errors.push_back(rung.error());
             examples::Row row(methods.size() + 1, nothing);
             row[0] = rung.seconds;
             row[m + 1] = rung.error();
@@ -277,29 +300,49 @@ void show(const std::vector<Method>& methods,
                                   text(rung.blocks.variance, "%.2g"),
                                   text(rung.trimmed, "%.2g"), text(rung.flip, "%.3f")});
         }
-        const Rung& last = runs[m].back();
-        slopes.rows.push_back(
-            {methods[m].name, slope_text(rays, noise),
-             text(last.pixels.bias_squared, "%.2g"),
-             methods[m].has_map ? text(last.pixels.variance - last.rays_alone, "%.2g")
-                                : "none",
-             text(last.blocks.bias_squared, "%.2g")});
-        half.columns.push_back(methods[m].name);
-        half.rows.resize(errors.size());
-        for (std::size_t i = 0; i < errors.size(); ++i) {
-            const double before = error_at(seconds, errors, seconds[i] / 2);
-            half.rows[i].resize(methods.size() + 1);
-            half.rows[i][0] = text(rays[i]);
-            half.rows[i][m + 1] = std::isnan(before)
-                                      ? "no picture yet"
-                                      : text(before / errors[i], "%.2f") + " times";
-        }
-    }
-    half.rows.erase(half.rows.begin());
     save_plot(options.path(""), plot);
-    save_table(options.path(""), slopes);
     save_table(options.path(""), split);
-    save_table(options.path(""), half);
+}
+
+/// How fast the noise of rays falls, and what is left when it is gone.
+void show_slopes(const std::vector<Method>& methods,
+                 const std::vector<std::vector<Rung>>& runs,
+                 const examples::Options& options) {
+    examples::Table table{.name = "rays_per_pixel-slopes",
+                          .columns = {"", "slope of the rays' noise", "bias²",
+                                      "noise of the photons", "bias² of blocks"}};
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+        const Lists lists = lists_of(runs[m]);
+        const Rung& last = runs[m].back();
+        table.rows.push_back({methods[m].name, slope_text(lists.rays, lists.noise),
+                              text(last.pixels.bias_squared, "%.2g"),
+                              methods[m].has_map
+                                  ? text(last.pixels.variance - last.rays_alone, "%.2g")
+                                  : "none",
+                              text(last.blocks.bias_squared, "%.2g")});
+    }
+    save_table(options.path(""), table);
+}
+
+/// How many times the error grows if only half of the time is given.
+void show_half_time(const std::vector<Method>& methods,
+                    const std::vector<std::vector<Rung>>& runs,
+                    const examples::Options& options) {
+    examples::Table table{.name = "rays_per_pixel-half", .columns = {"rays"}};
+    for (const Method& method : methods) table.columns.push_back(method.name);
+    for (std::size_t i = 1; i < runs[0].size(); ++i) {
+        std::vector<std::string> row{std::to_string(runs[0][i].rays)};
+        for (const auto& rungs : runs) {
+            const Lists lists = lists_of(rungs);
+            const double before =
+                error_at(lists.seconds, lists.errors, lists.seconds[i] / 2);
+            row.push_back(std::isnan(before)
+                              ? "no picture yet"
+                              : text(before / lists.errors[i], "%.2f") + " times");
+        }
+        table.rows.push_back(row);
+    }
+    save_table(options.path(""), table);
 }
 
 /// Seconds and rays until an error is reached.
@@ -311,12 +354,7 @@ void equal_error(const std::vector<Method>& methods,
     for (const double target : {0.3, 0.1, 0.03, 0.01, 0.003}) {
         std::vector<std::string> row{text(target)};
         for (const auto& rungs : runs) {
-            std::vector<double> rays, seconds, errors;
-            for (const Rung& rung : rungs) {
-                rays.push_back(rung.rays);
-                seconds.push_back(rung.seconds);
-                errors.push_back(rung.error());
-            }
+            const auto& [rays, seconds, noise, errors] = lists_of(rungs);
             const double when = examples::reach(seconds, errors, target);
             row.push_back(
                 std::isnan(when)
@@ -331,6 +369,118 @@ void equal_error(const std::vector<Method>& methods,
     save_table(options.path(""), table);
 }
 
+/// The three ways that are compared, small pictures of the room.
+struct Contest {
+    const Room3& room;
+    const examples::Options& options;
+    int size = 0; ///< Side of the pictures.
+    /// By the seed of the photons: neither depth nor rays change the maps.
+    std::map<std::uint64_t, PhotonMapsT<float>> maps{};
+    PathTracer<decltype(Room3::scene)> tracer = make_path_tracer(room.scene);
+
+    [[nodiscard]] RenderSettings picture(int rays, std::uint64_t seed) const {
+        return {.width = size,
+                .height = size,
+                .samples = rays,
+                .seed = seed,
+                .threads = options.threads};
+    }
+    [[nodiscard]] Image by_photons(bool fixed_depth, int rays, std::uint64_t seed,
+                                   std::uint64_t map_seed) {
+        const auto settings = settings_with(fixed_depth, map_seed, options.threads);
+        const auto [place, fresh] = maps.try_emplace(map_seed);
+        if (fresh) place->second = make_photon_maps(room.scene, settings);
+        const auto mapper = make_photon_mapper(room.scene, place->second, settings);
+        return render(mapper, room.camera, picture(rays, seed)).image;
+    }
+    [[nodiscard]] Image by_paths(int rays, std::uint64_t seed) const {
+        return render(tracer, room.camera, picture(rays, seed)).image;
+    }
+};
+
+std::vector<Method> methods_of(Contest& contest) {
+    const auto by_photons = [&contest](bool fixed_depth) {
+        return [&contest, fixed_depth](int rays, std::uint64_t seed,
+                                       std::uint64_t map_seed) {
+            return contest.by_photons(fixed_depth, rays, seed, map_seed);
+        };
+    };
+    return {{"photons to depth 4", by_photons(true), true},
+            {"photons with roulette", by_photons(false), true},
+            {"path tracing", [&contest](int rays, std::uint64_t seed, std::uint64_t) {
+                 return contest.by_paths(rays, seed);
+             }}};
+}
+
+// --- Table 3 -------------------------------------------------------------------------
+
+/// The report's rows that are rendered here: all of them, unless fewer are asked for.
+std::vector<ReportRow> rows_up_to(int most) {
+    std::vector<ReportRow> rows;
+    for (const ReportRow& row : report_rows)
+        if (row.rays <= most) rows.push_back(row);
+    return rows;
+}
+
+/// The report's times and ours, and our errors by photons.
+/// \param fixed     Rungs of the photon mapper that stops at depth 4.
+/// \param roulette  Those of the one that does not.
+void table_3(const std::vector<ReportRow>& shown, const Shots& shots,
+             const std::vector<Rung>& fixed, const std::vector<Rung>& roulette,
+             const examples::Options& options) {
+    const auto blocks = [](const Rung& rung) {
+        return text(std::max(rung.blocks.bias_squared + rung.blocks.variance, 0.0),
+                    "%.2g");
+    };
+    examples::Table table{.name = "table-3",
+                          .columns = {"rays", "report", "photons, s", "picture, s",
+                                      "relMSE, depth 4", "relMSE, roulette",
+                                      "of blocks, depth 4", "of blocks, roulette",
+                                      "FLIP, roulette"}};
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        std::vector<std::string> row{std::to_string(shown[i].rays), shown[i].time,
+                                     text(shots.first, "%.2f"),
+                                     text(shots.seconds[i], "%.3g")};
+        for (std::size_t k = 0; k < fixed.size(); ++k)
+            if (fixed[k].rays == shown[i].rays)
+                row.insert(row.end(),
+                           {text(fixed[k].error(), "%.2g"),
+                            text(roulette[k].error(), "%.2g"), blocks(fixed[k]),
+                            blocks(roulette[k]), text(roulette[k].flip, "%.3f")});
+        row.resize(table.columns.size());
+        table.rows.push_back(row);
+    }
+    save_table(options.path(""), table);
+    if (!options.quiet) examples::print_rows(table);
+}
+
+void table_of_truth(const examples::Oracle& oracle, const examples::Options& options) {
+    const examples::Table table{
+        .name = "rays_per_pixel-truth",
+        .columns = {"reference", "rays per pixel", "its own relMSE", "of blocks"},
+        .rows = {{"path tracing, no limit of depth", std::to_string(oracle.rays),
+                  text(oracle.noise, "%.2g"), text(oracle.block_noise, "%.2g")}}};
+    save_table(options.path(""), table);
+}
+
+/// What a ray buys: three ways, against a reference.
+std::vector<std::vector<Rung>> errors_of_rays(Contest& contest,
+                                              const std::vector<int>& rays,
+                                              const examples::Oracle& oracle,
+                                              const Sizes& sizes, double first_pass) {
+    for (int seed = 1; seed <= sizes.seeds; ++seed) // before any clock runs
+        (void)contest.by_photons(true, 1, 1, std::uint64_t(seed));
+    const std::vector<Method> methods = methods_of(contest);
+    std::vector<std::vector<Rung>> runs;
+    for (const Method& method : methods)
+        runs.push_back(climb(method, rays, oracle, sizes.seeds, first_pass));
+    show_errors(methods, runs, contest.options);
+    show_slopes(methods, runs, contest.options);
+    show_half_time(methods, runs, contest.options);
+    equal_error(methods, runs, contest.options);
+    return runs;
+}
+
 } // namespace
 
 /// Makes the tables and figures of chapter 33.
@@ -340,7 +490,8 @@ int main(int argc, char** argv) {
         line.about("Chapter 33, rays per pixel: table 3, figure 12.");
         line.add("--most", sizes.most, "The largest number of rays", 10, 1000);
         line.add("--seeds", sizes.seeds, "Runs behind each error", 2, 1000);
-        line.add("--truth", sizes.truth, "Rays a pixel of the reference", 8, 100000000);
+        line.add("--truth", sizes.truth, "Rays per pixel of the reference", 8,
+                 100000000);
         const examples::Options options =
             line.parse({.draft{.width = 40, .height = 40, .samples = 4},
                         .report{.width = 400, .height = 400, .samples = 64},
@@ -348,90 +499,22 @@ int main(int argc, char** argv) {
         if (!line.given("--most")) sizes.most = options.pick(100, 1000, 1000);
         if (!line.given("--seeds")) sizes.seeds = options.pick(3, 6, 16);
         if (!line.given("--truth")) sizes.truth = options.pick(512, 32768, 262144);
-        const int size = std::min(options.pick(24, 64, 100), options.width);
 
         const auto room = all_materials_room();
         one_pixel(room, options);
         // Errors may stop before the pictures do: several seeds of 1000 rays take long.
-        std::vector<int> rays, shown;
-        for (const int n : {1, 3, 10, 30, 100, 300, 1000})
-            if (n <= sizes.most) rays.push_back(n);
-        for (const ReportRow& row : report_rows)
-            if (row.rays <= sizes.most || !line.given("--most"))
-                shown.push_back(row.rays);
+        const auto shown = rows_up_to(line.given("--most") ? sizes.most : 1000);
         const Shots shots = figure_12(room, shown, options);
 
+        std::vector<int> rays;
+        for (const int n : {1, 3, 10, 30, 100, 300, 1000})
+            if (n <= sizes.most) rays.push_back(n);
+        const int size = std::min(options.pick(24, 64, 100), options.width);
         const auto oracle =
             examples::find_oracle("all-materials", room, size, sizes.truth, options);
-        const auto tracer = make_path_tracer(room.scene);
-        const auto picture = [&](int n, std::uint64_t seed) {
-            return RenderSettings{.width = size,
-                                  .height = size,
-                                  .samples = n,
-                                  .seed = seed,
-                                  .threads = options.threads};
-        };
-        // Made once a seed: neither depth nor rays change the map.
-        std::map<std::uint64_t, PhotonMapsT<float>> kept;
-        const auto by_photons = [&](bool fixed_depth) {
-            return [&, fixed_depth](int n, std::uint64_t seed, std::uint64_t map_seed) {
-                const auto settings =
-                    settings_with(fixed_depth, map_seed, options.threads);
-                const auto [place, fresh] = kept.try_emplace(map_seed);
-                if (fresh) place->second = make_photon_maps(room.scene, settings);
-                const auto mapper =
-                    make_photon_mapper(room.scene, place->second, settings);
-                return render(mapper, room.camera, picture(n, seed)).image;
-            };
-        };
-        for (int seed = 1; seed <= sizes.seeds; ++seed) // before any clock runs
-            (void)by_photons(true)(1, 1, std::uint64_t(seed));
-        const std::vector<Method> methods{
-            {"photons to depth 4", by_photons(true), true},
-            {"photons with roulette", by_photons(false), true},
-            {"path tracing", [&](int n, std::uint64_t seed, std::uint64_t) {
-                 return render(tracer, room.camera, picture(n, seed)).image;
-             }}};
-        std::vector<std::vector<Rung>> runs;
-        for (const Method& method : methods)
-            runs.push_back(climb(method, rays, oracle, sizes.seeds, shots.first));
-        show(methods, runs, options);
-        equal_error(methods, runs, options);
-
-        examples::Table table{.name = "table-3",
-                              .columns = {"rays", "report", "photons, s", "picture, s",
-                                          "relMSE, depth 4", "relMSE, roulette",
-                                          "of blocks, depth 4", "of blocks, roulette",
-                                          "FLIP, roulette"}};
-        for (std::size_t i = 0; i < shown.size(); ++i) {
-            table.rows.push_back({std::to_string(shown[i]), report_rows[i].time,
-                                  text(shots.first, "%.2f"),
-                                  text(shots.seconds[i], "%.3g")});
-            auto& row = table.rows.back();
-            row.resize(table.columns.size());
-            const auto at = std::find(rays.begin(), rays.end(), shown[i]);
-            if (at == rays.end()) continue;
-            const auto rung_number = static_cast<std::size_t>(at - rays.begin());
-            for (const std::size_t m : {0u, 1u}) {
-                const Rung& rung = runs[m][rung_number];
-                row[4 + m] = text(rung.error(), "%.2g");
-                row[6 + m] =
-                    text(std::max(rung.blocks.bias_squared + rung.blocks.variance, 0.0),
-                         "%.2g");
-            }
-            row[8] = text(runs[1][rung_number].flip, "%.3f");
-        }
-        save_table(options.path(""), table);
-        examples::Table truth{
-            .name = "rays_per_pixel-truth",
-            .columns = {"reference", "rays a pixel", "its own relMSE", "of blocks"},
-            .rows = {{"path tracing, no limit of depth", std::to_string(oracle.rays),
-                      text(oracle.noise, "%.2g"), text(oracle.block_noise, "%.2g")}}};
-        save_table(options.path(""), truth);
-        if (!options.quiet)
-            for (const auto& row : table.rows) {
-                for (const auto& cell : row) std::printf("%-12s ", cell.c_str());
-                std::printf("\n");
-            }
+        table_of_truth(oracle, options);
+        Contest contest{.room = room, .options = options, .size = size};
+        const auto runs = errors_of_rays(contest, rays, oracle, sizes, shots.first);
+        table_3(shown, shots, runs[0], runs[1], options);
     });
 }

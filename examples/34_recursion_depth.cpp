@@ -35,7 +35,7 @@ using examples::text;
 /// What the user may set besides the common options.
 struct Sizes {
     int seeds = 0; ///< Runs behind each error.
-    int truth = 0; ///< Rays a pixel of the reference.
+    int truth = 0; ///< Rays per pixel of the reference.
 };
 
 using Room4 = decltype(four_glass_room());
@@ -72,6 +72,27 @@ std::string percent(double mean, double truth) {
 
 // --- Figure 13 and table 4 -----------------------------------------------------------
 
+/// Small pictures with maps of their own, beside which the reference tells the error.
+std::vector<Image> runs_to_depth(const Room4& room, int depth,
+                                 const examples::Oracle& oracle, int seeds,
+                                 int threads) {
+    std::vector<Image> runs;
+    for (std::uint64_t seed = 1; seed <= std::uint64_t(seeds); ++seed) {
+        const auto settings = settings_with(depth, seed, threads);
+        const auto maps = make_photon_maps(room.scene, settings);
+        runs.push_back(render(make_photon_mapper(room.scene, maps, settings),
+                              room.camera,
+                              {.width = oracle.truth.width,
+                               .height = oracle.truth.height,
+                               .samples = 64,
+                               .seed = seed,
+                               .threads = threads})
+                           .image);
+        examples::stop_if_asked();
+    }
+    return runs;
+}
+
 void table_4(const Room4& room, const examples::Oracle& oracle,
              const examples::Options& options, const Sizes& sizes) {
     struct Depth {
@@ -87,7 +108,7 @@ void table_4(const Room4& room, const examples::Oracle& oracle,
                                            {0, ""}}};
     examples::Table table{.name = "table-4",
                           .columns = {"depth", "report", "picture, s",
-                                      "rays a camera ray", "light, of all", "bias²",
+                                      "rays per camera ray", "light, of all", "bias²",
                                       "noise", "bias² of blocks"}};
     const double truth = mean_of(oracle.truth);
     for (const Depth& row : depths) {
@@ -107,21 +128,8 @@ void table_4(const Room4& room, const examples::Oracle& oracle,
         const double seconds = examples::processor_seconds() - start;
         save_png(seen.image, options.path("fig-13-" + name + ".png"));
 
-        std::vector<Image> runs;
-        for (int seed = 1; seed <= sizes.seeds; ++seed) {
-            const auto number = static_cast<std::uint64_t>(seed);
-            const auto other = settings_with(row.depth, number, options.threads);
-            const auto its_maps = make_photon_maps(room.scene, other);
-            runs.push_back(render(make_photon_mapper(room.scene, its_maps, other),
-                                  room.camera,
-                                  {.width = oracle.truth.width,
-                                   .height = oracle.truth.height,
-                                   .samples = 64,
-                                   .seed = number,
-                                   .threads = options.threads})
-                               .image);
-            examples::stop_if_asked();
-        }
+        const auto runs =
+            runs_to_depth(room, row.depth, oracle, sizes.seeds, options.threads);
         const auto pixels = examples::relative_split(runs, oracle.truth, oracle.noise);
         const auto blocks =
             examples::relative_split(runs, oracle.truth, oracle.block_noise, 10);
@@ -136,16 +144,15 @@ void table_4(const Room4& room, const examples::Oracle& oracle,
 
 // --- The furnace ---------------------------------------------------------------------
 
-/// What is lost in a room whose answer is known, by each way to end a path.
-void furnace(const examples::Options& options) {
+/// The light that a fixed depth loses in a room whose answer is known.
+void furnace_by_depth(int rays, const examples::Options& options) {
     examples::Plot plot{.name = "recursion_depth-furnace",
-                        .columns = {"depth", "albedo 0.5 as foretold", "measured",
-                                    "albedo 0.75 as foretold", "measured ",
-                                    "albedo 0.9 as foretold", "measured  "},
-                        .y_label = "light that is lost, of all",
+                        .columns = {"depth", "albedo 0.5 predicted", "measured",
+                                    "albedo 0.75 predicted", "measured ",
+                                    "albedo 0.9 predicted", "measured  "},
+                        .y_label = "fraction of the light that is lost",
                         .log_y = true,
                         .more = "set yrange [1e-4:1]\n"};
-    const int rays = options.pick(16, 64, 256);
     for (int depth = 1; depth <= 24; depth += depth < 4 ? 1 : depth < 12 ? 2 : 4) {
         examples::Row row{double(depth)};
         for (const float albedo : {0.5f, 0.75f, 0.9f}) {
@@ -165,7 +172,37 @@ void furnace(const examples::Options& options) {
         plot.rows.push_back(row);
     }
     save_plot(options.path(""), plot);
+}
 
+/// A mean over runs.
+struct Mean {
+    double value = 0;
+    double error = 0; ///< Its standard error.
+};
+
+/// The light of a furnace, by paths that end in some way: four runs.
+template <typename Paths>
+Mean light_of(const Paths& paths, const Camera& camera, int rays, int threads) {
+    std::vector<Image> runs;
+    for (std::uint64_t seed = 1; seed <= 4; ++seed)
+        runs.push_back(render(paths, camera,
+                              {.width = 32,
+                               .height = 32,
+                               .samples = rays,
+                               .seed = seed,
+                               .threads = threads})
+                           .image);
+    const double mean = mean_of(runs);
+    double squares = 0;
+    for (const Image& run : runs) {
+        const double off = mean_of({run}) - mean;
+        squares += off * off;
+    }
+    return {mean, std::sqrt(squares / 3 / 4)};
+}
+
+/// What each way to end a path loses or keeps in a room whose answer is known.
+void furnace_by_ending(int rays, const examples::Options& options) {
     examples::Table table{.name = "recursion_depth-furnace-table",
                           .columns = {"albedo", "depth 4", "threshold 0.1",
                                       "threshold 0.01", "roulette", "± of its mean"}};
@@ -173,37 +210,28 @@ void furnace(const examples::Options& options) {
         const auto room = sphere_furnace<float>(Rgb{1}, Rgb{albedo});
         const double all = 1 / (1 - double(albedo));
         std::vector<std::string> row{text(double(albedo))};
-        double sure = 0;
+        Mean light;
         const auto add = [&](Ending ending, int depth, double threshold) {
-            const auto paths =
-                examples::make_ended_paths(room.scene, ending, depth, threshold);
-            std::vector<Image> runs;
-            for (std::uint64_t seed = 1; seed <= 4; ++seed)
-                runs.push_back(render(paths, room.camera,
-                                      {.width = 32,
-                                       .height = 32,
-                                       .samples = 4 * rays,
-                                       .seed = seed,
-                                       .threads = options.threads})
-                                   .image);
-            // The runs' means, over their standard error.
-            double squares = 0;
-            const double mean = mean_of(runs);
-            for (const Image& run : runs) {
-                const double off = mean_of({run}) - mean;
-                squares += off * off;
-            }
-            sure = std::sqrt(squares / 3 / 4) / all;
-            row.push_back(percent(mean, all));
+            light = light_of(
+                examples::make_ended_paths(room.scene, ending, depth, threshold),
+                room.camera, rays, options.threads);
+            row.push_back(percent(light.value, all));
         };
         add(Ending::depth, 4, 1);
         add(Ending::threshold, 0, 0.1);
         add(Ending::threshold, 0, 0.01);
         add(Ending::roulette, 4, 1);
-        row.push_back(text(100 * sure, "%.2g %%"));
+        row.push_back(text(100 * light.error / all, "%.2g %%"));
         table.rows.push_back(row);
     }
     save_table(options.path(""), table);
+}
+
+/// What is lost in a room whose answer is known.
+void furnace(const examples::Options& options) {
+    const int rays = options.pick(16, 64, 256);
+    furnace_by_depth(rays, options);
+    furnace_by_ending(4 * rays, options);
 }
 
 // --- Depth, threshold, roulette: error against time ----------------------------------
@@ -226,7 +254,7 @@ void endings(const Room4& room, const examples::Oracle& oracle,
                                 {"roulette from 1", Ending::roulette, 1, 1},
                                 {"roulette, safe above 0.1", Ending::roulette, 1, 0.1}};
     examples::Table table{.name = "recursion_depth-endings",
-                          .columns = {"", "rays a camera ray", "s", "light", "bias²",
+                          .columns = {"", "rays per camera ray", "s", "light", "bias²",
                                       "noise", "1 / (noise × s)", "bias² of blocks"}};
     const double truth = mean_of(oracle.truth);
     for (const Way& way : ways) {
@@ -334,41 +362,57 @@ ImageT<double> own_truth(const Renderer& renderer, const Camera& camera, int siz
     return truth;
 }
 
-/// Rays where they are needed, for one renderer.
+/// A renderer by which ways to share out rays are tried.
 template <typename Renderer>
-void adaptive(const std::string& name, const Renderer& renderer, const Camera& camera,
-              const examples::Options& options, const Sizes& sizes) {
-    const int size = std::min(options.pick(24, 96, 128), options.width);
-    const auto truth =
-        own_truth(renderer, camera, size,
-                  std::max(16, sizes.truth / options.pick(1, 4, 4)), options);
-    const std::vector<Sharing> ways{
+struct Trial {
+    std::string name; ///< In names of files.
+    const Renderer& renderer;
+    const Camera& camera;
+    const examples::Options& options;
+    int seeds;                 ///< Runs behind each number.
+    ImageT<double> truth = {}; ///< By the renderer itself.
+
+    [[nodiscard]] Shared operator()(const Sharing& way, int samples) const {
+        return share(renderer, camera, way, samples, truth, options, seeds);
+    }
+};
+
+/// The ways that are compared, with some rays per pixel each.
+std::vector<Sharing> sharings() {
+    const auto squares = [](int side, bool two_stage) {
+        return [side, two_stage](int) {
+            return AdaptiveSettings{
+                .first = 8, .more = 8, .block = side, .two_stage = two_stage};
+        };
+    };
+    return {
         {"all alike", {}},
         {"pixel by pixel", [](int) { return AdaptiveSettings{.first = 8, .more = 8}; }},
-        {"squares of 4",
-         [](int) { return AdaptiveSettings{.first = 8, .more = 8, .block = 4}; }},
-        {"squares of 8",
-         [](int) { return AdaptiveSettings{.first = 8, .more = 8, .block = 8}; }},
-        {"squares of 4 in two stages", [](int) {
-             return AdaptiveSettings{
-                 .first = 8, .more = 8, .block = 4, .two_stage = true};
-         }}};
-    examples::Plot plot{.name = "recursion_depth-adaptive-" + name,
-                        .columns = {"rays a pixel"},
+        {"squares of 4", squares(4, false)},
+        {"squares of 8", squares(8, false)},
+        {"squares of 4 in two stages", squares(4, true)}};
+}
+
+/// The error of each way, by the number of rays.
+template <typename Renderer>
+void error_of_sharing(const Trial<Renderer>& trial) {
+    const auto& options = trial.options;
+    const std::vector<Sharing> ways = sharings();
+    examples::Plot plot{.name = "recursion_depth-adaptive-" + trial.name,
+                        .columns = {"rays per pixel"},
                         .y_label = "relMSE",
                         .log_x = true,
                         .log_y = true};
     for (const Sharing& way : ways) plot.columns.push_back(way.name);
-    examples::Table table{.name = "recursion_depth-adaptive-" + name + "-table",
+    examples::Table table{.name = "recursion_depth-adaptive-" + trial.name + "-table",
                           .columns = {"rays", "", "relMSE", "it believes", "trimmed",
                                       "blocks", "light", "s"}};
-    const double level = mean_of(truth);
+    const double level = mean_of(trial.truth);
     const int most = options.pick(64, 256, 1024);
     for (int samples = 16; samples <= most; samples *= 4) {
         examples::Row row{double(samples)};
         for (const Sharing& way : ways) {
-            const Shared found =
-                share(renderer, camera, way, samples, truth, options, sizes.seeds);
+            const Shared found = trial(way, samples);
             row.push_back(found.error);
             table.rows.push_back(
                 {text(found.rays, "%.1f"), way.name, text(found.error, "%.2g"),
@@ -380,16 +424,20 @@ void adaptive(const std::string& name, const Renderer& renderer, const Camera& c
     }
     save_plot(options.path(""), plot);
     save_table(options.path(""), table);
+}
 
-    // Where the rays went.
-    const auto seen = render_adaptive(renderer, camera,
+/// Where the rays went: the picture, and a map of their number.
+template <typename Renderer>
+void map_of_rays(const Trial<Renderer>& trial) {
+    const auto& options = trial.options;
+    const auto seen = render_adaptive(trial.renderer, trial.camera,
                                       {.width = options.width,
                                        .height = options.height,
                                        .samples = 64,
                                        .seed = options.seed,
                                        .threads = options.threads},
                                       {.first = 8, .more = 8, .block = 4});
-    save_png(seen.image, options.path("recursion_depth-" + name + ".png"));
+    save_png(seen.image, options.path("recursion_depth-" + trial.name + ".png"));
     ImageT<double> rays = make_image<double>(seen.rays.width, seen.rays.height);
     double largest = 0;
     for (std::size_t i = 0; i < rays.pixels.size(); ++i) {
@@ -397,12 +445,15 @@ void adaptive(const std::string& name, const Renderer& renderer, const Camera& c
         largest = std::max(largest, rays.pixels[i].x);
     }
     save_png(error_picture(rays, examples::Ramp::heat, 0, std::min(largest, 256.0)),
-             options.path("recursion_depth-" + name + "-rays.png"));
+             options.path("recursion_depth-" + trial.name + "-rays.png"));
+}
 
-    // Stop at an error.
-    examples::Table stop{.name = "recursion_depth-stop-" + name,
-                         .columns = {"stop at relMSE", "", "rays a pixel",
-                                     "it believes", "relMSE", "trimmed", "light"}};
+/// Rays until each square believes that its error is small enough.
+template <typename Renderer>
+void stop_at_error(const Trial<Renderer>& trial) {
+    examples::Table table{.name = "recursion_depth-stop-" + trial.name,
+                          .columns = {"stop at relMSE", "", "rays per pixel",
+                                      "it believes", "relMSE", "trimmed", "light"}};
     for (const double target : {0.1, 0.03, 0.01})
         for (const bool two_stage : {false, true}) {
             const Sharing way{two_stage ? "two stages" : "as it goes",
@@ -413,21 +464,23 @@ void adaptive(const std::string& name, const Renderer& renderer, const Camera& c
                                                           .target = target,
                                                           .two_stage = two_stage};
                               }};
-            const Shared found =
-                share(renderer, camera, way, options.pick(256, 4096, 4096), truth,
-                      options, sizes.seeds);
-            stop.rows.push_back({text(target), way.name, text(found.rays, "%.1f"),
-                                 text(found.estimate, "%.3g"),
-                                 text(found.error, "%.3g"), text(found.trimmed, "%.3g"),
-                                 percent(found.mean, level)});
+            const Shared found = trial(way, trial.options.pick(256, 4096, 4096));
+            table.rows.push_back({text(target), way.name, text(found.rays, "%.1f"),
+                                  text(found.estimate, "%.3g"),
+                                  text(found.error, "%.3g"),
+                                  text(found.trimmed, "%.3g"),
+                                  percent(found.mean, mean_of(trial.truth))});
         }
-    save_table(options.path(""), stop);
+    save_table(trial.options.path(""), table);
+}
 
-    // Two rays, and more where they disagree.
-    examples::Table pairs{.name = "recursion_depth-pairs-" + name,
-                          .columns = {"two rays, and 8 more above", "rays a pixel",
-                                      "relMSE", "all alike", "trimmed", "all alike ",
-                                      "light"}};
+/// Two rays, and more where they disagree; beside as many rays everywhere.
+template <typename Renderer>
+void more_where_two_disagree(const Trial<Renderer>& trial) {
+    examples::Table table{.name = "recursion_depth-pairs-" + trial.name,
+                          .columns = {"two rays, and 8 more above", "rays per pixel",
+                                      "relMSE", "relMSE, all alike", "trimmed",
+                                      "trimmed, all alike", "light"}};
     for (const double limit : {1.0, 0.5, 0.25, 0.1}) {
         const Sharing way{"", [limit](int) {
                               return AdaptiveSettings{.first = 2,
@@ -435,17 +488,31 @@ void adaptive(const std::string& name, const Renderer& renderer, const Camera& c
                                                       .batches = 1,
                                                       .disagreement = limit};
                           }};
-        const Shared found =
-            share(renderer, camera, way, 10, truth, options, sizes.seeds);
+        const Shared found = trial(way, 10);
         const int many = std::max(1, static_cast<int>(std::lround(found.rays)));
-        const Shared alike =
-            share(renderer, camera, {"", {}}, many, truth, options, sizes.seeds);
-        pairs.rows.push_back(
+        const Shared alike = trial({"", {}}, many);
+        table.rows.push_back(
             {text(limit), text(found.rays, "%.2f"), text(found.error, "%.2g"),
              text(alike.error, "%.2g") + " (" + std::to_string(many) + ")",
-             text(found.trimmed, "%.2g"), percent(found.mean, level)});
+             text(found.trimmed, "%.2g"), text(alike.trimmed, "%.2g"),
+             percent(found.mean, mean_of(trial.truth))});
     }
-    save_table(options.path(""), pairs);
+    save_table(trial.options.path(""), table);
+}
+
+/// Rays where they are needed, for one renderer.
+template <typename Renderer>
+void adaptive(const std::string& name, const Renderer& renderer, const Camera& camera,
+              const examples::Options& options, const Sizes& sizes) {
+    const int size = std::min(options.pick(24, 96, 128), options.width);
+    const int rays = std::max(16, sizes.truth / options.pick(1, 4, 4));
+    const Trial<Renderer> trial{
+        name,    renderer,    camera,
+        options, sizes.seeds, own_truth(renderer, camera, size, rays, options)};
+    error_of_sharing(trial);
+    map_of_rays(trial);
+    stop_at_error(trial);
+    more_where_two_disagree(trial);
 }
 
 /// The bias of choosing by the rays that are averaged, in closed form: a bright spot
@@ -455,7 +522,7 @@ void spot(const examples::Options& options) {
                         .columns = {"chance of a ray to find the spot",
                                     "2 rays then 8 more", "8 rays then 8 more",
                                     "32 rays then 32 more"},
-                        .y_label = "light that is found, of all",
+                        .y_label = "fraction of the light that is found",
                         .log_x = true};
     for (int i = 0; i <= 40; ++i) {
         const double p = std::pow(10.0, -3 + i / 16.0 * 1.15);
@@ -484,7 +551,8 @@ int main(int argc, char** argv) {
         Sizes sizes;
         line.about("Chapter 34, depth: table 4, figure 13, and adaptive sampling.");
         line.add("--seeds", sizes.seeds, "Runs behind each error", 2, 1000);
-        line.add("--truth", sizes.truth, "Rays a pixel of the reference", 8, 100000000);
+        line.add("--truth", sizes.truth, "Rays per pixel of the reference", 8,
+                 100000000);
         const examples::Options options =
             line.parse({.draft{.width = 64, .height = 64, .samples = 8},
                         .report{.width = 400, .height = 400, .samples = 64},
@@ -502,7 +570,7 @@ int main(int argc, char** argv) {
         endings(room, oracle, options, sizes);
         examples::Table truth{
             .name = "recursion_depth-truth",
-            .columns = {"reference", "rays a pixel", "its own relMSE", "of blocks"},
+            .columns = {"reference", "rays per pixel", "its own relMSE", "of blocks"},
             .rows = {{"path tracing, no limit of depth", std::to_string(oracle.rays),
                       text(oracle.noise, "%.2g"), text(oracle.block_noise, "%.2g")}}};
         save_table(options.path(""), truth);

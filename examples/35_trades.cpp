@@ -68,6 +68,163 @@ const std::vector<std::string> knobs{
     "indirect", "gather-rays", "gather-tile", "gather-reach", "irradiance-every",
     "precision"};
 
+/// The settings of one knob, as they are put together: each is the middle, changed.
+struct Around {
+    Setting middle;
+    float unit; ///< Half of the room's width, which radii are told in.
+    int size;   ///< Of the pictures.
+    bool full;  ///< Farther than in a draft.
+    std::vector<Setting> all{};
+
+    /// The middle's settings of photons and rays.
+    PhotonMappingSettings& s() { return middle.recipe.settings; }
+
+    /// Adds a setting. `change` gets it, and its settings of photons and rays.
+    template <typename Change>
+    void add(const std::string& value, double x, Change change) {
+        all.push_back(middle);
+        all.back().value = value;
+        all.back().x = x;
+        change(all.back(), all.back().recipe.settings);
+    }
+    /// Adds one for each number, which `change` gets as well.
+    template <typename Number = int, typename Change>
+    void numbers(const std::vector<Number>& values, Change change) {
+        for (const Number n : values)
+            add(text(double(n), "%.6g"), double(n),
+                [&](Setting& one, PhotonMappingSettings& how) { change(one, how, n); });
+    }
+    /// Adds one for each word, whose place in the list `change` gets.
+    template <typename Change>
+    void words(const std::vector<std::string>& values, Change change) {
+        for (std::size_t i = 0; i < values.size(); ++i)
+            add(values[i], 0, [&](Setting& one, PhotonMappingSettings& how) {
+                change(one, how, static_cast<int>(i));
+            });
+    }
+};
+
+/// Whole ways to make a picture.
+void add_presets(Around& to) {
+    for (const auto& recipe : examples::recipes(to.size, to.size))
+        to.add(recipe.name, 0, [&](Setting& one, auto&) { one.recipe = recipe; });
+    to.words({"paths", "report"}, [&](Setting& one, auto& how, int report) {
+        one.paths = report == 0;
+        if (one.paths) return;
+        how = {.max_depth = 4, .roulette_depth = 5};
+        how.caustics.photons = to.full ? 100000 : 10000;
+        how.caustics_estimate.radius = 0.01f * to.unit;
+    });
+}
+
+/// Rays through a pixel, of photon mapping and of path tracing.
+void add_rays(Around& to) {
+    for (const int n : {1, 4, 16, 64}) {
+        if (n > 16 && !to.full) continue;
+        to.add(std::to_string(n), n, [n](Setting& one, auto&) { one.recipe.rays = n; });
+        to.add("paths " + std::to_string(n), n, [n](Setting& one, auto&) {
+            one.recipe.rays = n;
+            one.paths = true;
+        });
+    }
+}
+
+/// Adds the settings of a knob that turns rays and paths.
+void add_path_knob(Around& to, const std::string& knob) {
+    if (knob == "preset") add_presets(to);
+    if (knob == "rays") add_rays(to);
+    if (knob == "sampling")
+        to.words({"random", "jittered", "multi-jittered", "sobol"},
+                 [](Setting& one, auto&, int i) { one.sampling = Sampling(i); });
+    if (knob == "shadow-rays")
+        to.numbers({1, 2, 4, 9},
+                   [](Setting&, auto& how, int n) { how.shadow_rays = n; });
+    if (knob == "direct")
+        to.words({"sampled", "analytic", "mis"},
+                 [](Setting&, auto& how, int i) { how.direct = DirectLight(i); });
+    if (knob == "glass")
+        to.words({"one way", "both ways"},
+                 [](Setting&, auto& how, int i) { how.split_glass = i == 1; });
+    if (knob == "depth")
+        to.numbers({1, 2, 3, 4, 6, 8}, [](Setting&, auto& how, int depth) {
+            how.max_depth = depth;
+            how.roulette_depth = depth + 1;
+        });
+    if (knob == "roulette")
+        to.numbers({1, 2, 4, 8, 16},
+                   [](Setting&, auto& how, int from) { how.roulette_depth = from; });
+    if (knob == "precision")
+        to.words({"float", "double"},
+                 [](Setting& one, auto&, int i) { one.in_double = i == 1; });
+}
+
+/// Adds the settings of a knob that turns the photons of caustics.
+void add_caustics_knob(Around& to, const std::string& knob) {
+    to.middle.of_maps = true;
+    if (knob == "photons")
+        to.numbers(to.full ? std::vector{1000, 10000, 100000, 300000}
+                           : std::vector{1000, 10000, 100000},
+                   [](Setting&, auto& how, int n) { how.caustics.photons = n; });
+    if (knob == "radius")
+        to.numbers<float>({0.0125f, 0.025f, 0.05f, 0.1f, 0.2f, 0.4f},
+                          [&](Setting&, auto& how, float r) {
+                              how.caustics_estimate.radius = r * to.unit;
+                          });
+    if (knob == "nearest") {
+        to.s().caustics_estimate.radius = to.unit;
+        to.numbers({4, 16, 64, 256}, [](Setting&, auto& how, int k) {
+            how.caustics_estimate.nearest = std::size_t(k);
+        });
+    }
+    if (knob == "kernel")
+        to.words({"box", "cone", "gaussian", "epanechnikov", "biweight"},
+                 [](Setting&, auto& how, int i) {
+                     how.caustics_estimate.kernel = Kernel(i);
+                 });
+    if (knob == "numbers")
+        to.words({"random", "sobol"}, [](Setting&, auto& how, int i) {
+            how.caustics.numbers = PhotonSampling(i);
+        });
+    if (knob == "budget")
+        to.words(
+            {"as seen", "equal", "flux", "area", "brightness"},
+            [](Setting&, auto& how, int i) { how.caustic_budget = CausticBudget(i); });
+    to.middle.of_maps = false;
+}
+
+/// Adds the settings of a knob that turns direct and indirect light from the general
+/// map.
+void add_general_knob(Around& to, const std::string& knob) {
+    if (knob == "skip") {
+        to.s().direct = DirectLight::sampled;
+        to.s().general.photons = to.full ? 300000 : 30000;
+        to.words({"none", "report", "any", "enough"},
+                 [](Setting&, auto& how, int i) { how.skip.rule = SkipRule(i); });
+    }
+    if (knob == "indirect") {
+        to.s().general.photons = to.full ? 60000 : 20000;
+        to.words({"rays", "map", "photons", "gather", "cache", "none"},
+                 [](Setting&, auto& how, int i) { how.indirect = IndirectLight(i); });
+    }
+    if (knob.rfind("gather", 0) == 0 || knob == "irradiance-every") {
+        // What gathers needs precomputed irradiance.
+        to.middle.recipe = examples::recipes(to.size, to.size)[1];
+        to.s().general.photons = to.full ? 60000 : 20000;
+    }
+    if (knob == "gather-rays")
+        to.numbers({4, 9, 25, 64},
+                   [](Setting&, auto& how, int n) { how.gather.rays = n; });
+    if (knob == "gather-tile")
+        to.numbers({1, 2, 3, 5, 8},
+                   [](Setting&, auto& how, int n) { how.gather.tile = n; });
+    if (knob == "gather-reach")
+        to.numbers<float>({0.125f, 0.25f, 0.5f, 1.0f, 2.0f},
+                          [](Setting&, auto& how, float a) { how.gather.reach = a; });
+    if (knob == "irradiance-every")
+        to.numbers({2, 6, 16, 64},
+                   [](Setting&, auto& how, int n) { how.irradiance.every = n; });
+}
+
 /// The settings of one knob, around a middle.
 /// \param knob  Which.
 /// \param unit  Half of the room's width, which radii are told in.
@@ -75,131 +232,17 @@ const std::vector<std::string> knobs{
 /// \param full  Farther than in a draft.
 std::vector<Setting> settings_of(const std::string& knob, float unit, int size,
                                  bool full) {
-    Setting middle{.knob = knob};
-    middle.recipe.rays = full ? 16 : 4;
-    auto& s = middle.recipe.settings;
+    Around around{.middle = {.knob = knob}, .unit = unit, .size = size, .full = full};
+    around.middle.recipe.rays = full ? 16 : 4;
+    PhotonMappingSettings& s = around.s();
     s = preset_settings(Preset::exact, size, size);
     s.caustics.photons = s.general.photons = full ? 30000 : 10000;
     s.caustics_estimate.radius = 0.05f * unit;
     s.general_estimate.radius = 0.15f * unit;
-    std::vector<Setting> all;
-    const auto add = [&](const std::string& value, double x, auto change) {
-        all.push_back(middle);
-        all.back().value = value;
-        all.back().x = x;
-        change(all.back(), all.back().recipe.settings);
-    };
-    const auto counts = [&](std::initializer_list<int> values, auto change) {
-        for (const int n : values)
-            add(std::to_string(n), n,
-                [&](Setting& one, PhotonMappingSettings& how) { change(one, how, n); });
-    };
-    const auto words = [&](const std::vector<std::string>& values, auto change) {
-        for (std::size_t i = 0; i < values.size(); ++i)
-            add(values[i], 0, [&](Setting& one, PhotonMappingSettings& how) {
-                change(one, how, static_cast<int>(i));
-            });
-    };
-    const auto cached = [&] { // what gathers needs precomputed irradiance
-        middle.recipe = examples::recipes(size, size)[1];
-        s.general.photons = full ? 60000 : 20000;
-    };
-    if (knob == "preset") {
-        for (const auto& recipe : examples::recipes(size, size))
-            add(recipe.name, 0, [&](Setting& one, auto&) { one.recipe = recipe; });
-        words({"paths", "report"}, [&](Setting& one, auto& how, int report) {
-            one.paths = report == 0;
-            if (one.paths) return;
-            how = {.max_depth = 4, .roulette_depth = 5};
-            how.caustics.photons = full ? 100000 : 10000;
-            how.caustics_estimate.radius = 0.01f * unit;
-        });
-    }
-    if (knob == "rays")
-        for (const int n : full ? std::vector{1, 4, 16, 64} : std::vector{1, 4, 16}) {
-            counts({n}, [](Setting& one, auto&, int rays) { one.recipe.rays = rays; });
-            add("paths " + std::to_string(n), n, [n](Setting& one, auto&) {
-                one.recipe.rays = n;
-                one.paths = true;
-            });
-        }
-    if (knob == "sampling")
-        words({"random", "jittered", "multi-jittered", "sobol"},
-              [](Setting& one, auto&, int i) { one.sampling = Sampling(i); });
-    if (knob == "shadow-rays")
-        counts({1, 2, 4, 9}, [](Setting&, auto& how, int n) { how.shadow_rays = n; });
-    if (knob == "direct")
-        words({"sampled", "analytic", "mis"},
-              [](Setting&, auto& how, int i) { how.direct = DirectLight(i); });
-    if (knob == "glass")
-        words({"one way", "both ways"},
-              [](Setting&, auto& how, int i) { how.split_glass = i == 1; });
-    if (knob == "depth")
-        counts({1, 2, 3, 4, 6, 8}, [](Setting&, auto& how, int depth) {
-            how.max_depth = depth;
-            how.roulette_depth = depth + 1;
-        });
-    if (knob == "roulette")
-        counts({1, 2, 4, 8, 16},
-               [](Setting&, auto& how, int from) { how.roulette_depth = from; });
-    middle.of_maps = true; // from here on the knobs turn photons
-    if (knob == "photons")
-        for (const int n : {1000, 10000, 100000, 300000})
-            if (full || n <= 100000)
-                counts({n},
-                       [](Setting&, auto& how, int i) { how.caustics.photons = i; });
-    if (knob == "radius")
-        for (const float r : {0.0125f, 0.025f, 0.05f, 0.1f, 0.2f, 0.4f})
-            add(text(double(r)), double(r),
-                [&](Setting&, auto& how) { how.caustics_estimate.radius = r * unit; });
-    if (knob == "nearest") {
-        s.caustics_estimate.radius = unit;
-        counts({4, 16, 64, 256}, [](Setting&, auto& how, int k) {
-            how.caustics_estimate.nearest = std::size_t(k);
-        });
-    }
-    if (knob == "kernel")
-        words({"box", "cone", "gaussian", "epanechnikov", "biweight"},
-              [](Setting&, auto& how, int i) {
-                  how.caustics_estimate.kernel = Kernel(i);
-              });
-    if (knob == "numbers")
-        words({"random", "sobol"}, [](Setting&, auto& how, int i) {
-            how.caustics.numbers = PhotonSampling(i);
-        });
-    if (knob == "budget")
-        words(
-            {"as seen", "equal", "flux", "area", "brightness"},
-            [](Setting&, auto& how, int i) { how.caustic_budget = CausticBudget(i); });
-    middle.of_maps = false;
-    if (knob == "skip") {
-        s.direct = DirectLight::sampled;
-        s.general.photons = full ? 300000 : 30000;
-        words({"none", "report", "any", "enough"},
-              [](Setting&, auto& how, int i) { how.skip.rule = SkipRule(i); });
-    }
-    if (knob == "indirect") {
-        s.general.photons = full ? 60000 : 20000;
-        words({"rays", "map", "photons", "gather", "cache", "none"},
-              [](Setting&, auto& how, int i) { how.indirect = IndirectLight(i); });
-    }
-    if (knob.rfind("gather", 0) == 0 || knob == "irradiance-every") cached();
-    if (knob == "gather-rays")
-        counts({4, 9, 25, 64}, [](Setting&, auto& how, int n) { how.gather.rays = n; });
-    if (knob == "gather-tile")
-        counts({1, 2, 3, 5, 8},
-               [](Setting&, auto& how, int n) { how.gather.tile = n; });
-    if (knob == "gather-reach")
-        for (const float a : {0.125f, 0.25f, 0.5f, 1.0f, 2.0f})
-            add(text(double(a)), double(a),
-                [&](Setting&, auto& how) { how.gather.reach = a; });
-    if (knob == "irradiance-every")
-        counts({2, 6, 16, 64},
-               [](Setting&, auto& how, int n) { how.irradiance.every = n; });
-    if (knob == "precision")
-        words({"float", "double"},
-              [](Setting& one, auto&, int i) { one.in_double = i == 1; });
-    return all;
+    add_path_knob(around, knob);
+    add_caustics_knob(around, knob);
+    add_general_knob(around, knob);
+    return around.all;
 }
 
 /// What the user may set besides the common options.
@@ -207,7 +250,7 @@ struct Request {
     std::string only = "all"; ///< A knob.
     int size = 40;            ///< Side of the pictures.
     int seeds = 0;            ///< Pictures by each setting.
-    int truth = 0;            ///< Rays a pixel of the references.
+    int truth = 0;            ///< Rays per pixel of the references.
     bool references = false;  ///< Only those.
     bool check = false;       ///< Fail if a claim of the book does not hold.
 };
@@ -223,7 +266,7 @@ struct Sweep {
     std::map<std::string, std::string> stamps{};
     std::vector<examples::Claim> claims{}; ///< Of promises.
     examples::Table references{.name = "trades-references",
-                               .columns = {"room", "rays a pixel", "its own relMSE",
+                               .columns = {"room", "rays per pixel", "its own relMSE",
                                            "of blocks", "least relMSE measured",
                                            "its standard error is"}};
     examples::Table promises{.name = "trades-promises",
@@ -425,7 +468,7 @@ int main(int argc, char** argv) {
         line.add("--only", request.only, "Nothing but this knob", words);
         line.add("--size", request.size, "Side of the pictures in pixels", 4, 1000);
         line.add("--seeds", request.seeds, "Pictures by each setting", 3, 1000);
-        line.add("--truth", request.truth, "Rays a pixel of the references", 8,
+        line.add("--truth", request.truth, "Rays per pixel of the references", 8,
                  100000000);
         line.add("--references", request.references, "Make the references only");
         line.add("--check", request.check, "Fail where a claim of the book does");

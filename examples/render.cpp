@@ -296,15 +296,15 @@ std::pair<int, int> pixel_of(const std::string& text, const RenderSettings& pict
 void print(const Counts& counts, double seconds) {
     const auto samples = static_cast<double>(counts.camera_rays);
     const auto rays = static_cast<double>(counts.rays());
-    std::printf("  %-16s %8.2f s  %" PRIu64 " rays, %.2f a sample, %.2f million/s\n",
+    std::printf("  %-16s %8.2f s  %" PRIu64 " rays, %.2f per sample, %.2f million/s\n",
                 "render", seconds, counts.rays(), rays / samples,
                 rays / seconds * 1e-6);
     std::printf("  %-16s %10s  %" PRIu64 " from the camera, %" PRIu64
                 " bounces, %" PRIu64 " to lights\n",
                 "", "", counts.camera_rays, counts.bounce_rays, counts.shadow_rays);
     if (counts.map_queries > 0)
-        std::printf("  %-16s %10s  %.2f map queries a sample, %.1f photons each\n", "",
-                    "", static_cast<double>(counts.map_queries) / samples,
+        std::printf("  %-16s %10s  %.2f map queries per sample, %.1f photons each\n",
+                    "", "", static_cast<double>(counts.map_queries) / samples,
                     static_cast<double>(counts.map_photons) /
                         static_cast<double>(counts.map_queries));
     if (counts.skipped_rays + counts.skipped_bounces > 0)
@@ -666,7 +666,7 @@ void run_request(const examples::CommandLine& line, Request request,
 
     const std::string name = loaded.name.empty() ? stem : loaded.name;
     const std::string rays =
-        promised ? "" : std::to_string(picture.samples) + " rays a pixel, ";
+        promised ? "" : std::to_string(picture.samples) + " rays per pixel, ";
     if (!options.quiet || request.plan)
         std::printf("%s: %zu objects, %zu lights; %d x %d, %s%s\n", name.c_str(),
                     loaded.scene.size(), loaded.scene.lights.size(), picture.width,

@@ -33,9 +33,9 @@ inline void save_knob(const std::string& folder, const Notebook& notebook,
               .log_y = true,
               .notes = {notebook.conditions}};
     Table table{.name = plot.name + "-table",
-                .columns = {"room", "at", "s", "of which photons", "MB", "rays a pixel",
-                            "RMSE", "relMSE", "bias²", "noise", "of which photons",
-                            "blocks", "trimmed", "FLIP"},
+                .columns = {"room", "at", "s", "of which photons", "MB",
+                            "rays per pixel", "RMSE", "relMSE", "bias²", "noise",
+                            "of which photons", "blocks", "trimmed", "FLIP"},
                 .notes = plot.notes};
     for (const std::string& scene : scenes) plot.columns.push_back(scene);
     for (std::size_t s = 0; s < scenes.size(); ++s) {

@@ -70,7 +70,8 @@ chord(const RayT<T>& ray, const SphereT<T>& sphere) noexcept {
     const C a = glm::dot(d, d);
     const C b = -glm::dot(oc, d);
     const C inverse_a = C(1) / a;
-
+    // [chord]
+    // [chord ends]
     // From the centre to the point of the line that is nearest to it.
     const Vec3T<C> p = oc + (b * inverse_a) * d;
     const C discriminant = r * r - glm::dot(p, p);
@@ -88,7 +89,7 @@ chord(const RayT<T>& ray, const SphereT<T>& sphere) noexcept {
     // By their size, not by q's sign: two roots that are almost one may change places.
     return ChordT<C>{.enter = std::min(small, large), .leave = std::max(small, large)};
 }
-// [chord]
+// [chord ends]
 
 } // namespace detail
 

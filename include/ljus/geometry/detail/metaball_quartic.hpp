@@ -89,7 +89,7 @@ template <std::floating_point C>
 /// \return The first t where f changes its sign; nothing for a miss.
 /// \cost A span has at most 10 roots of first_change() to find; n blobs have at most
 ///       3 n - 1 spans, and a span costs n additions of a quartic.
-// [spans]
+// [first meeting]
 template <typename Solver, std::floating_point C>
 requires(std::same_as<Solver, QuarticPieces> || std::same_as<Solver, Radicals>)
     [[nodiscard]] std::optional<C> first_meeting(const Solver& solver,
@@ -99,6 +99,8 @@ requires(std::same_as<Solver, QuarticPieces> || std::same_as<Solver, Radicals>)
     const C end = glm::min(t_max, line.leave);
     if (!(a < end)) return std::nullopt;
     const bool inside = line.value(a) >= C(0);
+    // [first meeting]
+    // [spans]
     while (a < end) {
         C b = end; // the next border
         for (const auto& strand : line.strands) {
