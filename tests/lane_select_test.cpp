@@ -74,3 +74,15 @@ TEST_CASE("lane_select: the middle of two numbers lies between them, in steps") 
     }
     CHECK(steps <= 33);
 }
+
+TEST_CASE("lane_select: one number far from all others makes no search long") {
+    // Each guess by the spread of the numbers would move the lower end by a millionth
+    // of what is left: millions of passes. The middle in bits is there in some dozens.
+    constexpr std::size_t n = std::size_t{1} << 21;
+    std::vector<float> values(n, 1.0f);
+    for (std::size_t i = 0; i < n; ++i) values[i] = 1.0f + 1e-7f * float(i % 1000);
+    values[12345] = 0;
+    std::vector<float> sorted = values;
+    std::nth_element(sorted.begin(), sorted.begin() + 3000, sorted.end());
+    CHECK(ljus::detail::select_smallest(values.data(), n, 3001) == sorted[3000]);
+}
