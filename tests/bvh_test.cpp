@@ -486,3 +486,19 @@ TEST_CASE("bvh: its box and its bytes") {
           tree.nodes().capacity() * 32 + tree.primitive_ids().capacity() * 4);
     CHECK(Bvh{}.bytes() == 0);
 }
+
+TEST_CASE("bvh: how a tree is built if nothing is said") {
+    const BvhSettings settings;
+    CHECK(settings.leaf_size == 4);
+    CHECK(settings.at_a_time == 1);
+    CHECK(settings.node_cost == 1);
+    CHECK(settings.threads == 0);
+    const std::vector<Box> boxes(3, Box{{0, 0, 0}, {1, 1, 1}});
+    CHECK_THROWS_WITH_AS(Bvh(boxes, {.leaf_size = 0}),
+                         "leaf_size is 0; it must be at least 1.",
+                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(Bvh(boxes, {.at_a_time = 0}),
+                         "at_a_time is 0; it must be at least 1.",
+                         std::invalid_argument);
+    CHECK_NOTHROW(Bvh(boxes, {.leaf_size = 1, .at_a_time = 1}));
+}

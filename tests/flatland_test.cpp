@@ -744,3 +744,32 @@ TEST_CASE("flatland: what cannot be is refused with a sentence") {
                     std::invalid_argument);
     CHECK_NOTHROW(check(DensityEstimateSettings{}));
 }
+
+TEST_CASE("flatland: what there is if nothing is said") {
+    CHECK(Lambertian{}.albedo == 0.5);
+    CHECK(Mirror{}.reflectance == 1);
+    CHECK(Glass{}.index == 1.5);
+    CHECK(BsdfSample{}.eta_scale == 1);
+    CHECK(BsdfSample{}.weight == 0);
+    CHECK(Ray{}.t_min == 1e-9);
+    CHECK(std::isinf(Ray{}.t_max));
+    CHECK(Object{}.emission == 0);
+    CHECK(PathState{}.throughput == 1);
+    CHECK(PathState{}.depth == 0);
+    CHECK_FALSE(PathState{}.specular);
+    const PhotonPassSettings pass;
+    CHECK(pass.photons == 10000);
+    CHECK(pass.seed == 1);
+    CHECK(pass.max_bounces == 1000);
+    const DensityEstimateSettings gather;
+    CHECK(gather.radius == 0.1);
+    CHECK(gather.nearest == 0);
+    CHECK(gather.kernel == Kernel::epanechnikov);
+    const RoomSettings room;
+    CHECK(room.lamp == Vec2{-0.45, 0.95});
+    CHECK(room.index == 1.5);
+    CHECK(room.albedo == 0.5);
+    CHECK(room.flux == 1);
+    CHECK(room.lamp_size == 0.03);
+    CHECK(room_height == 1.1);
+}

@@ -139,13 +139,13 @@ TEST_CASE("kd_tree: nobody is asked about points that are too far away") {
     std::vector<Neighbor> room(3);
     std::size_t asked = 0;
     const Vec3 center = points[7];
-    const float radius = 0.2f;
+    const float radius = 0.4f;
     (void)tree.nearest(center, radius, room, [&](std::uint32_t i) {
         ++asked;
         CHECK(ljus::distance2(tree.points()[i], center) <= double(radius) * double(radius));
         return false;
     });
-    CHECK(asked > 3);
+    CHECK(asked > 3); // more than are wanted
 }
 
 TEST_CASE("kd_tree: the longest side of a box, and how far away a box is") {

@@ -576,3 +576,20 @@ TEST_CASE("form_factors: each patch, each pair and each seed has numbers of its 
     CHECK(arrived > 10);
     CHECK(arrived < 60);
 }
+
+TEST_CASE("patches: how scenes are cut and form factors found if nothing is said") {
+    const PatchSettings cut;
+    CHECK(cut.size == 0.25);
+    CHECK(cut.most == 8192);
+    const FormFactorSettings factors;
+    CHECK(factors.analytic);
+    CHECK(factors.rays == 256);
+    CHECK(factors.shadow_rays == 16);
+    CHECK_FALSE(factors.closed);
+    CHECK(factors.seed == 1);
+    CHECK(factors.threads == 0);
+    const auto box = unit_box();
+    CHECK(refusal([&] { (void)make_patches(box, {.most = 65537}); }) ==
+          "most is 65537; it must be at most 65536: their form factors take 34 GB.");
+    CHECK_NOTHROW((void)make_patches(box, {.size = 1, .most = 65536}));
+}

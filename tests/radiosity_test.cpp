@@ -472,3 +472,13 @@ TEST_CASE("radiosity: how far a solver goes, and what it refuses, channel by cha
     CHECK_NOTHROW((void)solve_radiosity(closed, of(Color(1 - 1e-11)),
                                         {.solver = RadiositySolver::lu}));
 }
+
+TEST_CASE("radiosity: how the equations are solved if nothing is said") {
+    const SolveSettings solve;
+    CHECK(solve.solver == RadiositySolver::shooting);
+    CHECK(solve.tolerance == 1e-12);
+    CHECK(solve.max_sweeps == 10000);
+    CHECK(solve.threads == 0);
+    CHECK(LightMapSettings{}.smooth);
+    CHECK(RadiositySolution{}.converged);
+}
