@@ -190,8 +190,11 @@ TEST_CASE("flatland: rays meet segments and circles") {
     CHECK(glm::distance(normal(disc, Vec2{0.5, 0}), Vec2{1, 0}) == 0);
 
     // A wall has both its ends, a ray both of its own.
-    for (const double x : {-1.0, 1.0})
-        CHECK(*intersect(Ray{.origin{x, 2}, .direction{0, -1}}, wall) == 2);
+    for (const double x : {-1.0, 1.0}) {
+        const auto end = intersect(Ray{.origin{x, 2}, .direction{0, -1}}, wall);
+        REQUIRE(end);
+        CHECK(*end == 2);
+    }
     for (const double t : {1.999, 2.0, 2.001}) {
         const Ray to{.origin{0, 2}, .direction{0, -1}, .t_max = t};
         CHECK(intersect(to, wall).has_value() == (t >= 2));
@@ -566,7 +569,9 @@ TEST_CASE("flatland: of two lamps the second half of the numbers is the second's
     const Scene dark{square(Lambertian{1})};
     CHECK(sample_lamp(dark, {0.3, 0.3}).lamp == nullptr);
     CHECK(sample_lamp(dark, {0.3, 0.3}).probability == 0);
-    CHECK(direct_light(dark, floor_vertex(0.5), {0.3, 0.3}) == 0);
+    Vertex above = floor_vertex(0.5);
+    above.point = {.position{0.5, 0.7}, .normal{0, -1}};
+    CHECK(direct_light(dark, above, {0.3, 0.3}) == 0);
 }
 
 TEST_CASE("flatland: a lamp shines on the side of its normal, and only there") {

@@ -212,7 +212,7 @@ TEST_CASE("exchange_area: edges that are nearly parallel, and edges without a le
     // A turn that is small, but far above rounding: to take its edges for parallel ones
     // would be wrong by as much as they are turned.
     const Facet floor = rectangle({}, {1, 0, 0}, {0, 1, 0});
-    for (const double turn : {5e-7, 1e-5, 1e-3}) {
+    for (const double turn : {1e-8, 1e-7, 1e-5, 1e-3}) {
         CAPTURE(turn);
         const Facet roof = rectangle({0.3, 0.4, 1.5}, {turn, 1, 2 * turn},
                                      {0.8, -0.8 * turn, 3 * turn});

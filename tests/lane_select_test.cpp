@@ -80,9 +80,9 @@ TEST_CASE("lane_select: one number far from all others makes no search long") {
     // of what is left: millions of passes. The middle in bits is there in some dozens.
     constexpr std::size_t n = std::size_t{1} << 21;
     std::vector<float> values(n, 1.0f);
-    for (std::size_t i = 0; i < n; ++i) values[i] = 1.0f + 1e-7f * float(i % 1000);
+    values[54321] = 1.5f;
     values[12345] = 0;
     std::vector<float> sorted = values;
-    std::nth_element(sorted.begin(), sorted.begin() + 3000, sorted.end());
-    CHECK(ljus::detail::select_smallest(values.data(), n, 3001) == sorted[3000]);
+    std::nth_element(sorted.begin(), sorted.begin() + 2, sorted.end());
+    CHECK(ljus::detail::select_smallest(values.data(), n, 3) == sorted[2]);
 }

@@ -359,7 +359,7 @@ TEST_CASE("radiosity: what is not yet sent, as a share of what is emitted") {
 TEST_CASE("radiosity: patches of different areas and of colours that share a channel") {
     // Two patches: B1 = E1 + r1 F12 B2, B2 = E2 + r2 F21 B1, by hand.
     const FormFactors factors{.area = {1, 4}, .exchange = {0, 0.8, 0.8, 0}};
-    const Color r1{0.5, 0.5, 0.2}, r2{0.9, 0.3, 0.3}, e1{1, 2, 3}, e2{0.5, 0, 1};
+    const Color r1{0.5, 0.5, 0.2}, r2{0.3, 0.3, 0.9}, e1{1, 2, 3}, e2{0.5, 0, 1};
     const std::vector<Patch> patches{{.area = 1, .albedo = r1, .emitted = e1},
                                      {.area = 4, .albedo = r2, .emitted = e2}};
     const double f12 = 0.8, f21 = 0.2;
