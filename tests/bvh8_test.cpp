@@ -399,9 +399,9 @@ TEST_CASE("wide bvh: which rays can be made ready, and that boxes only grow") {
             CHECK(r.far[a] == a + (ray.direction[axis] < 0 ? 0 : 3));
             if (std::abs(ray.direction[axis]) < 1e-3f) continue;
             const float plane = float(n.between(-1, 1)) * half[axis];
-            const double exact = (double(plane) + double(middle[axis]) -
-                                  double(ray.origin[axis])) /
-                                 double(ray.direction[axis]);
+            const double exact =
+                (double(plane) + double(middle[axis]) - double(ray.origin[axis])) /
+                double(ray.direction[axis]);
             REQUIRE(double(plane * r.inverse[axis] - r.near_shift[axis]) <= exact);
             REQUIRE(double(plane * r.inverse[axis] - r.far_shift[axis]) >= exact);
         }
@@ -489,8 +489,7 @@ TEST_CASE("wide bvh: who is asked, in which order, and who is not") {
     for (const Ray& ray : rays) {
         int asks = 0, nodes = 0;
         tree.closest(
-            ray, [&](std::uint32_t, Ray&) { ++asks; },
-            [&](std::uint32_t) { ++nodes; });
+            ray, [&](std::uint32_t, Ray&) { ++asks; }, [&](std::uint32_t) { ++nodes; });
         CHECK_FALSE(tree.any(
             ray, [&](std::uint32_t) { return ++asks > 0; },
             [&](std::uint32_t) { ++nodes; }));
@@ -507,9 +506,8 @@ TEST_CASE("wide bvh: triangles that are not there are not asked, and take no mem
         const Triangles triangles = soup(n, count, 0.5, 0.5, Vec3{0});
         const TriangleBvh tree(std::uint32_t(count),
                                [&](std::uint32_t i) { return triangles[i]; });
-        CHECK(tree.bytes() ==
-              tree.tree().bytes() +
-                  tree.primitive_ids().size() / 8 * sizeof(detail::TriangleLanes));
+        CHECK(tree.bytes() == tree.tree().bytes() + tree.primitive_ids().size() / 8 *
+                                                        sizeof(detail::TriangleLanes));
         bool padding = false;
         for (int i = 0; i < 2000; ++i) { // from very near to the origin, too
             const Ray ray{.origin = Vec3(n.point(i % 2 ? 0.01 : 0.5)),

@@ -359,7 +359,8 @@ TEST_CASE("bvh: each range is split where that is cheaper, and nowhere else") {
     CHECK(chosen > 100);
 }
 
-TEST_CASE("bvh: a hit shortens the ray to itself and one unit more, and never prolongs it") {
+TEST_CASE(
+    "bvh: a hit shortens the ray to itself and one unit more, and never prolongs it") {
     const auto after = [](float t, float t_max) {
         Ray ray{.t_max = t_max};
         NearestHit nearest;

@@ -383,8 +383,8 @@ TEST_CASE("caustic_budget: the pilot's numbers, one photon after the other") {
     const float typical = typical_radius(make_photon_map(light), 64);
     const auto unsaid = pilot_caustics(room, pass, radius, light, 0.0f);
     const auto said = pilot_caustics(room, pass, radius, light, typical);
-    const auto half =
-        pilot_caustics(room, pass, radius, light, typical_radius(make_photon_map(light), 32));
+    const auto half = pilot_caustics(room, pass, radius, light,
+                                     typical_radius(make_photon_map(light), 32));
     for (std::size_t k = 0; k < 3; ++k) {
         CHECK(unsaid[k].visible == said[k].visible);
         CHECK(unsaid[k].visible != half[k].visible);
@@ -414,8 +414,9 @@ TEST_CASE("caustic_budget: how many paths a pilot has, and that it does not give
             .stored;
     };
     const auto traced = [&](long long paths) {
-        return trace_photons(room, MapType::caustics,
-                             {.photons = paths, .iteration = ~std::uint64_t{0}, .shares = {1}})
+        return trace_photons(
+                   room, MapType::caustics,
+                   {.photons = paths, .iteration = ~std::uint64_t{0}, .shares = {1}})
             .photons.size();
     };
     // A twentieth, at least 500 and at most 20 000.
@@ -433,14 +434,19 @@ TEST_CASE("caustic_budget: how many paths a pilot has, and that it does not give
     std::uint64_t seed = 1; // with which the first 2048 paths bring nothing
     for (;; ++seed)
         if (trace_photons(rare, MapType::caustics,
-                          {.photons = 20000, .seed = seed, .iteration = ~std::uint64_t{0},
-                           .shares = {1}, .give_up = 1})
+                          {.photons = 20000,
+                           .seed = seed,
+                           .iteration = ~std::uint64_t{0},
+                           .shares = {1},
+                           .give_up = 1})
                 .photons.empty())
             break;
     REQUIRE(seed < 50);
-    const auto all = trace_photons(
-        rare, MapType::caustics,
-        {.photons = 20000, .seed = seed, .iteration = ~std::uint64_t{0}, .shares = {1}});
+    const auto all = trace_photons(rare, MapType::caustics,
+                                   {.photons = 20000,
+                                    .seed = seed,
+                                    .iteration = ~std::uint64_t{0},
+                                    .shares = {1}});
     REQUIRE(all.photons.size() > 0);
     CHECK(pilot_caustics(rare, {.photons = 400000, .seed = seed, .give_up = 1}, 0.1f)[0]
               .stored == all.photons.size());

@@ -998,13 +998,11 @@ TEST_CASE("emission: from within a bound a lamp aims at all that it can shine on
     using detail::aim_at;
     Stage stage;
     const ObjectId ball = stage.scene.add(Sphere{.radius = 2}, stage.glass);
-    const ObjectId wall =
-        stage.scene.add(Quad{.corner{-3, -3, 0}, .edge_u{6, 0, 0}, .edge_v{0, 6, 0}},
-                        stage.mirror);
-    stage.scene.add(Quad{.corner{-0.1f, -0.1f, 0.5f},
-                         .edge_u{0.2f, 0, 0},
-                         .edge_v{0, 0.2f, 0}},
-                    stage.matt, Rgb{1});
+    const ObjectId wall = stage.scene.add(
+        Quad{.corner{-3, -3, 0}, .edge_u{6, 0, 0}, .edge_v{0, 6, 0}}, stage.mirror);
+    stage.scene.add(
+        Quad{.corner{-0.1f, -0.1f, 0.5f}, .edge_u{0.2f, 0, 0}, .edge_v{0, 0.2f, 0}},
+        stage.matt, Rgb{1});
     stage.scene.add(PointLight{.position{0, 0, 0.5f}});
     const SurfacePoint from{.position{0, 0, 0.5f}, .normal{0, 0, 1}};
     for (const ObjectId target : {ball, wall}) {
@@ -1035,9 +1033,8 @@ TEST_CASE("emission: a spot that is wider than its target aims at nothing else")
     Stage stage;
     const Sphere ball{.center{0, 0.5f, -4}, .radius = 0.5f};
     stage.scene.add(ball, stage.glass);
-    stage.scene.add(SpotLight{.direction{0, 0, -1},
-                              .inner_degrees = 1,
-                              .outer_degrees = 40});
+    stage.scene.add(
+        SpotLight{.direction{0, 0, -1}, .inner_degrees = 1, .outer_degrees = 40});
     const auto targets = specular_objects(stage.scene);
     const LightChoice choice = light_choice(stage.scene.lights);
     for (long long i = 0; i < 1000; ++i) {
@@ -1066,8 +1063,7 @@ TEST_CASE("emission: each light's aimed photons pay for how often it is chosen")
         REQUIRE(aimed);
         const auto light = aimed->photon.light;
         ++seen[light];
-        CHECK(double(aimed->photon.flux.x) ==
-              ljus_test::within(wanted[light], 1e-3));
+        CHECK(double(aimed->photon.flux.x) == ljus_test::within(wanted[light], 1e-3));
     }
     CHECK(seen[0] > 800);
     CHECK(seen[1] > 50);

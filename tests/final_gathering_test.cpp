@@ -685,10 +685,9 @@ TEST_CASE(
     CHECK(lit < 80);
     // As many rays as are asked for, by the seed that is asked for.
     const auto found = [&](int rays, std::uint64_t seed) {
-        const auto points =
-            make_irradiance_points(half, photons_at(200), PhotonMap{},
-                                   {.every = 2, .radius = 0.2f, .shadow_rays = rays},
-                                   seed, 1);
+        const auto points = make_irradiance_points(
+            half, photons_at(200), PhotonMap{},
+            {.every = 2, .radius = 0.2f, .shadow_rays = rays}, seed, 1);
         Mean mean;
         for (const auto& record : points.records) mean.add(double(record.irradiance.x));
         return mean;
@@ -715,14 +714,15 @@ TEST_CASE("final gathering: direct photons are no part of what is worked out") {
                                                PhotonMap{}, {.radius = 0.2f}, 1, 1);
     REQUIRE(points.records.size() == 67);
     for (std::size_t i = 0; i < 67; ++i) {
-        const double d2 = 4 + double(glm::dot(points.tree.point(i), points.tree.point(i)));
+        const double d2 =
+            4 + double(glm::dot(points.tree.point(i), points.tree.point(i)));
         CHECK(double(points.records[i].irradiance.x) ==
               ljus_test::within(2 / (d2 * std::sqrt(d2)), 1e-4));
     }
     // A point says nothing of what is farther away than its radius.
     for (const float far : {0.19f, 0.21f, 5.0f}) {
-        const Rgb light =
-            irradiance_at(points, points.tree.point(0) + Vec3{0, 0, far}, Vec3{0, 0, 1});
+        const Rgb light = irradiance_at(points, points.tree.point(0) + Vec3{0, 0, far},
+                                        Vec3{0, 0, 1});
         CHECK((light.x > 0) == (far < 0.2f));
     }
     const IrradiancePointSettings settings; // if nothing is said

@@ -482,9 +482,9 @@ TEST_CASE("flatland: which photons an estimate counts") {
     CHECK(estimate_irradiance({other}, {.position{0.1, 0}}, box).gathered == 1);
     Photon beside = here;
     beside.position = {0.35, 0};
-    const Estimate two = estimate_irradiance(
-        {other, here, beside}, point,
-        {.radius = 0.5, .nearest = 2, .kernel = Kernel::box});
+    const Estimate two =
+        estimate_irradiance({other, here, beside}, point,
+                            {.radius = 0.5, .nearest = 2, .kernel = Kernel::box});
     CHECK(two.radius == within(0.25, 1e-15));
     CHECK(two.gathered == 1);
     CHECK(two.irradiance == within(3 / 0.5, 1e-14));
@@ -608,8 +608,8 @@ TEST_CASE("flatland: a vertex says where it is and from where the path came") {
     CHECK(glm::distance(vertex->point.normal, Vec2{0, -1}) < 1e-12);
     // The frame's x is the normal turned clockwise: here to the left of the plane.
     CHECK(glm::distance(vertex->wo, glm::normalize(Vec2{1, 3})) < 1e-12);
-    CHECK_FALSE(next_vertex(scene, path = {.ray{.origin{0, 4}, .direction{0, 1}}},
-                            stream));
+    CHECK_FALSE(
+        next_vertex(scene, path = {.ray{.origin{0, 4}, .direction{0, 1}}}, stream));
 }
 
 TEST_CASE(

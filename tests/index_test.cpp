@@ -139,8 +139,7 @@ template <typename T>
 Vec3T<T> place_on(Numbers& n, const TriangleT<T>& triangle) {
     const T u = n.below(2) ? T(n.below(2)) : T(n.next());
     return triangle.v1 + u * (triangle.v2 - triangle.v1) +
-           (n.below(2) ? T(0) : (T(1) - u) * T(n.next())) *
-               (triangle.v3 - triangle.v1);
+           (n.below(2) ? T(0) : (T(1) - u) * T(n.next())) * (triangle.v3 - triangle.v1);
 }
 template <typename T>
 Vec3T<T> place_on(Numbers& n, const SphereT<T>& ball) {
@@ -236,9 +235,10 @@ TEST_CASE("few shapes: who is asked, in which order, and who is not") {
     const std::array<float, 6> starts{5, 1, 4, 2, 6, 3};
     for (std::uint32_t i = 0; i < 6; ++i) {
         const float z = starts[i];
-        CHECK((i % 3 == 0   ? few.add(Sphere{{0, 0, z + 0.25f}, 0.25f}, i)
-               : i % 3 == 1 ? few.add(Quad{{-1, -1, z}, {2, 0, 0}, {0, 2, 0}}, i)
-                            : few.add(Triangle{{-1, -1, z}, {3, -1, z}, {-1, 3, z}}, i)));
+        CHECK((i % 3 == 0 ? few.add(Sphere{{0, 0, z + 0.25f}, 0.25f}, i)
+               : i % 3 == 1
+                   ? few.add(Quad{{-1, -1, z}, {2, 0, 0}, {0, 2, 0}}, i)
+                   : few.add(Triangle{{-1, -1, z}, {3, -1, z}, {-1, 3, z}}, i)));
         CHECK_FALSE(few.empty());
     }
     const auto asked = [](const FewShapes& shapes, const Ray& ray) {
@@ -352,8 +352,8 @@ TEST_CASE("few shapes: what has room there") {
         along, [&](std::uint32_t i, Ray&) { numbers.push_back(i); });
     CHECK(numbers == std::vector<std::uint32_t>{0, 1, 2});
     struct Other {};
-    CHECK_FALSE(make_few_shapes(std::tuple<std::vector<Sphere>, std::vector<Other>>{
-                                    {Sphere{}}, {}})
+    CHECK_FALSE(make_few_shapes(
+                    std::tuple<std::vector<Sphere>, std::vector<Other>>{{Sphere{}}, {}})
                     .empty());
     CHECK(make_few_shapes(std::tuple<std::vector<Sphere>, std::vector<Other>>{
                               {Sphere{}}, {Other{}}})

@@ -142,7 +142,8 @@ TEST_CASE("kd_tree: nobody is asked about points that are too far away") {
     const float radius = 0.4f;
     (void)tree.nearest(center, radius, room, [&](std::uint32_t i) {
         ++asked;
-        CHECK(ljus::distance2(tree.points()[i], center) <= double(radius) * double(radius));
+        CHECK(ljus::distance2(tree.points()[i], center) <=
+              double(radius) * double(radius));
         return false;
     });
     CHECK(asked > 3); // more than are wanted

@@ -459,16 +459,18 @@ TEST_CASE("patches: what stands between, and what only seems to stand before") {
     CHECK(make_patches(within, {.size = 9}).patches.size() > 0);
 
     // Pieces of one plane, whichever way it lies: rounding puts no piece before another.
-    const V u = glm::normalize(V{1, 2, 3}), v = glm::normalize(glm::cross(u, V{5, 1, 2}));
+    const V u = glm::normalize(V{1, 2, 3}),
+            v = glm::normalize(glm::cross(u, V{5, 1, 2}));
     Stage<float> plane;
     const auto grey_one = plane.add(LambertianT<float>{});
     for (int i = 0; i < 5; ++i)
         for (int j = 0; j < 5; ++j)
-            plane.add(QuadT<float>{V{7.1f, -3.3f, 9.7f} + float(i) * u + float(j) * v, u,
-                                   v},
-                      grey_one);
-    CHECK(refusal([&] { (void)make_patches(plane, {.size = 9}); })
-              .starts_with("the number of patches is 0"));
+            plane.add(
+                QuadT<float>{V{7.1f, -3.3f, 9.7f} + float(i) * u + float(j) * v, u, v},
+                grey_one);
+    CHECK(refusal([&] {
+              (void)make_patches(plane, {.size = 9});
+          }).starts_with("the number of patches is 0"));
 }
 
 TEST_CASE("form_factors: rows of different areas, and a patch that sees no other") {
@@ -502,8 +504,8 @@ TEST_CASE("form_factors: rays from both patches, the smaller one's count for mor
         detail::shoot_rays(indexed, all, 0, 50, seed, row);
         detail::shoot_rays(indexed, all, 1, 50, seed, back);
         REQUIRE(row[1] != back[0]);
-        const auto factors =
-            make_form_factors(stage, all, {.analytic = false, .rays = 50, .seed = seed});
+        const auto factors = make_form_factors(
+            stage, all, {.analytic = false, .rays = 50, .seed = seed});
         const double wanted = (12 * row[1] + 1 * back[0]) / 13;
         CHECK(factors->row(0)[1] == doctest::Approx(wanted).epsilon(1e-14));
         CHECK(factors->row(1)[0] == factors->row(0)[1]);

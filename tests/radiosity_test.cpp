@@ -384,7 +384,8 @@ TEST_CASE("radiosity: in which order the patches send, step by step") {
     std::vector<Patch> patches(n);
     for (std::size_t i = 0; i < n; ++i)
         patches[i] = {.area = factors.area[i],
-                      .albedo = Color(0.9 - 0.1 * double(i), 0.5, 0.1 + 0.2 * double(i)),
+                      .albedo =
+                          Color(0.9 - 0.1 * double(i), 0.5, 0.1 + 0.2 * double(i)),
                       .emitted = Color(0, 0, i == 2 ? 4.0 : 0.1 * double(i))};
     for (const RadiositySolver solver :
          {RadiositySolver::gauss_seidel, RadiositySolver::shooting}) {
@@ -430,9 +431,9 @@ TEST_CASE("radiosity: how far a solver goes, and what it refuses, channel by cha
          {RadiositySolver::jacobi, RadiositySolver::gauss_seidel,
           RadiositySolver::shooting})
         for (const double tolerance : {0.1, 1e-3, 1e-6, 1e-14}) {
-            const auto found = solve_radiosity(
-                all->factors, all->patches.patches,
-                {.solver = solver, .tolerance = tolerance});
+            const auto found =
+                solve_radiosity(all->factors, all->patches.patches,
+                                {.solver = solver, .tolerance = tolerance});
             const auto& left = found.residual;
             REQUIRE(left.size() >= 2);
             CHECK(left.back() <= tolerance); // reached, and not a sweep before
@@ -447,9 +448,9 @@ TEST_CASE("radiosity: how far a solver goes, and what it refuses, channel by cha
         Color arrives(0);
         for (std::size_t k = 0; k < all->factors.size(); ++k)
             arrives += all->factors.row(i)[k] * exact.radiosity[k];
-        left += patch.area * glm::abs(patch.emitted +
-                                      patch.albedo * (arrives / patch.area) -
-                                      exact.radiosity[i]);
+        left += patch.area *
+                glm::abs(patch.emitted + patch.albedo * (arrives / patch.area) -
+                         exact.radiosity[i]);
         flux += patch.area * patch.emitted;
     }
     REQUIRE(exact.residual.size() == 1);
@@ -460,14 +461,16 @@ TEST_CASE("radiosity: how far a solver goes, and what it refuses, channel by cha
     // A closed room whose walls send all of one channel back, or all but nothing.
     const FormFactors closed{.area = {1, 1}, .exchange = {0, 1, 1, 0}};
     const auto of = [](const Color& albedo) {
-        return std::vector<Patch>(2, {.area = 1, .albedo = albedo, .emitted = Color(1)});
+        return std::vector<Patch>(2,
+                                  {.area = 1, .albedo = albedo, .emitted = Color(1)});
     };
     for (const double most : {1.0, 1 - 5e-13})
         for (int channel = 0; channel < 3; ++channel) {
             Color albedo(0.5);
             albedo[channel] = most;
-            CHECK(refusal([&] { (void)solve_radiosity(closed, of(albedo)); })
-                      .starts_with("the largest share of its light that a patch gets"));
+            CHECK(refusal([&] {
+                      (void)solve_radiosity(closed, of(albedo));
+                  }).starts_with("the largest share of its light that a patch gets"));
         }
     CHECK_NOTHROW((void)solve_radiosity(closed, of(Color(1 - 1e-11)),
                                         {.solver = RadiositySolver::lu}));

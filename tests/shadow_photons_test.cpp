@@ -739,10 +739,9 @@ TEST_CASE("shadow photons: settings that make no sense") {
     check(enough);
     // A grid is not made by them either.
     const std::vector<Photon> one{on_floor(0, 0, PhotonKind::direct)};
-    CHECK_THROWS_WITH_AS((void)make_verdict_grid(one, 1,
-                                                 {.rule = SkipRule::any, .risk = 1}),
-                         "skip.risk is 1; it must be above 0 and below 1.",
-                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(
+        (void)make_verdict_grid(one, 1, {.rule = SkipRule::any, .risk = 1}),
+        "skip.risk is 1; it must be above 0 and below 1.", std::invalid_argument);
     CHECK_THROWS_AS((void)make_verdict_grid(std::vector<Photon>{}, 1, {.radius = -1}),
                     std::invalid_argument);
     // What they are if nothing is said.
@@ -924,7 +923,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("shadow photons: one indirect photon is enough, whatever the shadow rays ask") {
+TEST_CASE(
+    "shadow photons: one indirect photon is enough, whatever the shadow rays ask") {
     for (const SkipRule rule :
          {SkipRule::none, SkipRule::report, SkipRule::any, SkipRule::enough}) {
         CAPTURE(int(rule));
@@ -943,14 +943,13 @@ TEST_CASE("shadow photons: too many bricks are refused before they take any memo
     // Each photon lies in the first cell of a brick, and is near to eight.
     std::vector<Photon> photons;
     for (int i = 0; i < 65 * 64 * 64; ++i) {
-        Photon photon = on_floor(float(i % 64) * 8, float(i / 64 % 64) * 8,
-                                 PhotonKind::indirect);
+        Photon photon =
+            on_floor(float(i % 64) * 8, float(i / 64 % 64) * 8, PhotonKind::indirect);
         photon.position.y = float(i / 64 / 64) * 8;
         photons.push_back(photon);
     }
     CHECK(refusal([&] {
-              (void)make_verdict_grid(photons, 1,
-                                      {.indirect_rays = true, .radius = 1});
+              (void)make_verdict_grid(photons, 1, {.indirect_rays = true, .radius = 1});
           }) == "the number of bricks in a verdict grid is 2129920; it must be at most "
                 "2097152: a larger skip.radius makes fewer.");
 }

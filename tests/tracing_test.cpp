@@ -801,7 +801,8 @@ TEST_CASE("tracing: the memory by hand, and what the sentences say") {
           "absorbed");
 }
 
-TEST_CASE("tracing: settings that make no sense, and what they are if nothing is said") {
+TEST_CASE(
+    "tracing: settings that make no sense, and what they are if nothing is said") {
     const auto why = [](const PhotonPassSettings& pass) {
         try {
             check(pass);
@@ -810,14 +811,15 @@ TEST_CASE("tracing: settings that make no sense, and what they are if nothing is
         }
         return std::string();
     };
-    CHECK(why({.photons = -1}) == "the number of photons is -1; it must be at least 0.");
+    CHECK(why({.photons = -1}) ==
+          "the number of photons is -1; it must be at least 0.");
     CHECK(why({.max_bounces = 0}) ==
           "the largest number of bounces is 0; it must be at least 1.");
-    CHECK(why({.max_memory = 0}) ==
-          "the memory for photons is 0; it must be above 0.");
+    CHECK(why({.max_memory = 0}) == "the memory for photons is 0; it must be above 0.");
     CHECK(why({.give_up = 0}) ==
           "the number of paths without a photon is 0; it must be at least 1.");
-    CHECK(why({.photons = 0, .max_bounces = 1, .max_memory = 1e-9, .give_up = 1}) == "");
+    CHECK(why({.photons = 0, .max_bounces = 1, .max_memory = 1e-9, .give_up = 1}) ==
+          "");
     const PhotonPassSettings pass;
     CHECK(pass.photons == 100000);
     CHECK(pass.seed == 1);
@@ -856,8 +858,8 @@ TEST_CASE("tracing: a shadow photon on each matt surface behind the first") {
                          random_stream(1, Pass::user, 0, 0), out);
     REQUIRE(out.size() == 32); // all but the mirror
     for (std::size_t i = 0; i < 32; ++i) {
-        CHECK(out[i].position.z == doctest::Approx(i < 30 ? -1.0 - double(i)
-                                                          : -2.0 - double(i)));
+        CHECK(out[i].position.z ==
+              doctest::Approx(i < 30 ? -1.0 - double(i) : -2.0 - double(i)));
         CHECK(out[i].kind == PhotonKind::shadow);
         CHECK(out[i].light == 5);
         CHECK(out[i].flux == Rgb{2});
