@@ -395,8 +395,8 @@ TEST_CASE("wide bvh: which rays can be made ready, and that boxes only grow") {
         REQUIRE(detail::make_ready(r, ray, middle, half));
         for (int axis = 0; axis < 3; ++axis) {
             const auto a = static_cast<std::size_t>(axis);
-            CHECK(r.near[a] == a + (ray.direction[axis] < 0 ? 3 : 0));
-            CHECK(r.far[a] == a + (ray.direction[axis] < 0 ? 0 : 3));
+            CHECK(r.near[a] == a + (ray.direction[axis] < 0 ? 3u : 0u));
+            CHECK(r.far[a] == a + (ray.direction[axis] < 0 ? 0u : 3u));
             if (std::abs(ray.direction[axis]) < 1e-3f) continue;
             const float plane = float(n.between(-1, 1)) * half[axis];
             const double exact =
@@ -510,8 +510,12 @@ TEST_CASE("wide bvh: triangles that are not there are not asked, and take no mem
                                                         sizeof(detail::TriangleLanes));
         bool padding = false;
         for (int i = 0; i < 2000; ++i) { // from very near to the origin, too
-            const Ray ray{.origin = Vec3(n.point(i % 2 ? 0.01 : 0.5)),
-                          .direction = Vec3(n.direction())};
+            Ray ray{.origin = Vec3(n.point(i % 2 ? 0.01 : 0.5)),
+                    .direction = Vec3(n.direction())};
+            if (i % 7 == 0) { // coordinates of the sum 1, where all bounds vanish
+                ray.origin = i % 2 ? Vec3{1, 0, 0} : Vec3{0.25f, -0.5f, 0.25f};
+                ray.direction = Vec3(n.point(0.5)) - ray.origin;
+            }
             const auto look = [&](std::uint32_t slot) {
                 padding = padding || tree.primitive_ids()[slot] == Bvh8::padding;
                 return false;
