@@ -308,7 +308,7 @@ TEST_CASE("caustic_budget: the pilot's numbers, one photon after the other") {
         light.push_back({.position{8 * at.x - 4, -1, 8 * at.y - 4},
                          .direction{0, i % 5 == 0 ? 1.0f : -1.0f, 0},
                          .flux{0.01f, 0.02f, 0.001f * float(i % 7)},
-                         .kind = PhotonKind(i % 4),
+                         .kind = PhotonKind(i / 4 % 4),
                          .normal = small_normal(normals[i % 4])});
     }
     const float radius = 0.15f, wide = 0.6f;
