@@ -315,3 +315,282 @@ TEST_CASE("wide bvh: where its middle is, its bytes, and leaves of sixteen") {
                                               triangles[0].v3 - triangles[0].v1));
     CHECK(one.check({.origin = inside + up, .direction = -up}));
 }
+
+TEST_CASE("wide bvh: large trees, too, are collapsed to the least surface") {
+    // Enough boxes that some nodes had better stay closed. A twin by recursion: the
+    // least sum of what lies below a node in so many places side by side.
+    Numbers n{8};
+    int closed = 0;
+    for (int round = 0; round < 20; ++round) {
+        std::vector<Box> boxes;
+        for (int k = 0; k < 60 + 20 * round; ++k) {
+            const Vec3 at(n.point(round % 2 ? 1 : 9));
+            boxes.push_back({at, at + glm::abs(Vec3(n.point(2)))});
+        }
+        const auto tree =
+            detail::build_bvh(std::span<const Box>(boxes), {.leaf_size = 1});
+        const auto surface = [&](std::size_t i) {
+            const glm::dvec3 d(tree.nodes[i].box.high - tree.nodes[i].box.low);
+            return d.x * d.y + d.y * d.z + d.z * d.x;
+        };
+        std::vector<std::array<double, 9>> least(tree.nodes.size());
+        for (std::size_t i = tree.nodes.size(); i-- > 0;) {
+            least[i].fill(0);
+            if (tree.nodes[i].count > 0) continue;
+            const std::size_t child = tree.nodes[i].first;
+            std::array<double, 9> opened{};
+            for (std::size_t places = 2; places <= 8; ++places) {
+                opened[places] = 1e300;
+                for (std::size_t a = 1; a < places; ++a)
+                    opened[places] = std::min(
+                        opened[places], least[child][a] + least[child + 1][places - a]);
+            }
+            least[i][1] = surface(i) + opened[8];
+            for (std::size_t places = 2; places <= 8; ++places) {
+                closed += least[i][1] < opened[places];
+                least[i][places] = std::min(least[i][1], opened[places]);
+            }
+        }
+        const detail::BvhCollapse<float> collapse(tree);
+        double sum = 0;
+        const auto visit = [&](const auto& self, std::uint32_t i) -> void {
+            sum += surface(i);
+            const auto below = collapse.children(i);
+            for (std::size_t k = 0; k < below.count; ++k)
+                if (tree.nodes[below.node[k]].count == 0) self(self, below.node[k]);
+        };
+        visit(visit, 0);
+        CHECK(sum == doctest::Approx(least[0][1]).epsilon(1e-9));
+    }
+    CHECK(closed > 100);
+}
+
+TEST_CASE("wide bvh: which rays can be made ready, and that boxes only grow") {
+    detail::Bvh8Ray r;
+    const auto ready = [&](const Vec3& origin, const Vec3& way) {
+        return detail::make_ready(r, {.origin = origin, .direction = way}, Vec3{0},
+                                  Vec3{1});
+    };
+    CHECK(ready({2, 0, 0}, {-1, 0.5f, 0}));
+    for (const float length : {2e-18f, 1e-9f, 1e9f, 0.9e18f})
+        CHECK(ready({2, 3, 4}, {0.1f * length, length, length}));
+    for (const float length : {0.0f, 1e-30f, 0.9e-18f, 1.1e18f, 1e30f, inf})
+        CHECK_FALSE(ready({2, 3, 4}, {0.1f * length, length, length}));
+    CHECK(ready({0.9e18f, 0, 0}, {1, 1, 1}));
+    CHECK_FALSE(ready({1.1e18f, 0, 0}, {1, 1, 1}));
+    CHECK_FALSE(ready({1e30f, 0, 0}, {1, 1, 1}));
+    // A component of 0 counts as 1e-12 of the largest: its plane lies beyond any float.
+    CHECK_FALSE(ready({0, 1e12f, 0}, {1e-16f, 0, 0}));
+    for (const Vec3& bad : {Vec3{not_a_number, 0, 0}, Vec3{0, inf, 0}}) {
+        CHECK_FALSE(ready(bad, {1, 1, 1}));
+        CHECK_FALSE(ready({0, 0, 0}, Vec3{1} + bad));
+    }
+
+    // A plane is met a little early if it is a near one, a little late if a far one.
+    Numbers n{21};
+    for (int i = 0; i < 20000; ++i) {
+        const Vec3 middle(n.point(i % 3 ? 5 : 1e4)), half = glm::abs(Vec3(n.point(3)));
+        const Ray ray{.origin = middle + Vec3(n.point(i % 2 ? 5 : 1e3)),
+                      .direction = Vec3(n.direction())};
+        REQUIRE(detail::make_ready(r, ray, middle, half));
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto a = static_cast<std::size_t>(axis);
+            CHECK(r.near[a] == a + (ray.direction[axis] < 0 ? 3u : 0u));
+            CHECK(r.far[a] == a + (ray.direction[axis] < 0 ? 0u : 3u));
+            if (std::abs(ray.direction[axis]) < 1e-3f) continue;
+            const float plane = float(n.between(-1, 1)) * half[axis];
+            const double exact =
+                (double(plane) + double(middle[axis]) - double(ray.origin[axis])) /
+                double(ray.direction[axis]);
+            REQUIRE(double(plane * r.inverse[axis] - r.near_shift[axis]) <= exact);
+            REQUIRE(double(plane * r.inverse[axis] - r.far_shift[axis]) >= exact);
+        }
+    }
+    CHECK(r.length > 0);
+    // No minus, no plus: a direction of -0 goes backwards.
+    CHECK(ready({0, 0, 0}, {1, -0.0f, 0.0f}));
+    CHECK(r.near == std::array<std::size_t, 3>{0, 4, 2});
+}
+
+TEST_CASE("wide bvh: who is asked, in which order, and who is not") {
+    // Boxes one behind the other along z, each a leaf of its own, in any order.
+    std::vector<Box> boxes;
+    for (const float z : {4.0f, 1.0f, 6.0f, 3.0f, 7.0f, 2.0f, 5.0f, 8.0f})
+        boxes.push_back({{-1, -1, z}, {1, 1, z + 0.5f}});
+    const auto asked = [&](const Bvh8& tree, const Ray& ray) {
+        std::vector<float> starts;
+        tree.closest(ray, [&](std::uint32_t slot, Ray&) {
+            starts.push_back(boxes[tree.primitive_ids()[slot]].low.z);
+        });
+        return starts;
+    };
+    const Bvh8 tree(boxes, {.leaf_size = 1});
+    REQUIRE(tree.nodes().size() == 1);
+    const Ray along{.origin{0.1f, 0.2f, 0}, .direction{0, 0, 1}};
+    CHECK(asked(tree, along)[0] == 1); // the nearest first
+    CHECK(asked(tree, along).size() == 8);
+    // Of three all in order, from either end.
+    const std::vector<Box> all = boxes;
+    for (const auto& some : {std::array{2, 4, 7}, std::array{1, 0, 3},
+                             std::array{7, 2, 1}, std::array{5, 6, 0}}) {
+        boxes.clear();
+        for (const int i : some) boxes.push_back(all[std::size_t(i)]);
+        const Bvh8 three(boxes, {.leaf_size = 1});
+        const auto up = asked(three, along);
+        CHECK(up.size() == 3);
+        CHECK(std::is_sorted(up.begin(), up.end()));
+        const auto down = asked(three, {.origin{0, 0, 20}, .direction{0, 0, -1}});
+        CHECK(down.size() == 3);
+        CHECK(std::is_sorted(down.rbegin(), down.rend()));
+    }
+    boxes = all;
+    // Not what lies before the ray's beginning, nor behind its end.
+    for (float from = 0.75f; from < 9; ++from) {
+        Ray part = along;
+        part.t_min = from;
+        CHECK(asked(tree, part).size() == std::size_t(8 - int(from)));
+        part = along;
+        part.t_max = from;
+        CHECK(asked(tree, part).size() == std::size_t(from));
+    }
+    // A ray that is one point within a box meets that box.
+    Ray point = along;
+    point.t_min = point.t_max = 3.25f;
+    CHECK(asked(tree, point) == std::vector{3.0f});
+    // Two boxes that begin at the same t, and a search that ends there: both are asked.
+    boxes = {{{-1, -1, 1}, {1, 1, 2}}, {{-1, -1, 1}, {1, 1, 9}}};
+    const Bvh8 two(boxes, {.leaf_size = 1});
+    detail::Bvh8Ray ready;
+    REQUIRE(detail::make_ready(ready, along, two.wide().middle, two.wide().half));
+    detail::Lanes entry;
+    (void)detail::enter<void>(entry, two.wide(), 0, ready, along.t_min, along.t_max);
+    int count = 0;
+    two.closest(along, [&](std::uint32_t, Ray& rest) {
+        ++count;
+        rest.t_max = entry.lane[0];
+    });
+    CHECK(entry.lane[0] == entry.lane[1]);
+    CHECK(count == 2);
+
+    // Nobody is asked, and no node looked at, for a ray without a length or a place;
+    // nor for one that no node can be asked by, if it has no length.
+    boxes = all;
+    std::vector<Ray> rays{{.direction{0, 0, 1}, .t_min = 2, .t_max = 1},
+                          {.direction{0, 0, 1e30f}, .t_min = 2, .t_max = 1},
+                          {.direction{0, 0, 1}, .t_max = not_a_number},
+                          {.direction{0, 0, 1}, .t_min = not_a_number}};
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float wrong : {not_a_number, inf, -inf}) {
+            rays.push_back(along);
+            rays.back().direction[axis] = wrong;
+            rays.push_back(along);
+            rays.back().origin[axis] = wrong;
+        }
+    for (const Ray& ray : rays) {
+        int asks = 0, nodes = 0;
+        tree.closest(
+            ray, [&](std::uint32_t, Ray&) { ++asks; }, [&](std::uint32_t) { ++nodes; });
+        CHECK_FALSE(tree.any(
+            ray, [&](std::uint32_t) { return ++asks > 0; },
+            [&](std::uint32_t) { ++nodes; }));
+        CHECK(asks == 0);
+        CHECK(nodes == 0);
+    }
+    // One that is absurd, but a ray, is asked of all.
+    CHECK(asked(tree, {.origin{0, 0, 0}, .direction{0, 0, 1e30f}}).size() == 8);
+}
+
+TEST_CASE("wide bvh: triangles that are not there are not asked, and take no memory") {
+    Numbers n{31};
+    for (const int count : {1, 3, 9, 50}) {
+        const Triangles triangles = soup(n, count, 0.5, 0.5, Vec3{0});
+        const TriangleBvh tree(std::uint32_t(count),
+                               [&](std::uint32_t i) { return triangles[i]; });
+        CHECK(tree.bytes() == tree.tree().bytes() + tree.primitive_ids().size() / 8 *
+                                                        sizeof(detail::TriangleLanes));
+        bool padding = false;
+        for (int i = 0; i < 2000; ++i) { // from very near to the origin, too
+            Ray ray{.origin = Vec3(n.point(i % 2 ? 0.01 : 0.5)),
+                    .direction = Vec3(n.direction())};
+            if (i % 7 == 0) { // coordinates of the sum 1, where all bounds vanish
+                ray.origin = i % 2 ? Vec3{1, 0, 0} : Vec3{0.25f, -0.5f, 0.25f};
+                ray.direction = Vec3(n.point(0.5)) - ray.origin;
+            }
+            const auto look = [&](std::uint32_t slot) {
+                padding = padding || tree.primitive_ids()[slot] == Bvh8::padding;
+                return false;
+            };
+            tree.closest(ray, [&](std::uint32_t slot, Ray&) { (void)look(slot); });
+            (void)tree.any(ray, look);
+        }
+        CHECK_FALSE(padding);
+    }
+}
+
+TEST_CASE("wide bvh: the filter errs on one side only, at the ends of rays and of "
+          "triangles of any size") {
+    // Hits at edges and corners, with a t that is the ray's first or last: what the
+    // triangle's own test says yes to is possible, what is definite it says yes to.
+    Numbers n{41};
+    int hits = 0, definite = 0;
+    for (int repeat = 0; repeat < 40000; ++repeat) {
+        const double size = n.power(-4, 7), away = size * n.power(-1, 3);
+        const double length = repeat % 4 == 0 ? n.power(-6, 6) : 1.0;
+        const Vec3 at(n.point(repeat % 3 ? size : 10 * size));
+        const Triangle triangle{at, at + Vec3(n.point(size)), at + Vec3(n.point(size))};
+        const float u = repeat % 2 ? 0.0f : float(n.between(0, 1));
+        const Vec3 target = triangle.v1 +
+                            (repeat % 5 == 0 ? 0.0f : float(n.between(0, 1))) *
+                                (triangle.v2 - triangle.v1) * (1 - u) +
+                            u * (triangle.v3 - triangle.v1);
+        const Vec3 origin = target + Vec3(n.point(away));
+        Ray ray{.origin = origin,
+                .direction = float(length / away) * (target - origin)};
+        if (const auto hit = intersect<double>(ray, triangle)) {
+            const int end = n.below(6);
+            if (end == 0) ray.t_max = hit->t;
+            if (end == 1) ray.t_min = hit->t;
+            if (end == 2) ray.t_max = std::nextafter(hit->t, 0.0f);
+            if (end == 3) ray.t_min = std::nextafter(hit->t, inf);
+        }
+        detail::Bvh8Ray ready;
+        const Box box = bounds(triangle);
+        if (!detail::make_ready(ready, ray, 0.5f * (box.low + box.high),
+                                0.5f * (box.high - box.low)) ||
+            !ready.moderate)
+            continue;
+        const TriangleBvh tree(1, [&](std::uint32_t) { return triangle; });
+        bool asked = false;
+        tree.closest(ray, [&](std::uint32_t, Ray&) { asked = true; });
+        // Without a question: definite.
+        bool doubted = false;
+        const bool yes = tree.any(ray, [&](std::uint32_t) {
+            doubted = true;
+            return false;
+        });
+        const bool right = intersect<double>(ray, triangle).has_value();
+        hits += right;
+        definite += yes;
+        if (right) REQUIRE(asked);
+        if (yes) REQUIRE(right);
+        if (right) REQUIRE((yes || doubted));
+    }
+    CHECK(hits > 5000);
+    CHECK(definite > 100);
+}
+
+TEST_CASE("wide bvh: products that no float holds are left to the triangles") {
+    Numbers n{51};
+    int hits = 0;
+    for (const double scale : {1e10, 1e13, 1e15, 1e17}) {
+        const Triangles triangles = soup(n, 200, 5 * scale, 2 * scale, Vec3{0});
+        const Trees trees(triangles);
+        for (int i = 0; i < 1500; ++i) {
+            Ray ray{.origin = Vec3(n.point(5 * scale))};
+            ray.direction = Vec3(n.point(5 * scale)) - ray.origin;
+            ray.direction *= float(n.power(0, 17) / scale);
+            hits += trees.check(ray);
+        }
+    }
+    CHECK(hits > 1000);
+}

@@ -359,6 +359,82 @@ TEST_CASE("bvh: each range is split where that is cheaper, and nowhere else") {
     CHECK(chosen > 100);
 }
 
+TEST_CASE(
+    "bvh: a hit shortens the ray to itself and one unit more, and never prolongs it") {
+    const auto after = [](float t, float t_max) {
+        Ray ray{.t_max = t_max};
+        NearestHit nearest;
+        CHECK(nearest.offer({.t = t}, 3, ray));
+        return ray.t_max;
+    };
+    for (const float t : {0.0f, 1e-40f, 1e-20f, 1.0f, 12345.6f}) {
+        CAPTURE(t);
+        CHECK(after(t, inf) > t);
+        CHECK(after(t, inf) <= t * (1 + 2e-7f) + 1e-44f);
+        CHECK(after(t, t) == t);
+    }
+    Ray ray{};
+    NearestHit nearest;
+    CHECK(nearest.offer({.t = 2}, 5, ray));
+    CHECK_FALSE(nearest.offer({.t = 2}, 6, ray)); // as near, of a greater number
+    CHECK_FALSE(nearest.offer({.t = 2}, 5, ray));
+    CHECK_FALSE(nearest.offer({.t = 3}, 1, ray));
+    CHECK(nearest.offer({.t = 2}, 4, ray));
+    CHECK(nearest.number == 4);
+    CHECK(nearest.offer({.t = 1}, 9, ray));
+    CHECK(nearest.at.t == 1);
+}
+
+TEST_CASE("bvh: what is as far as the end of the ray is still asked") {
+    // Two boxes that a ray enters at the same t: whichever is asked first, and shortens
+    // the ray to exactly there, the other one is asked as well.
+    const std::vector<Box> boxes{{{1, -1, -1}, {2, 1, 1}}, {{1, -1, -1}, {9, 1, 1}}};
+    const Bvh tree(boxes, {.leaf_size = 1});
+    REQUIRE(tree.nodes().size() == 3);
+    const Ray ray{.origin{0, 0.1f, 0.2f}, .direction{1, 0, 0}};
+    const auto ready = detail::box_ray(ray, tree.box());
+    REQUIRE(ready);
+    const auto entry = detail::enter(*ready, boxes[0], ray.t_min, ray.t_max);
+    REQUIRE(entry);
+    int asked = 0;
+    tree.closest(ray, [&](std::uint32_t, Ray& rest) {
+        ++asked;
+        rest.t_max = *entry;
+    });
+    CHECK(asked == 2);
+}
+
+TEST_CASE("bvh: a ray beside everything, or that is none, asks nothing") {
+    Numbers n;
+    for (const int count : {1, 3, 200}) {
+        const Triangles triangles = soup(n, count, 5, 1, Vec3{0});
+        const Bvh tree(boxes_of(triangles));
+        std::vector<Ray> rays{{.origin{50, 50, 50}, .direction{0, 1, 0}},
+                              {.origin{0, 0, 50}, .direction{0, 0, 1}},
+                              {.origin{0, 0, 50}, .direction{0, 0, -1}, .t_max = 3}};
+        for (int axis = 0; axis < 3; ++axis)
+            for (const float wrong : {not_a_number, inf, -inf}) {
+                Ray ray{.origin{0, 0, 50}, .direction{0, 0, -1}};
+                ray.direction[axis] = wrong;
+                rays.push_back(ray);
+                ray = {.origin{0, 0, 50}, .direction{0, 0, -1}};
+                ray.origin[axis] = wrong;
+                rays.push_back(ray);
+            }
+        for (const Ray& ray : rays) {
+            int asked = 0, visited = 0;
+            tree.closest(
+                ray, [&](std::uint32_t, Ray&) { ++asked; },
+                [&](std::uint32_t) { ++visited; });
+            CHECK_FALSE(tree.any(
+                ray, [&](std::uint32_t) { return ++asked > 0; },
+                [&](std::uint32_t) { ++visited; }));
+            CHECK(asked == 0);
+            CHECK(visited == 0);
+        }
+    }
+}
+
 TEST_CASE("bvh: refuses boxes that are none") {
     for (const float bad : {not_a_number, inf, -inf}) {
         const std::vector<Box> boxes{{Vec3{0}, Vec3{1}}, {Vec3{0}, Vec3{1, bad, 1}}};
@@ -410,4 +486,20 @@ TEST_CASE("bvh: its box and its bytes") {
     CHECK(tree.bytes() ==
           tree.nodes().capacity() * 32 + tree.primitive_ids().capacity() * 4);
     CHECK(Bvh{}.bytes() == 0);
+}
+
+TEST_CASE("bvh: how a tree is built if nothing is said") {
+    const BvhSettings settings;
+    CHECK(settings.leaf_size == 4);
+    CHECK(settings.at_a_time == 1);
+    CHECK(settings.node_cost == 1);
+    CHECK(settings.threads == 0);
+    const std::vector<Box> boxes(3, Box{{0, 0, 0}, {1, 1, 1}});
+    CHECK_THROWS_WITH_AS(Bvh(boxes, {.leaf_size = 0}),
+                         "leaf_size is 0; it must be at least 1.",
+                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(Bvh(boxes, {.at_a_time = 0}),
+                         "at_a_time is 0; it must be at least 1.",
+                         std::invalid_argument);
+    CHECK_NOTHROW(Bvh(boxes, {.leaf_size = 1, .at_a_time = 1}));
 }

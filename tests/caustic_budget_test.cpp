@@ -289,6 +289,169 @@ TEST_CASE("caustic_budget: the pilot measures flux, area and scatter") {
           doctest::Approx(2 / (pi * 0.25)));
 }
 
+TEST_CASE("caustic_budget: the pilot's numbers, one photon after the other") {
+    // A plain twin: the pilot's own passes, and sums over all photons in turn.
+    Room room = ball_and_mirror();
+    room.add(Sphere{.center{-1.5f, 0.5f, 0.7f}, .radius = 0.3f},
+             room.add(Glass{.index = 1.3f}));
+    int asked = 0;
+    const auto ask = [&](long long, long long) { return ++asked > 0; };
+    const PhotonPassSettings pass{
+        .photons = 42000, .seed = 3, .iteration = 5, .progress = ask};
+    // Other light on the floor: on both sides of it, of all kinds, and on things that
+    // stand on it.
+    std::vector<Photon> light;
+    auto stream = random_stream(7, Pass::user, 0, 0);
+    for (int i = 0; i < 3000; ++i) {
+        const Vec2 at = next_2d(stream);
+        const Vec3 normals[] = {{0, 1, 0}, {0, 1, 0}, {0, -1, 0}, {1, 0, 0}};
+        light.push_back({.position{8 * at.x - 4, -1, 8 * at.y - 4},
+                         .direction{0, i % 5 == 0 ? 1.0f : -1.0f, 0},
+                         .flux{0.01f, 0.02f, 0.001f * float(i % 7)},
+                         .kind = PhotonKind(i / 4 % 4),
+                         .normal = small_normal(normals[i % 4])});
+    }
+    const float radius = 0.15f, wide = 0.6f;
+    const auto pilots = pilot_caustics(room, pass, radius, light, wide);
+    CHECK(asked == 0); // nobody waits for a pilot
+    const auto objects = specular_objects(room);
+    REQUIRE(objects.size() == 3);
+    REQUIRE(pilots.size() == 3);
+
+    const long long paths = 42000 / 60;
+    std::vector<std::vector<Photon>> found;
+    std::vector<Photon> all;
+    for (std::size_t k = 0; k < 3; ++k) {
+        PhotonPassSettings own = pass;
+        own.progress = {};
+        own.photons = paths;
+        own.iteration = ~std::uint64_t{5} - k; // from the other end: no picture's
+        own.shares = {0, 0, 0};
+        own.shares[k] = 1;
+        found.push_back(trace_photons(room, MapType::caustics, own).photons);
+        all.insert(all.end(), found[k].begin(), found[k].end());
+    }
+    const auto around = [](const std::vector<Photon>& photons, const Photon& at,
+                           double within) {
+        double sum = 0;
+        const auto side = [](const Photon& photon, const Vec3& normal) {
+            return glm::dot(photon.direction, normal) < 0;
+        };
+        const Vec3 normal = glm::normalize(Vec3(at.normal));
+        for (const Photon& photon : photons) {
+            const Vec3 own = glm::normalize(Vec3(photon.normal));
+            if (glm::distance(glm::dvec3(photon.position), glm::dvec3(at.position)) <=
+                    within &&
+                photon.kind != PhotonKind::shadow && glm::dot(own, normal) > 0.5f &&
+                side(photon, normal) == side(at, normal))
+                sum += luminance(RgbT<double>(photon.flux));
+        }
+        return sum / (pi * within * within);
+    };
+    double flux_of_light = 0, lit_of_light = 0;
+    for (std::size_t i = 0; i < light.size(); i += 4) { // 3000 / 1000 + 1
+        const double part = luminance(RgbT<double>(light[i].flux));
+        flux_of_light += part;
+        lit_of_light += part * around(light, light[i], double(wide));
+    }
+    const double dark = 0.1 * lit_of_light / flux_of_light;
+    for (std::size_t k = 0; k < 3; ++k) {
+        CAPTURE(k);
+        double flux = 0, lit = 0, squares = 0, visible = 0;
+        for (const Photon& photon : found[k]) {
+            const double part = luminance(RgbT<double>(photon.flux));
+            const double own = around(all, photon, 2 * double(radius));
+            const double here = own + dark + around(light, photon, double(wide));
+            flux += part;
+            lit += part * own;
+            squares += part * part;
+            visible += part * part / (here * here);
+        }
+        CHECK(pilots[k].object == objects[k]);
+        CHECK(pilots[k].stored == found[k].size());
+        CHECK(found[k].size() > 100);
+        const double n = double(paths);
+        CHECK(pilots[k].flux == doctest::Approx(flux).epsilon(1e-9));
+        CHECK(pilots[k].absolute == doctest::Approx(std::sqrt(n * squares)));
+        CHECK(pilots[k].area == doctest::Approx(flux * flux / lit).epsilon(1e-4));
+        CHECK(pilots[k].relative ==
+              doctest::Approx(std::sqrt(n * squares) * flux / lit).epsilon(1e-4));
+        CHECK(pilots[k].visible ==
+              doctest::Approx(std::sqrt(n * visible)).epsilon(1e-4));
+    }
+    // Without a radius for the other light, that in which 64 of its photons lie.
+    const float typical = typical_radius(make_photon_map(light), 64);
+    const auto unsaid = pilot_caustics(room, pass, radius, light, 0.0f);
+    const auto said = pilot_caustics(room, pass, radius, light, typical);
+    const auto half = pilot_caustics(room, pass, radius, light,
+                                     typical_radius(make_photon_map(light), 32));
+    for (std::size_t k = 0; k < 3; ++k) {
+        CHECK(unsaid[k].visible == said[k].visible);
+        CHECK(unsaid[k].visible != half[k].visible);
+    }
+    // However few photons the picture has, an object gets 500.
+    const auto few = pilot_caustics(room, {.photons = 100}, radius);
+    for (std::size_t k = 0; k < 3; ++k) {
+        PhotonPassSettings own{.photons = 500, .iteration = ~std::uint64_t{0} - k};
+        own.shares = {0, 0, 0};
+        own.shares[k] = 1;
+        CHECK(few[k].stored ==
+              trace_photons(room, MapType::caustics, own).photons.size());
+    }
+}
+
+TEST_CASE("caustic_budget: how many paths a pilot has, and that it does not give up") {
+    // A mirror throws all of its light at the sky, but for a little square. The light of
+    // 1 W/sr in front of it and its image at height 4 see the same cone.
+    Room room;
+    room.add(Quad{.corner{-0.5f, 0, -0.5f}, .edge_u{0, 0, 1}, .edge_v{1, 0, 0}},
+             room.add(Mirror{.reflectance = Rgb{1}}));
+    room.add(Quad{.corner{0.3f, 4, 0.4f}, .edge_u{0.06f, 0, 0}, .edge_v{0, 0, 0.06f}},
+             room.add(Lambertian{}));
+    room.add(PointLight{.position{0, 1, 0}});
+    const auto stored = [&](long long photons, long long give_up) {
+        return pilot_caustics(room, {.photons = photons, .give_up = give_up}, 0.1f)[0]
+            .stored;
+    };
+    const auto traced = [&](long long paths) {
+        return trace_photons(
+                   room, MapType::caustics,
+                   {.photons = paths, .iteration = ~std::uint64_t{0}, .shares = {1}})
+            .photons.size();
+    };
+    // A twentieth, at least 500 and at most 20 000.
+    CHECK(traced(20000) > 0);
+    CHECK(traced(20000) > traced(10000));
+    CHECK(stored(4000000, 1 << 20) == traced(20000));
+    CHECK(stored(200000, 1 << 20) == traced(10000));
+    // Where the first thousands of paths bring nothing, it goes on.
+    Room rare;
+    rare.add(Quad{.corner{-0.5f, 0, -0.5f}, .edge_u{0, 0, 1}, .edge_v{1, 0, 0}},
+             rare.add(Mirror{.reflectance = Rgb{1}}));
+    rare.add(Quad{.corner{0.3f, 4, 0.4f}, .edge_u{0.03f, 0, 0}, .edge_v{0, 0, 0.03f}},
+             rare.add(Lambertian{}));
+    rare.add(PointLight{.position{0, 1, 0}});
+    std::uint64_t seed = 1; // with which the first 2048 paths bring nothing
+    for (;; ++seed)
+        if (trace_photons(rare, MapType::caustics,
+                          {.photons = 20000,
+                           .seed = seed,
+                           .iteration = ~std::uint64_t{0},
+                           .shares = {1},
+                           .give_up = 1})
+                .photons.empty())
+            break;
+    REQUIRE(seed < 50);
+    const auto all = trace_photons(rare, MapType::caustics,
+                                   {.photons = 20000,
+                                    .seed = seed,
+                                    .iteration = ~std::uint64_t{0},
+                                    .shares = {1}});
+    REQUIRE(all.photons.size() > 0);
+    CHECK(pilot_caustics(rare, {.photons = 400000, .seed = seed, .give_up = 1}, 0.1f)[0]
+              .stored == all.photons.size());
+}
+
 TEST_CASE("caustic_budget: an index near 1 asks for photons by area, and else not") {
     // Two balls of one size and distance. The heavy glass gathers its light in a spot;
     // the light one spreads it over its shadow.

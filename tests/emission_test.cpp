@@ -21,6 +21,7 @@
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
+#include "ljus/materials/mixture.hpp"
 #include "ljus/scene/query.hpp"
 #include "support/integrate.hpp"
 #include "support/seed.hpp"
@@ -983,4 +984,99 @@ TEST_CASE("emission: what has no size is no target, first or last") {
     CHECK(second == doctest::Approx(750).epsilon(2e-3));
     const auto none = [](ObjectId) { return 0.0; };
     CHECK_FALSE(detail::choose_target<double>(targets, none, 0.5));
+}
+
+TEST_CASE("emission: what is matt and a mirror at once is aimed at, too") {
+    Scene<Shapes<Sphere>, Materials<Lambertian, Mixture>> scene;
+    scene.add(Sphere{}, scene.add(Lambertian{}));
+    const ObjectId gloss =
+        scene.add(Sphere{.center{3, 0, 0}}, scene.add(Mixture{.reflectivity = 0.5f}));
+    CHECK(specular_objects(scene) == std::vector<ObjectId>{gloss});
+}
+
+TEST_CASE("emission: from within a bound a lamp aims at all that it can shine on") {
+    using detail::aim_at;
+    Stage stage;
+    const ObjectId ball = stage.scene.add(Sphere{.radius = 2}, stage.glass);
+    const ObjectId wall = stage.scene.add(
+        Quad{.corner{-3, -3, 0}, .edge_u{6, 0, 0}, .edge_v{0, 6, 0}}, stage.mirror);
+    stage.scene.add(
+        Quad{.corner{-0.1f, -0.1f, 0.5f}, .edge_u{0.2f, 0, 0}, .edge_v{0, 0.2f, 0}},
+        stage.matt, Rgb{1});
+    stage.scene.add(PointLight{.position{0, 0, 0.5f}});
+    const SurfacePoint from{.position{0, 0, 0.5f}, .normal{0, 0, 1}};
+    for (const ObjectId target : {ball, wall}) {
+        // Its hemisphere, and a point light the whole sphere: in solid angles over 2 pi.
+        const auto lamp_at = aim_at(stage.scene, stage.scene.lights[0], from, target);
+        CHECK(lamp_at.cone.axis == from.normal);
+        CHECK(lamp_at.cone.one_minus_cos == 1);
+        CHECK(lamp_at.size == 1);
+        CHECK_FALSE(lamp_at.at_area);
+        const auto point_at = aim_at(stage.scene, stage.scene.lights[1], from, target);
+        CHECK(point_at.cone.one_minus_cos == 2);
+        CHECK(point_at.size == 2);
+        CHECK_FALSE(point_at.at_area);
+    }
+    // So no photon of the lamp is aimed in vain.
+    const LightChoice only{.cumulative = {1, 1}};
+    for (long long i = 0; i < 1000; ++i) {
+        RandomStream stream = stream_of(i);
+        const auto aimed =
+            aim(stage.scene, only, std::span<const ObjectId>(&ball, 1), stream);
+        REQUIRE(aimed);
+        CHECK(aimed->photon.ray.direction.z > 0);
+    }
+}
+
+TEST_CASE("emission: a spot that is wider than its target aims at nothing else") {
+    // Its even part is narrower than the target, all of it is wider.
+    Stage stage;
+    const Sphere ball{.center{0, 0.5f, -4}, .radius = 0.5f};
+    stage.scene.add(ball, stage.glass);
+    stage.scene.add(
+        SpotLight{.direction{0, 0, -1}, .inner_degrees = 1, .outer_degrees = 40});
+    const auto targets = specular_objects(stage.scene);
+    const LightChoice choice = light_choice(stage.scene.lights);
+    for (long long i = 0; i < 1000; ++i) {
+        RandomStream stream = stream_of(i);
+        const auto aimed = aim(stage.scene, choice, targets, stream);
+        REQUIRE(aimed);
+        CHECK(intersect(aimed->photon.ray, ball));
+    }
+}
+
+TEST_CASE("emission: each light's aimed photons pay for how often it is chosen") {
+    // A sun beside a point light, which is chosen nine times in ten though it is weak: a
+    // photon carries what its light sends to the ball, over the light's probability.
+    Stage stage;
+    stage.scene.add(Sphere{.radius = 0.5f}, stage.glass);
+    stage.scene.add(PointLight{.position{0, 3, 0}, .intensity = Rgb{0.2f}});
+    stage.scene.add(SunLight{.direction{0, 0, -1}, .irradiance = Rgb{4}});
+    const auto targets = specular_objects(stage.scene);
+    const LightChoice choice{.cumulative = {9, 10}};
+    const double cone = 1 - std::sqrt(1 - 0.25 / 9);
+    const double wanted[] = {2 * pi * cone * 0.2 / 0.9, 4 * pi * 0.25 / 0.1};
+    int seen[2] = {};
+    for (long long i = 0; i < 1000; ++i) {
+        RandomStream stream = stream_of(i);
+        const auto aimed = aim(stage.scene, choice, targets, stream);
+        REQUIRE(aimed);
+        const auto light = aimed->photon.light;
+        ++seen[light];
+        CHECK(double(aimed->photon.flux.x) == ljus_test::within(wanted[light], 1e-3));
+    }
+    CHECK(seen[0] > 800);
+    CHECK(seen[1] > 50);
+}
+
+TEST_CASE("emission: a mirror that is seen exactly from its edge gets no photon") {
+    Stage stage;
+    stage.scene.add(Quad{.corner{2, -0.5f, 0}}, stage.mirror); // in the plane z = 0
+    stage.scene.add(PointLight{});
+    const auto targets = specular_objects(stage.scene);
+    const LightChoice choice = light_choice(stage.scene.lights);
+    for (long long i = 0; i < 100; ++i) {
+        RandomStream stream = stream_of(i);
+        CHECK_FALSE(aim(stage.scene, choice, targets, stream));
+    }
 }

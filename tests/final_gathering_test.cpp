@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "ljus/accel/mesh.hpp"
 #include "ljus/geometry/moving.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/mirror.hpp"
@@ -757,6 +758,81 @@ TEST_CASE(
     CHECK(seen.records.size() == 100);
     CHECK(lit > 20);
     CHECK(lit < 80);
+    // As many rays as are asked for, by the seed that is asked for.
+    const auto found = [&](int rays, std::uint64_t seed) {
+        const auto points = make_irradiance_points(
+            half, photons_at(200), PhotonMap{},
+            {.every = 2, .radius = 0.2f, .shadow_rays = rays}, seed, 1);
+        Mean mean;
+        for (const auto& record : points.records) mean.add(double(record.irradiance.x));
+        return mean;
+    };
+    CHECK(found(64, 1).variance() < 0.2 * found(1, 1).variance());
+    CHECK(found(4, 1).mean == found(4, 1).mean);
+    CHECK(found(4, 1).mean != found(4, 2).mean);
+}
+
+TEST_CASE("final gathering: direct photons are no part of what is worked out") {
+    // A floor below a point light, and its photons: the shadow rays bring their light.
+    Flat scene;
+    scene.add(Quad{.corner{-9, -9, 0}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}},
+              scene.add(Lambertian{}));
+    scene.add(PointLight{.position{0, 0, 2}});
+    std::vector<Photon> photons;
+    for (int i = 0; i < 400; ++i)
+        photons.push_back({.position{0.01f * float(i % 20), 0.01f * float(i / 20), 0},
+                           .direction{0, 0, -1},
+                           .flux = Rgb{1},
+                           .kind = i % 3 == 0 ? PhotonKind::shadow : PhotonKind::direct,
+                           .normal = small_normal(Vec3{0, 0, 1})});
+    const auto points = make_irradiance_points(scene, make_photon_map(photons),
+                                               PhotonMap{}, {.radius = 0.2f}, 1, 1);
+    REQUIRE(points.records.size() == 67);
+    for (std::size_t i = 0; i < 67; ++i) {
+        const double d2 =
+            4 + double(glm::dot(points.tree.point(i), points.tree.point(i)));
+        CHECK(double(points.records[i].irradiance.x) ==
+              ljus_test::within(2 / (d2 * std::sqrt(d2)), 1e-4));
+    }
+    // A point says nothing of what is farther away than its radius.
+    for (const float far : {0.19f, 0.21f, 5.0f}) {
+        const Rgb light = irradiance_at(points, points.tree.point(0) + Vec3{0, 0, far},
+                                        Vec3{0, 0, 1});
+        CHECK((light.x > 0) == (far < 0.2f));
+    }
+    const IrradiancePointSettings settings; // if nothing is said
+    CHECK(settings.every == 6);
+    CHECK(settings.nearest == 32);
+    CHECK(settings.radius == 0);
+    CHECK(settings.shadow_rays == 4);
+    CHECK(settings.edges);
+}
+
+TEST_CASE("final gathering: photons lie on the shape, however its normals are bent") {
+    // Indirect photons on a triangle whose vertices have normals that are turned by 70
+    // degrees: as much light as if they had none.
+    const auto light = [](bool bent) {
+        MeshData data{.positions{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}},
+                      .triangles{{0, 1, 2}}};
+        if (bent) data.normals.assign(3, glm::normalize(Vec3{2.75f, 0, 1}));
+        Scene<Shapes<Mesh>, Materials<Lambertian>> scene;
+        scene.add(Mesh(data), scene.add(Lambertian{}));
+        std::vector<Photon> photons;
+        for (int i = 0; i < 100; ++i)
+            photons.push_back(
+                {.position{0.01f * float(i % 10), 0.01f * float(i / 10), 0},
+                 .direction{0, 0, -1},
+                 .flux = Rgb{1},
+                 .kind = PhotonKind::indirect,
+                 .normal = small_normal(Vec3{0, 0, 1})});
+        const auto points = make_irradiance_points(scene, make_photon_map(photons),
+                                                   PhotonMap{}, {.radius = 0.2f}, 1, 1);
+        double sum = 0;
+        for (const auto& record : points.records) sum += double(record.irradiance.x);
+        return sum;
+    };
+    CHECK(light(false) > 1);
+    CHECK(light(true) == doctest::Approx(light(false)).epsilon(1e-6));
 }
 
 namespace {

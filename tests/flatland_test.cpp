@@ -189,6 +189,23 @@ TEST_CASE("flatland: rays meet segments and circles") {
     CHECK_FALSE(intersect(Ray{.origin{nan, 2}, .direction{0, -1}}, disc));
     CHECK(glm::distance(normal(disc, Vec2{0.5, 0}), Vec2{1, 0}) == 0);
 
+    // A wall has both its ends, a ray both of its own.
+    for (const double x : {-1.0, 1.0}) {
+        const auto end = intersect(Ray{.origin{x, 2}, .direction{0, -1}}, wall);
+        REQUIRE(end);
+        CHECK(*end == 2);
+    }
+    for (const double t : {1.999, 2.0, 2.001}) {
+        const Ray to{.origin{0, 2}, .direction{0, -1}, .t_max = t};
+        CHECK(intersect(to, wall).has_value() == (t >= 2));
+        const Ray from{.origin{0, 2}, .direction{0, -1}, .t_min = t};
+        CHECK(intersect(from, wall).has_value() == (t <= 2));
+        const Ray into{.origin{0, 2.5}, .direction{0, -1}, .t_max = t};
+        CHECK(intersect(into, disc).has_value() == (t >= 2));
+        const Ray out{.origin{0, 1.5}, .direction{0, -1}, .t_min = t};
+        CHECK(intersect(out, disc).has_value() == (t <= 2)); // its far side
+    }
+
     const Scene scene{{{wall}, {disc}}};
     CHECK(closest_hit(scene, Ray{.origin{0, 2}, .direction{0, -1}})->id == 1);
     CHECK(closest_hit(scene, Ray{.origin{0.7, 2}, .direction{0, -1}})->id == 0);
@@ -452,6 +469,26 @@ TEST_CASE("flatland: which photons an estimate counts") {
     other.position = {0.7, 0};
     CHECK(estimate_irradiance({other}, point, box).irradiance == 0);
 
+    // Walls that are turned by less than 60 degrees are the same surface.
+    for (const double degrees : {-61.0, -59.0, 59.0, 61.0}) {
+        other = here;
+        other.normal = at_angle(degrees * pi / 180);
+        CHECK(estimate_irradiance({other}, point, box).gathered ==
+              (std::abs(degrees) < 60 ? 1 : 0));
+    }
+    // The interval is closed, and with the k nearest it ends at the k-th.
+    other = here;
+    other.position = {0.6, 0};
+    CHECK(estimate_irradiance({other}, {.position{0.1, 0}}, box).gathered == 1);
+    Photon beside = here;
+    beside.position = {0.35, 0};
+    const Estimate two =
+        estimate_irradiance({other, here, beside}, point,
+                            {.radius = 0.5, .nearest = 2, .kernel = Kernel::box});
+    CHECK(two.radius == within(0.25, 1e-15));
+    CHECK(two.gathered == 1);
+    CHECK(two.irradiance == within(3 / 0.5, 1e-14));
+
     // Fewer than k within the radius: the whole disc counts.
     const Estimate few = estimate_irradiance(
         {here}, point, {.radius = 0.5, .nearest = 5, .kernel = Kernel::box});
@@ -497,6 +534,15 @@ TEST_CASE("flatland: photons by their path, and the same ones in a longer pass")
     CHECK(kind_of(PathState{.met_specular = true}) == PhotonKind::caustic);
     CHECK(kind_of(PathState{.met_diffuse = true, .met_specular = true}) ==
           PhotonKind::indirect);
+    // The numbers of a photon are those of its pass, and of nothing else.
+    ljus::RandomStream own = photon_stream({.seed = 9}, 5);
+    ljus::RandomStream same = ljus::random_stream(9, Pass::general_photons, 0, 5);
+    for (int i = 0; i < 3; ++i)
+        CHECK(ljus::next_1d<double>(own) == ljus::next_1d<double>(same));
+    // The pass's limit of bounces is the path's.
+    for (const Photon& photon :
+         trace_photons(scene, {.photons = 300, .max_bounces = 1}))
+        CHECK(photon.kind == PhotonKind::direct);
     for (const Photon& photon :
          many) // glass, mirror and the disc of the lamp keep none
         CHECK(glm::distance(photon.position, room_disc.center) > room_disc.radius);
@@ -510,6 +556,60 @@ TEST_CASE("flatland: of two lamps the second half of the numbers is the second's
         CHECK(sample_lamp(scene, {u, 0.3}).lamp == &scene.objects[0]);
     for (const double u : {0.5, 0.75, 0.99999})
         CHECK(sample_lamp(scene, {u, 0.3}).lamp == &scene.objects[1]);
+    CHECK(sample_lamp(scene, {0.75, 0.3}).probability == within(0.5, 1e-15));
+
+    // What does not shine is no lamp, first or last, whatever rounding leaves over.
+    Scene many;
+    for (int i = 0; i < 40; ++i)
+        many.objects.push_back({Circle{.radius = 0.1 + 0.037 * (i % 7)}, Lambertian{},
+                                i % 3 == 1 ? 0.1 * i : 0.0});
+    for (int i = 0; i < 1000; ++i)
+        REQUIRE(sample_lamp(many, {i / 1000.0, 0.5}).lamp->emission > 0);
+    CHECK(sample_lamp(many, {std::nextafter(1.0, 0.0), 0.5}).lamp == &many.objects[37]);
+    const Scene dark{square(Lambertian{1})};
+    CHECK(sample_lamp(dark, {0.3, 0.3}).lamp == nullptr);
+    CHECK(sample_lamp(dark, {0.3, 0.3}).probability == 0);
+    Vertex above = floor_vertex(0.5);
+    above.point = {.position{0.5, 0.7}, .normal{0, -1}};
+    CHECK(direct_light(dark, above, {0.3, 0.3}) == 0);
+}
+
+TEST_CASE("flatland: a lamp shines on the side of its normal, and only there") {
+    const Object lamp{Segment{.from{1, 1}, .to{-1, 1}}, Lambertian{0}, 3}; // downwards
+    const Scene scene{{lamp}};
+    auto stream = stream_of(12, 0);
+    CHECK(radiance(scene, Ray{.origin{0.2, 0}, .direction{0, 1}}, stream) == 3);
+    CHECK(radiance(scene, Ray{.origin{0.2, 2}, .direction{0, -1}}, stream) == 0);
+    CHECK(Vertex{.wo{0, 1}, .object = lamp}.emits());
+    CHECK_FALSE(Vertex{.wo{0, -1}, .object = lamp}.emits());
+    CHECK_FALSE(Vertex{.wo{0, 1}}.emits());
+    // No shadow ray finds its back.
+    Vertex above = floor_vertex(0);
+    above.point.position = {0, 2};
+    above.point.normal = {0, -1};
+    CHECK(direct_light(scene, above, {0.3, 0.6}) == 0);
+    above.point.position = {0, 0};
+    above.point.normal = {0, 1};
+    CHECK(direct_light(scene, above, {0.3, 0.6}) > 0);
+}
+
+TEST_CASE("flatland: a vertex says where it is and from where the path came") {
+    const Scene scene{{{Segment{.from{-1, 0}, .to{1, 0}}},
+                       {Segment{.from{1, 3}, .to{-1, 3}}, Lambertian{}, 2}}};
+    PathState path{.ray{.origin{-0.5, 0}, .direction = glm::normalize(Vec2{1, 3})}};
+    auto stream = stream_of(13, 0);
+    const auto vertex = next_vertex(scene, path, stream);
+    REQUIRE(vertex);
+    CHECK(path.depth == 1);
+    CHECK(vertex->id == 1);
+    CHECK(vertex->object.emission == 2);
+    CHECK(vertex->distance == within(std::sqrt(10.0), 1e-12));
+    CHECK(glm::distance(vertex->point.position, Vec2{0.5, 3}) < 1e-12);
+    CHECK(glm::distance(vertex->point.normal, Vec2{0, -1}) < 1e-12);
+    // The frame's x is the normal turned clockwise: here to the left of the plane.
+    CHECK(glm::distance(vertex->wo, glm::normalize(Vec2{1, 3})) < 1e-12);
+    CHECK_FALSE(
+        next_vertex(scene, path = {.ray{.origin{0, 4}, .direction{0, 1}}}, stream));
 }
 
 TEST_CASE(
@@ -574,6 +674,12 @@ TEST_CASE("flatland: the room, number by number, and its normals point into it")
     CHECK(disc.center == Vec2{0.1, 0.45});
     CHECK(disc.radius == 0.25);
     CHECK(std::get<Glass>(scene.objects[5].material).index == 1.5);
+    const Scene dense = make_room({.lamp{0.2, 0.9}, .index = 1.8, .lamp_size = 0.05});
+    CHECK(std::get<Glass>(dense.objects[5].material).index == 1.8);
+    CHECK(std::get<Circle>(dense.objects[6].shape).center == Vec2{0.2, 0.9});
+    CHECK(std::get<Circle>(dense.objects[6].shape).radius == 0.05);
+    CHECK(std::get<Lambertian>(dense.objects[0].material).albedo == 0.5);
+    CHECK(flux(dense) == within(1, 1e-12));
     const auto& lamp = std::get<Circle>(scene.objects[6].shape);
     CHECK(lamp.center == Vec2{-0.45, 0.95});
     CHECK(lamp.radius == 0.03);
@@ -630,10 +736,45 @@ TEST_CASE("flatland: what cannot be is refused with a sentence") {
     CHECK_THROWS_WITH_AS((void)trace_photons(Scene{square(Lambertian{})}, {}),
                          "the flux of the scene is 0; it must be finite and above 0.",
                          std::invalid_argument);
+    // A pass looks at its scene before it sends anything.
+    Scene wrong = make_room();
+    wrong.objects[0].material = Lambertian{1.5};
+    CHECK_THROWS_WITH_AS((void)trace_photons(wrong, {.photons = 1}),
+                         "lambertian.albedo is 1.5; it must be within [0, 1].",
+                         std::invalid_argument);
     CHECK_THROWS_AS((void)trace_photons(make_room(), {.photons = -1}),
                     std::invalid_argument);
     CHECK_THROWS_AS(check(DensityEstimateSettings{.radius = 0}), std::invalid_argument);
     CHECK_THROWS_AS(check(DensityEstimateSettings{.nearest = 1}),
                     std::invalid_argument);
     CHECK_NOTHROW(check(DensityEstimateSettings{}));
+}
+
+TEST_CASE("flatland: what there is if nothing is said") {
+    CHECK(Lambertian{}.albedo == 0.5);
+    CHECK(Mirror{}.reflectance == 1);
+    CHECK(Glass{}.index == 1.5);
+    CHECK(BsdfSample{}.eta_scale == 1);
+    CHECK(BsdfSample{}.weight == 0);
+    CHECK(Ray{}.t_min == 1e-9);
+    CHECK(std::isinf(Ray{}.t_max));
+    CHECK(Object{}.emission == 0);
+    CHECK(PathState{}.throughput == 1);
+    CHECK(PathState{}.depth == 0);
+    CHECK_FALSE(PathState{}.specular);
+    const PhotonPassSettings pass;
+    CHECK(pass.photons == 10000);
+    CHECK(pass.seed == 1);
+    CHECK(pass.max_bounces == 1000);
+    const DensityEstimateSettings gather;
+    CHECK(gather.radius == 0.1);
+    CHECK(gather.nearest == 0);
+    CHECK(gather.kernel == Kernel::epanechnikov);
+    const RoomSettings room;
+    CHECK(room.lamp == Vec2{-0.45, 0.95});
+    CHECK(room.index == 1.5);
+    CHECK(room.albedo == 0.5);
+    CHECK(room.flux == 1);
+    CHECK(room.lamp_size == 0.03);
+    CHECK(room_height == 1.1);
 }

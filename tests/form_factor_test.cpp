@@ -208,6 +208,37 @@ TEST_CASE("exchange_area: sizes, places and far away") {
     CHECK(exchange_area(floor, rectangle({nan, 0, 0}, {0, 1, 0}, {0, 0, 1})) == 0);
 }
 
+TEST_CASE("exchange_area: edges that are nearly parallel, and edges without a length") {
+    // A turn that is small, but far above rounding: to take its edges for parallel ones
+    // would be wrong by as much as they are turned.
+    const Facet floor = rectangle({}, {1, 0, 0}, {0, 1, 0});
+    for (const double turn : {1e-8, 1e-7, 1e-5, 1e-3}) {
+        CAPTURE(turn);
+        const Facet roof = rectangle({0.3, 0.4, 1.5}, {turn, 1, 2 * turn},
+                                     {0.8, -0.8 * turn, 3 * turn});
+        CHECK(std::abs(exchange_area(floor, roof) / quadrature(floor, roof, 3) - 1) <
+              1e-11);
+        CHECK(std::abs(exchange_area(roof, floor) / quadrature(floor, roof, 3) - 1) <
+              1e-11);
+    }
+    // A corner that stands there twice changes nothing, in whichever of the two.
+    const Facet wall{{V{0, 0.2, 0}, V{0, 1, 0.1}, V{0, 0.5, 1}}, 3};
+    const double right = exchange_area(floor, wall);
+    CHECK(right > 0.01);
+    for (std::size_t twice = 0; twice < 3; ++twice) {
+        Facet other{{}, 4};
+        for (std::size_t i = 0, k = 0; i < 3; ++i) {
+            other.corners[k++] = wall.corners[i];
+            if (i == twice) other.corners[k++] = wall.corners[i];
+        }
+        CHECK(exchange_area(floor, other) == doctest::Approx(right).epsilon(1e-12));
+        CHECK(exchange_area(other, floor) == doctest::Approx(right).epsilon(1e-12));
+    }
+    // The logarithm's integrals where it has no value: nothing, and no NaN.
+    CHECK(ljus::detail::log_once(0, 0, 1) == 0);
+    CHECK(ljus::detail::log_twice(0, 0, 1) == 0);
+}
+
 TEST_CASE("form_factor: from a point, by Lambert") {
     const V up{0, 0, 1};
     // A square above: four times the corner's factor, Howell's C-11.

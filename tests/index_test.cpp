@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "ljus/geometry/watertight.hpp"
@@ -266,4 +267,136 @@ TEST_CASE("indexed scene: of many at one place the first wins, as in the loop") 
             REQUIRE(
                 same(scene, indexed, Ray{.origin{x, 0.2f, 5}, .direction{0, 0, -1}}));
     }
+}
+
+TEST_CASE("few shapes: who is asked, in which order, and who is not") {
+    // Balls and walls one behind the other along z, in any order.
+    FewShapes few;
+    CHECK(few.empty());
+    const std::array<float, 6> starts{5, 1, 4, 2, 6, 3};
+    for (std::uint32_t i = 0; i < 6; ++i) {
+        const float z = starts[i];
+        CHECK((i % 3 == 0 ? few.add(Sphere{{0, 0, z + 0.25f}, 0.25f}, i)
+               : i % 3 == 1
+                   ? few.add(Quad{{-1, -1, z}, {2, 0, 0}, {0, 2, 0}}, i)
+                   : few.add(Triangle{{-1, -1, z}, {3, -1, z}, {-1, 3, z}}, i)));
+        CHECK_FALSE(few.empty());
+    }
+    const auto asked = [](const FewShapes& shapes, const Ray& ray) {
+        std::vector<std::uint32_t> numbers;
+        shapes.closest(ray, [&](std::uint32_t i, Ray&) { numbers.push_back(i); });
+        std::vector<std::uint32_t> any, sorted = numbers;
+        CHECK_FALSE(shapes.any(ray, [&](std::uint32_t i) {
+            any.push_back(i);
+            return false;
+        }));
+        std::sort(any.begin(), any.end());
+        std::sort(sorted.begin(), sorted.end());
+        CHECK(any == sorted);
+        return numbers;
+    };
+    const Ray along{.origin{0.01f, 0.02f, 0}, .direction{0, 0, 1}};
+    CHECK(asked(few, along) == std::vector<std::uint32_t>{1, 3, 5, 2, 0, 4});
+    CHECK(asked(few, {.origin{0.01f, 0.02f, 9}, .direction{0, 0, -1}}) ==
+          std::vector<std::uint32_t>{4, 0, 2, 5, 3, 1});
+    // The ray's ends; and a hit on the way ends the search.
+    Ray part = along;
+    part.t_max = 3.5f;
+    CHECK(asked(few, part) == std::vector<std::uint32_t>{1, 3, 5});
+    part = along;
+    part.t_min = 3.75f;
+    CHECK(asked(few, part) == std::vector<std::uint32_t>{2, 0, 4});
+    int count = 0;
+    few.closest(along, [&](std::uint32_t, Ray& rest) {
+        ++count;
+        rest.t_max = 1;
+    });
+    CHECK(count == 1);
+    CHECK(few.any(along, [](std::uint32_t i) { return i == 4; }));
+    // Beside all of them nobody is asked; beside a triangle, within the parallelogram of
+    // its edges, it is not.
+    CHECK(asked(few, {.origin{9, 0, 0}, .direction{0, 0, 1}}).empty());
+    FewShapes one;
+    CHECK(one.add(Triangle{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, 7));
+    CHECK(asked(one, {.origin{0.3f, 0.3f, 0}, .direction{0, 0, 1}}).size() == 1);
+    CHECK(asked(one, {.origin{0.7f, 0.7f, 0}, .direction{0, 0, 1}}).empty());
+
+    // Two balls around the ray's beginning, and one before it: whoever ends the search
+    // right there, the other one is as near, and is asked.
+    FewShapes balls;
+    CHECK(balls.add(Sphere{{0, 0, 5}, 1}, 0));
+    CHECK(balls.add(Sphere{{0, 0, 0}, 1}, 1));
+    CHECK(balls.add(Sphere{{0, 0.1f, 0}, 1}, 2));
+    CHECK_FALSE(balls.empty());
+    for (const float zero : {0.0f, -0.0f}) {
+        Ray from = along;
+        from.t_min = zero;
+        std::vector<std::uint32_t> numbers;
+        balls.closest(from, [&](std::uint32_t i, Ray& rest) {
+            numbers.push_back(i);
+            rest.t_max = 0;
+        });
+        std::sort(numbers.begin(), numbers.end());
+        CHECK(numbers == std::vector<std::uint32_t>{1, 2});
+        CHECK(asked(balls, from).back() == 0);
+    }
+}
+
+TEST_CASE("few shapes: a ray for which no bound holds is asked of all") {
+    FewShapes few;
+    CHECK(few.add(Sphere{{0, 0, 5}, 1}, 0));
+    CHECK(few.add(Sphere{{0, 0, -5}, 1}, 1));
+    CHECK(few.add(Quad{{-1, 7, -1}, {2, 0, 0}, {0, 0, 2}}, 2));
+    const auto asked = [&](const Ray& ray) {
+        int count = 0;
+        CHECK_FALSE(few.any(ray, [&](std::uint32_t) { return ++count < 0; }));
+        return count;
+    };
+    CHECK(asked({.origin{0, 0, 0}, .direction{0, 0, 1}}) == 1);
+    CHECK(asked({.origin{0, 0, 0}, .direction{0, 0, 1e-5f}}) == 1);
+    CHECK(asked({.origin{0, 0, 0}, .direction{0, 0, 1e7f}}) == 1);
+    const float huge = 1e9f, nan = std::numeric_limits<float>::quiet_NaN();
+    CHECK(asked({.origin{0, 0, 0}, .direction{0, 0, 1e-7f}}) == 3);
+    CHECK(asked({.origin{0, 0, 0}, .direction{0, 0, 1e-30f}}) == 3);
+    CHECK(asked({.origin{0, 0, 0}, .direction{0, 0, huge}}) == 3);
+    CHECK(asked({.origin{0, 0, -huge}, .direction{0, 0, 1}}) == 3);
+    CHECK(asked({.origin{0, nan, 0}, .direction{0, 0, 1}}) == 3);
+    CHECK(asked({.origin{0, 0, 0}, .direction{0, nan, 1}}) == 3);
+    // Behind its origin a ray may begin, too.
+    Ray back{.origin{0, 0, 0}, .direction{0, 0, 1}};
+    back.t_min = -6;
+    CHECK(asked(back) == 3);
+    back.t_min = nan;
+    CHECK(asked(back) == 3);
+}
+
+TEST_CASE("few shapes: what has room there") {
+    FewShapes few;
+    // Without an area nothing is ever met: that does no harm, and takes no room.
+    CHECK(few.add(Quad{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, 0));
+    CHECK(few.add(Triangle{{0, 0, 0}, {1, 0, 0}, {3, 0, 0}}, 1));
+    CHECK(few.empty());
+    for (std::uint32_t i = 0; i < FewShapes::most; ++i)
+        CHECK((i % 2 ? few.add(Sphere{{float(i), 0, 0}, 0.25f}, i)
+                     : few.add(Quad{{float(i), 0, 0}, {0, 1, 0}, {0, 0, 1}}, i)));
+    CHECK(FewShapes::most == 32);
+    CHECK_FALSE(few.add(Sphere{}, 32));
+    CHECK_FALSE(few.add(Quad{}, 32));
+    CHECK_FALSE(FewShapes{}.add(Sphere{{1e9f, 0, 0}, 1}, 0));
+    // Numbers go on from list to list; another kind of shape has no place.
+    std::tuple<std::vector<Sphere>, std::vector<Quad>> lists{
+        {Sphere{{0, 0, 5}, 1}, Sphere{{0, 0, 9}, 1}},
+        {Quad{{-1, -1, 20}, {2, 0, 0}, {0, 2, 0}}}};
+    std::vector<std::uint32_t> numbers;
+    const Ray along{.origin{0.1f, 0.1f, 0}, .direction{0, 0, 1}};
+    make_few_shapes(lists).closest(
+        along, [&](std::uint32_t i, Ray&) { numbers.push_back(i); });
+    CHECK(numbers == std::vector<std::uint32_t>{0, 1, 2});
+    struct Other {};
+    CHECK_FALSE(make_few_shapes(
+                    std::tuple<std::vector<Sphere>, std::vector<Other>>{{Sphere{}}, {}})
+                    .empty());
+    CHECK(make_few_shapes(std::tuple<std::vector<Sphere>, std::vector<Other>>{
+                              {Sphere{}}, {Other{}}})
+              .empty());
 }

@@ -117,6 +117,58 @@ TEST_CASE("kd_tree: each range is split in the middle, by one of the axes") {
     }
 }
 
+TEST_CASE("kd_tree: equal points are split by their numbers") {
+    // So that the tree is the same with every standard library.
+    const std::vector<Vec3> equal(200, Vec3{1, 2, 3});
+    const KdTree tree{std::span<const Vec3>(equal)};
+    const auto& ids = tree.point_ids();
+    const auto ordered = [&](auto self, std::size_t first, std::size_t last) -> void {
+        if (last - first <= 16) return;
+        const std::size_t middle = first + (last - first) / 2;
+        CHECK(*std::max_element(&ids[first], &ids[middle]) <
+              *std::min_element(&ids[middle], ids.data() + last));
+        self(self, first, middle);
+        self(self, middle, last);
+    };
+    ordered(ordered, 0, ids.size());
+}
+
+TEST_CASE("kd_tree: nobody is asked about points that are too far away") {
+    const auto points = point_sets<float>(500, 1, 0)[0].points;
+    const KdTree tree{std::span<const Vec3>(points)};
+    std::vector<Neighbor> room(3);
+    std::size_t asked = 0;
+    const Vec3 center = points[7];
+    const float radius = 0.4f;
+    (void)tree.nearest(center, radius, room, [&](std::uint32_t i) {
+        ++asked;
+        CHECK(ljus::distance2(tree.points()[i], center) <=
+              double(radius) * double(radius));
+        return false;
+    });
+    CHECK(asked > 3); // more than are wanted
+}
+
+TEST_CASE("kd_tree: the longest side of a box, and how far away a box is") {
+    using ljus::detail::box_distance2, ljus::detail::longest_axis;
+    const Vec3 low{-1, -2, -3};
+    CHECK(longest_axis(low, Vec3{6, 2, 3}) == 0);
+    CHECK(longest_axis(low, Vec3{1, 5, 3}) == 1);
+    CHECK(longest_axis(low, Vec3{1, 2, 4}) == 2);
+    // The first of several, and no overflow where a side is longer than any float.
+    CHECK(longest_axis(Vec3{0}, Vec3{1}) == 0);
+    CHECK(longest_axis(Vec3{0}, Vec3{1, 1, 0}) == 0);
+    CHECK(longest_axis(Vec3{0}, Vec3{1, 0, 1}) == 0);
+    CHECK(longest_axis(Vec3{0}, Vec3{0, 1, 1}) == 1);
+    CHECK(longest_axis(Vec3{-3e38f, -3.3e38f, 0}, Vec3{3e38f, 3.3e38f, 1}) == 1);
+
+    CHECK(box_distance2(low, Vec3{1}, Vec3{0.5f, -1, 1}) == 0); // within, and on it
+    CHECK(box_distance2(low, Vec3{1}, Vec3{3, -4, 2}) == 4 + 4 + 1);
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    for (const Vec3& at : {Vec3{nan, 0, 0}, Vec3{0, nan, 0}, Vec3{0, 0, nan}})
+        CHECK(std::isnan(box_distance2(low, Vec3{1}, at)));
+}
+
 TEST_CASE("kd_tree: no set of points makes a search slow") {
     constexpr std::size_t n = 100000;
     Draws numbers{9};

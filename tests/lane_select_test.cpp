@@ -74,3 +74,15 @@ TEST_CASE("lane_select: the middle of two numbers lies between them, in steps") 
     }
     CHECK(steps <= 33);
 }
+
+TEST_CASE("lane_select: one number far from all others makes no search long") {
+    // Each guess by the spread of the numbers would move the lower end by a millionth
+    // of what is left: millions of passes. The middle in bits is there in some dozens.
+    constexpr std::size_t n = std::size_t{1} << 21;
+    std::vector<float> values(n, 1.0f);
+    values[54321] = 1.5f;
+    values[12345] = 0;
+    std::vector<float> sorted = values;
+    std::nth_element(sorted.begin(), sorted.begin() + 2, sorted.end());
+    CHECK(ljus::detail::select_smallest(values.data(), n, 3) == sorted[2]);
+}

@@ -156,6 +156,21 @@ TEST_CASE("light_map: what a ray finds") {
     REQUIRE(log.lines.size() == 1);
     CHECK(log.lines[0].path == "ED..L");
     CHECK(log.lines[0].what == "light map");
+    CHECK(glm::distance(log.lines[0].value, glm::dvec3(floor)) < 1e-12);
+    // The next ray begins a path of its own; a lamp's own light is a term, too.
+    log.letters = "ED";
+    log.lines.clear();
+    const Rgb bright = radiance(view, Ray{.origin{1.5f, 0, 1}, .direction{0, 0, 1}},
+                                stream, counts, log);
+    glm::dvec3 sum{0};
+    for (const auto& line : log.lines) {
+        CHECK(line.path == (line.what == "emission" ? "EL" : "ED..L"));
+        sum += line.value;
+    }
+    CHECK(glm::distance(sum, glm::dvec3(bright)) < 1e-6);
+    REQUIRE(!log.lines.empty());
+    CHECK(log.lines[0].what == "emission");
+    CHECK(log.lines[0].value.x == doctest::Approx(1));
 }
 
 TEST_CASE("light_map: each side has its own light, where the ray meets it") {
@@ -297,6 +312,13 @@ TEST_CASE("light_map: a map of another scene is refused") {
     wrong = all->map;
     wrong.irradiance.pop_back();
     refused(room.scene, wrong);
+    // Grids that share their patches, or leave some out.
+    for (const int shift : {-1, 1}) {
+        wrong = all->map;
+        wrong.grids[1].first += std::uint32_t(shift);
+        refused(room.scene, wrong);
+    }
+    CHECK_NOTHROW((void)make_light_map_view(room.scene, all->map));
 }
 
 TEST_CASE("light_map: a file cut short or damaged is refused") {

@@ -20,6 +20,18 @@ struct Forgetful {}; // the same without its factor
 float kernel_weight(Forgetful, float x) {
     return 1 + std::cos(std::numbers::pi_v<float> * std::sqrt(x));
 }
+
+// It loses half of the light.
+struct Swallowing {};
+float kernel_weight(Swallowing, float x) {
+    return 1 - x;
+}
+
+// A hill of the volume 1 - exp(-30), within a fifth of the radius.
+struct Narrow {};
+float kernel_weight(Narrow, float x) {
+    return 30 * std::exp(-30 * x);
+}
 } // namespace
 
 TEST_CASE("own kernel: its mean over the disc is 1, and nowhere is it negative") {
@@ -39,6 +51,11 @@ TEST_CASE("own kernel: its mean over the disc is 1, and nowhere is it negative")
 TEST_CASE("own kernel: the library refuses one that makes light") {
     CHECK_NOTHROW(check(ljus::DensityEstimateOf<Hann>{}));
     CHECK_THROWS_AS(check(ljus::DensityEstimateOf<Forgetful>{}), std::invalid_argument);
+    CHECK_THROWS_AS(check(ljus::DensityEstimateOf<Swallowing>{}),
+                    std::invalid_argument);
+    // A narrow hill: by the inner borders of the rings its mean would be 1.5 % too
+    // large.
+    CHECK_NOTHROW(check(ljus::DensityEstimateOf<Narrow>{}));
 }
 
 TEST_CASE("own kernel: an even floor has the radiance of its photons") {

@@ -86,7 +86,7 @@ TEST_CASE("own material: one that is only specular need not say that it has no f
     const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
     scene.add(Sphere{{0, 0, 0}, 3}, black, Rgb{1}, true);
     scene.add(Sphere{{0, 0, 0}, 1}, scene.add(mirror));
-    RandomStream stream(1, 0);
+    RandomStream stream = random_stream(1, Pass::camera, 0, 0);
     const Ray ray{.origin{0.3f, 0.2f, 2}, .direction{0, 0, -1}};
     Counts counts;
     const Rgb seen = radiance(make_path_tracer(scene), ray, stream, counts);

@@ -87,6 +87,8 @@ TEST_CASE("patches: each place of a shape belongs to one cell") {
     // What rounding has put outside belongs to the border.
     const PatchGrid grid = patch_grid(QuadT<double>{}, 0.25);
     CHECK(cell_of(grid, {-1e-9, 1 + 1e-9}) == 12);
+    CHECK(cell_of(grid, {-5.0, -5.0}) == 0);
+    CHECK(cell_of(grid, {5.0, 5.0}) == 15);
     const PatchGrid corner =
         patch_grid(TriangleT<double>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, 0.5);
     CHECK(corner.columns == 3);
@@ -404,4 +406,192 @@ TEST_CASE("form_factors: what lies behind a patch has no part in what is visible
             CHECK(detail::visible_share(indexed, all, j, i, 1000, 1) == 1);
         }
     CHECK(faced == 1);
+}
+
+TEST_CASE("patches: how many cells an edge of any length is cut into") {
+    const auto quad = [](double u, double v, double size) {
+        return patch_grid(QuadT<double>{{0, 0, 0}, {u, 0, 0}, {0, v, 0}}, size);
+    };
+    CHECK(quad(1, 0.5, 0.3).columns == 4);
+    CHECK(quad(1, 0.5, 0.3).rows == 2);
+    // Lengths that are multiples of the size, but for rounding, get no further cell.
+    for (int n = 1; n <= 60; ++n) {
+        CHECK(quad(n * 0.1, 1, 0.1).columns == std::uint32_t(n));
+        CHECK(quad(n * 0.7, 1, 0.7).columns == std::uint32_t(n));
+    }
+    // A triangle by the longest of its edges, whichever that is.
+    const Vec3T<double> a{0, 0, 0}, b{1, 0, 0}, c{0.3, 2, 0};
+    const auto longest = std::uint32_t(std::ceil(glm::distance(b, c) / 0.1));
+    for (const auto& shape : {TriangleT<double>{a, b, c}, TriangleT<double>{c, a, b},
+                              TriangleT<double>{b, c, a}}) {
+        CHECK(patch_grid(shape, 0.1).columns == longest);
+        CHECK(patch_grid(shape, 0.1).rows == longest);
+    }
+    // A ball by half of its circumference, and by all of it.
+    for (const double radius : {0.5, 1.0, 3.0}) {
+        const PatchGrid grid = patch_grid(SphereT<double>{.radius = radius}, 0.5);
+        CHECK(grid.columns == std::ceil(std::numbers::pi * radius / 0.5));
+        CHECK(grid.rows == std::ceil(2 * std::numbers::pi * radius / 0.5));
+    }
+    // As many patches as may be, and one more.
+    const auto box = unit_box(); // 4 to a side
+    CHECK(make_patches(box, {.size = 0.5, .most = 24}).patches.size() == 24);
+    CHECK(refusal([&] {
+              (void)make_patches(box, {.size = 0.5, .most = 23});
+          }).starts_with("the number of patches is 24; it must be at most 23"));
+}
+
+TEST_CASE("patches: what stands between, and what only seems to stand before") {
+    using V = Vec3T<float>;
+    Stage<float> stage;
+    const auto white = stage.add(LambertianT<float>{});
+    stage.add(QuadT<float>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, white);
+    stage.add(QuadT<float>{{0, 0, 2}, {0, 1, 0}, {1, 0, 0}}, white);
+    CHECK(make_patches(stage, {.size = 9}).convex);
+    Stage<float> with_ball = stage;
+    with_ball.add(SphereT<float>{.center{0.5f, 0.5f, 1}, .radius = 0.2f}, white);
+    CHECK_FALSE(make_patches(with_ball, {.size = 9}).convex);
+    // From within a ball nothing stands in the way of anything.
+    Stage<float> within;
+    const auto inside = within.add(LambertianT<float>{});
+    within.add(SphereT<float>{.radius = 2}, inside, V(1), true);
+    CHECK(make_patches(within, {.size = 9}).convex);
+    CHECK(make_patches(within, {.size = 9}).patches.size() > 0);
+
+    // Pieces of one plane, whichever way it lies: rounding puts no piece before another.
+    const V u = glm::normalize(V{1, 2, 3}),
+            v = glm::normalize(glm::cross(u, V{5, 1, 2}));
+    Stage<float> plane;
+    const auto grey_one = plane.add(LambertianT<float>{});
+    for (int i = 0; i < 5; ++i)
+        for (int j = 0; j < 5; ++j)
+            plane.add(
+                QuadT<float>{V{7.1f, -3.3f, 9.7f} + float(i) * u + float(j) * v, u, v},
+                grey_one);
+    CHECK(refusal([&] {
+              (void)make_patches(plane, {.size = 9});
+          }).starts_with("the number of patches is 0"));
+}
+
+TEST_CASE("form_factors: rows of different areas, and a patch that sees no other") {
+    FormFactors factors{.area = {1, 4, 0.5},
+                        .exchange = {0, 0.5, 0.25, 0.5, 0, 0.125, 0.25, 0.125, 0}};
+    const double sums[] = {0.75, 0.625 / 4, 0.375 / 0.5};
+    for (std::size_t i = 0; i < 3; ++i)
+        CHECK(factors.row_sum(i) == doctest::Approx(sums[i]).epsilon(1e-15));
+    CHECK(factors(1, 0) == 0.125);
+    CHECK(factors(0, 1) == 0.5);
+    FormFactors alone{.area = {1, 1, 1}, .exchange = {0, 1, 0, 1, 0, 0, 0, 0, 0}};
+    CHECK_FALSE(detail::close_rows(alone));
+    FormFactors pair{.area = {1, 1}, .exchange = {0, 0.4, 0.4, 0}};
+    CHECK(detail::close_rows(pair));
+    CHECK(pair(0, 1) == doctest::Approx(1).epsilon(1e-12));
+}
+
+TEST_CASE("form_factors: rays from both patches, the smaller one's count for more") {
+    // Of N rays a share F arrives: A F has the variance A^2 F / N where F is small, so
+    // in proportion to A. The weights are one over it: the other patch's area.
+    using V = Vec3T<double>;
+    Stage<double> stage;
+    const auto white = stage.add(LambertianT<double>{});
+    stage.add(QuadT<double>{V(0), {1, 0, 0}, {0, 1, 0}}, white);
+    stage.add(QuadT<double>{{-1, -1, 1}, {0, 4, 0}, {3, 0, 0}}, white);
+    const Patches all = make_patches(stage, {.size = 9});
+    REQUIRE(all.patches.size() == 2);
+    const IndexedScene<Stage<double>> indexed(stage);
+    for (const std::uint64_t seed : {1u, 2u}) {
+        std::array<double, 2> row{}, back{};
+        detail::shoot_rays(indexed, all, 0, 50, seed, row);
+        detail::shoot_rays(indexed, all, 1, 50, seed, back);
+        REQUIRE(row[1] != back[0]);
+        const auto factors = make_form_factors(
+            stage, all, {.analytic = false, .rays = 50, .seed = seed});
+        const double wanted = (12 * row[1] + 1 * back[0]) / 13;
+        CHECK(factors->row(0)[1] == doctest::Approx(wanted).epsilon(1e-14));
+        CHECK(factors->row(1)[0] == factors->row(0)[1]);
+    }
+}
+
+TEST_CASE("form_factors: each patch, each pair and each seed has numbers of its own") {
+    using V = Vec3T<double>;
+    // Two squares, and above them a roof whose columns run the other way: the patches 0
+    // and 3 lie to each other as 1 and 2 do. Half way stands a ball for each pair.
+    Stage<double> stage;
+    const auto white = stage.add(LambertianT<double>{});
+    stage.add(QuadT<double>{V(0), {2, 0, 0}, {0, 1, 0}}, white);
+    stage.add(QuadT<double>{{2, 0, 1}, {-2, 0, 0}, {0, 1, 0}}, white);
+    for (const double x : {0.4, 1.4})
+        stage.add(SphereT<double>{.center{x, 0.5, 0.5}, .radius = 0.25},
+                  stage.add(MirrorT<double>{}));
+    const Patches all = make_patches(stage, {.size = 1});
+    const IndexedScene<Stage<double>> indexed(stage);
+    REQUIRE(all.patches.size() == 4);
+    const auto share = [&](std::uint32_t i, std::uint32_t k, std::uint64_t seed) {
+        return detail::visible_share(indexed, all, i, k, 500, seed);
+    };
+    CHECK(share(0, 3, 1) == doctest::Approx(share(1, 2, 1)).epsilon(0.1));
+    CHECK(std::abs(share(0, 3, 1) - share(1, 2, 1)) > 1e-9);
+    CHECK(share(0, 3, 1) != share(0, 3, 2));
+    // Sides that face away from each other see nothing, whatever their product says.
+    Stage<double> away;
+    const auto matt = away.add(LambertianT<double>{});
+    away.add(QuadT<double>{V(0), {0, 1, 0}, {1, 0, 0}}, matt);           // downwards
+    away.add(QuadT<double>{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}, matt);      // upwards
+    away.add(QuadT<double>{{-9, -9, 5}, {0, 20, 0}, {20, 0, 0}}, matt);  // above both
+    away.add(QuadT<double>{{-9, -9, -5}, {20, 0, 0}, {0, 20, 0}}, matt); // below both
+    const Patches outer = make_patches(away, {.size = 30});
+    const IndexedScene<Stage<double>> around(away);
+    int asked = 0;
+    for (std::uint32_t i = 0; i < outer.patches.size(); ++i)
+        for (std::uint32_t k = 0; k < outer.patches.size(); ++k) {
+            const auto side = [&](std::uint32_t n) {
+                return detail::sample_patch(around, outer, n, Vec2T<double>{0.5});
+            };
+            if (side(i).position.z != 0 || side(i).normal.z > 0) continue;
+            if (side(k).position.z != 1 || side(k).normal.z < 0) continue;
+            ++asked;
+            CHECK(detail::visible_share(around, outer, i, k, 50, 1) == 0);
+        }
+    CHECK(asked == 1);
+
+    // By settings, too: rays and shadow rays by the seed that is asked for.
+    const auto factors = [&](const FormFactorSettings& settings) {
+        return make_form_factors(stage, all, settings)->exchange;
+    };
+    for (const bool analytic : {false, true}) {
+        const FormFactorSettings one{.analytic = analytic, .rays = 30, .seed = 1};
+        const FormFactorSettings two{.analytic = analytic, .rays = 30, .seed = 2};
+        CHECK(factors(one) == factors(one));
+        CHECK(factors(one) != factors(two));
+    }
+    // One ray from each of many patches: not all of them go the same way.
+    Stage<double> wide;
+    const auto one = wide.add(LambertianT<double>{});
+    wide.add(QuadT<double>{V(0), {8, 0, 0}, {0, 8, 0}}, one);
+    wide.add(QuadT<double>{{-40, -40, 30}, {0, 88, 0}, {88, 0, 0}}, one);
+    const Patches many = make_patches(wide, {.size = 1.0});
+    const IndexedScene<Stage<double>> open(wide);
+    double arrived = 0;
+    std::vector<double> row(many.patches.size());
+    for (std::uint32_t i = 0; i < 64; ++i) detail::shoot_rays(open, many, i, 1, 1, row);
+    for (const double share_of : row) arrived += share_of;
+    CHECK(arrived > 10);
+    CHECK(arrived < 60);
+}
+
+TEST_CASE("patches: how scenes are cut and form factors found if nothing is said") {
+    const PatchSettings cut;
+    CHECK(cut.size == 0.25);
+    CHECK(cut.most == 8192);
+    const FormFactorSettings factors;
+    CHECK(factors.analytic);
+    CHECK(factors.rays == 256);
+    CHECK(factors.shadow_rays == 16);
+    CHECK_FALSE(factors.closed);
+    CHECK(factors.seed == 1);
+    CHECK(factors.threads == 0);
+    const auto box = unit_box();
+    CHECK(refusal([&] { (void)make_patches(box, {.most = 65537}); }) ==
+          "most is 65537; it must be at most 65536: their form factors take 34 GB.");
+    CHECK_NOTHROW((void)make_patches(box, {.size = 1, .most = 65536}));
 }

@@ -115,6 +115,12 @@ float kernel_weight(Triweight, float x) {
 static_assert(ljus::KernelLike<Triweight> && ljus::KernelLike<Kernel> &&
               ljus::KernelLike<Kernel, double> && !ljus::KernelLike<Unknown>);
 
+/// Without a value beyond the border of its disc.
+struct Root {};
+float kernel_weight(Root, float x) {
+    return 1.5f * std::sqrt(1 - x);
+}
+
 /// The list's parabola, as a type: the same estimates are expected.
 struct Parabola {
     float factor = 2;
@@ -223,6 +229,12 @@ TEST_CASE("photon_map: estimates that are answered together are those one by one
             for (std::uint32_t i = 0; i < 200; ++i) {
                 auto surface = floor_at<float>(numbers.point<float>(1.2));
                 if (i % 8 != 0) surface.point.position.z *= 0.01f;
+                // Two normals: the shape's decides what lies near, the frame's on which
+                // side.
+                surface.point.normal =
+                    glm::normalize(Vec3{0, 0, 1} + numbers.point<float>(0.2));
+                surface.frame = ljus::frame_around(
+                    glm::normalize(surface.point.normal + numbers.point<float>(0.5)));
                 surface.wo = glm::normalize(numbers.point<float>(1));
                 const Rgb throughput = numbers.point<float>(1);
                 ljus::detail::set_place(places.emplace_back(), surface, matt,
@@ -352,8 +364,9 @@ TEST_CASE("photon_map: photons that all lie in one point give no NaN") {
     CHECK(estimate(map, {.radius = 1, .nearest = 5}) == Rgb{0});
     // Nor is there one so near to the point that no float holds what it says.
     for (Photon& photon : photons) photon.position.x = 1e-20f;
-    CHECK(estimate(ljus::make_photon_map(photons), {.radius = 1, .nearest = 5}) ==
-          Rgb{0});
+    for (const Kernel kernel : kernels)
+        CHECK(estimate(ljus::make_photon_map(photons),
+                       {.radius = 1, .nearest = 5, .kernel = kernel}) == Rgb{0});
     // With more room than photons, the radius that was asked for is the disc.
     const double one = double(matt.albedo.x) / std::numbers::pi / std::numbers::pi;
     CHECK(
@@ -622,6 +635,43 @@ TEST_CASE("photon_map: records follow the order of the tree") {
         REQUIRE(map.records[i].flux == photon.flux);
         REQUIRE(map.records[i].kind == photon.kind);
     }
+    // From one end to the other, by either way of looking at a record.
+    std::size_t place = 0;
+    for (auto at = map.records.begin(); at != map.records.end(); ++at, ++place) {
+        REQUIRE(at->light == map.records[place].light);
+        REQUIRE((*at).flux == map.records[place].flux);
+    }
+    CHECK(place == 1000);
+}
+
+TEST_CASE("photon_map: at the border of the disc rounding puts no photon beyond it") {
+    // A kernel that has no value beyond 1. Photons as far away as the radius: of the
+    // squares in float some are more than the radius's, and their weight is that at 1.
+    Draws numbers{91};
+    int beyond = 0;
+    for (int repeat = 0; repeat < 3000; ++repeat) {
+        const Vec3 at{float(numbers.between(-1, 1)), float(numbers.between(-1, 1)), 0};
+        float radius = float(glm::length(glm::dvec3(at)));
+        if (double(radius) < glm::length(glm::dvec3(at)))
+            radius = std::nextafter(radius, 2.0f);
+        const float share =
+            (at.x * at.x + at.y * at.y + at.z * at.z) * (1 / (radius * radius));
+        beyond += share > 1 ? 1 : 0;
+        for (const int count : {1, 2, 5}) { // one by one, and eight together
+            const auto map = ljus::make_photon_map(std::vector<Photon>(
+                std::size_t(count),
+                {.position = at, .direction{0, 0, -1}, .flux = Rgb{1}}));
+            std::uint64_t gathered = 0;
+            const Rgb light = ljus::estimate_radiance(
+                map, floor_at<float>(Vec3{0}), matt, Vec3{0, 0, 1},
+                ljus::DensityEstimateOf<Root>{.radius = radius}, ljus::all_kinds,
+                gathered);
+            REQUIRE(gathered == std::uint64_t(count));
+            REQUIRE(light.x >= 0); // and no NaN
+            REQUIRE(double(light.x) <= count * 1e-2 / double(radius * radius));
+        }
+    }
+    CHECK(beyond > 10);
 }
 
 TEST_CASE("photon_map: in double") {
@@ -681,6 +731,9 @@ TEST_CASE("photon_map: a way to gather that gives no estimate is refused") {
                     std::invalid_argument);
     CHECK_NOTHROW(ljus::check(DensityEstimateSettings{.radius = 1e-15f}));
     CHECK_NOTHROW(ljus::check(DensityEstimateSettings{.radius = 1e15f}));
+    for (const float bad : {0.999e-15f, 1.001e15f})
+        CHECK_THROWS_AS(ljus::check(DensityEstimateSettings{.radius = bad}),
+                        std::invalid_argument);
     for (const std::size_t bad : {std::size_t(1), std::size_t(513)})
         CHECK_THROWS_AS(ljus::check(DensityEstimateSettings{.nearest = bad}),
                         std::invalid_argument);
@@ -818,4 +871,13 @@ TEST_CASE("photon_map: a kernel's mean is 1, but for 1 %") {
     for (const float bad : {0.95f, 0.985f, 1.015f, 1.05f})
         CHECK_THROWS_AS(ljus::check(ljus::DensityEstimateOf<Level>{.kernel{bad}}),
                         std::invalid_argument);
+}
+
+TEST_CASE("photon_map: what an estimate is asked for if nothing is said") {
+    const DensityEstimateSettings gather;
+    CHECK(gather.radius == 0.1f);
+    CHECK(gather.nearest == 0);
+    CHECK(gather.kernel == Kernel::epanechnikov);
+    CHECK(gather.thickness == 0.5f);
+    CHECK(ljus::max_nearest == 512);
 }

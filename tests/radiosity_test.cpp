@@ -355,3 +355,133 @@ TEST_CASE("radiosity: what is not yet sent, as a share of what is emitted") {
           doctest::Approx(0.05));
     CHECK(detail::unsent_share(factors, unsent, Color(0)) == 0);
 }
+
+TEST_CASE("radiosity: patches of different areas and of colours that share a channel") {
+    // Two patches: B1 = E1 + r1 F12 B2, B2 = E2 + r2 F21 B1, by hand.
+    const FormFactors factors{.area = {1, 4}, .exchange = {0, 0.8, 0.8, 0}};
+    const Color r1{0.5, 0.5, 0.2}, r2{0.3, 0.3, 0.9}, e1{1, 2, 3}, e2{0.5, 0, 1};
+    const std::vector<Patch> patches{{.area = 1, .albedo = r1, .emitted = e1},
+                                     {.area = 4, .albedo = r2, .emitted = e2}};
+    const double f12 = 0.8, f21 = 0.2;
+    const Color b1 = (e1 + f12 * r1 * e2) / (1.0 - f12 * f21 * r1 * r2);
+    const Color b2 = e2 + f21 * r2 * b1;
+    for (const RadiositySolver solver : solvers) {
+        const auto found = solve_radiosity(factors, patches, {.solver = solver});
+        CAPTURE(int(solver));
+        CHECK(glm::distance(found.radiosity[0], b1) < 1e-11);
+        CHECK(glm::distance(found.radiosity[1], b2) < 1e-11);
+        CHECK(found.converged);
+    }
+}
+
+TEST_CASE("radiosity: in which order the patches send, step by step") {
+    // Four patches of different sizes. A plain twin: who sends is told by the solver.
+    const std::size_t n = 4;
+    FormFactors factors{.area = {1, 2, 0.5, 3}, .exchange = std::vector<double>(n * n)};
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t k = 0; k < n; ++k)
+            if (i != k) factors.exchange[i * n + k] = 0.02 * double(1 + i + k + i * k);
+    std::vector<Patch> patches(n);
+    for (std::size_t i = 0; i < n; ++i)
+        patches[i] = {.area = factors.area[i],
+                      .albedo =
+                          Color(0.9 - 0.1 * double(i), 0.5, 0.1 + 0.2 * double(i)),
+                      .emitted = Color(0, 0, i == 2 ? 4.0 : 0.1 * double(i))};
+    for (const RadiositySolver solver :
+         {RadiositySolver::gauss_seidel, RadiositySolver::shooting}) {
+        std::vector<Color> sent(n, Color(0)), waits(n);
+        for (std::size_t i = 0; i < n; ++i) waits[i] = patches[i].emitted;
+        for (std::size_t step = 0; step < n; ++step) {
+            std::size_t from = step;
+            if (solver == RadiositySolver::shooting) {
+                from = 0;
+                const auto flux = [&](std::size_t i) {
+                    return factors.area[i] * (waits[i].x + waits[i].y + waits[i].z);
+                };
+                for (std::size_t i = 1; i < n; ++i)
+                    if (flux(i) > flux(from)) from = i;
+            }
+            const Color goes = waits[from];
+            sent[from] += goes;
+            waits[from] = Color(0);
+            for (std::size_t i = 0; i < n; ++i)
+                waits[i] += patches[i].albedo * factors.exchange[from * n + i] /
+                            factors.area[i] * goes;
+        }
+        const auto found =
+            solve_radiosity(factors, patches, {.solver = solver, .max_sweeps = 1});
+        CAPTURE(int(solver));
+        CHECK_FALSE(found.converged);
+        for (std::size_t i = 0; i < n; ++i)
+            CHECK(glm::distance(found.radiosity[i], sent[i]) < 1e-14);
+    }
+    CHECK(detail::brightest(factors, std::vector<Color>(n, Color(0))) == 0);
+    // Of equals the first: 1 * 2, 2 * 1, 0.5 * 4.
+    CHECK(detail::brightest(factors, {Color(2), Color(1), Color(4), Color(0)}) == 0);
+    CHECK(detail::brightest(factors, {Color(0), Color(1), Color(4), Color(0)}) == 1);
+    CHECK(detail::brightest(factors, {Color(0), Color(0, 9, 0), Color(5), Color(0)}) ==
+          1);
+}
+
+TEST_CASE("radiosity: how far a solver goes, and what it refuses, channel by channel") {
+    const auto box = colored_box();
+    const auto all = make_radiosity(box, {.patches = {.size = 0.5}});
+    CHECK(all->map.objects == box.size());
+    for (const RadiositySolver solver :
+         {RadiositySolver::jacobi, RadiositySolver::gauss_seidel,
+          RadiositySolver::shooting})
+        for (const double tolerance : {0.1, 1e-3, 1e-6, 1e-14}) {
+            const auto found =
+                solve_radiosity(all->factors, all->patches.patches,
+                                {.solver = solver, .tolerance = tolerance});
+            const auto& left = found.residual;
+            REQUIRE(left.size() >= 2);
+            CHECK(left.back() <= tolerance); // reached, and not a sweep before
+            CHECK(left[left.size() - 2] > tolerance);
+        }
+    // Elimination says what it has left over: E + rho H - B, recomputed here.
+    const auto exact = solve_radiosity(all->factors, all->patches.patches,
+                                       {.solver = RadiositySolver::lu});
+    Color left(0), flux(0);
+    for (std::size_t i = 0; i < all->factors.size(); ++i) {
+        const Patch& patch = all->patches.patches[i];
+        Color arrives(0);
+        for (std::size_t k = 0; k < all->factors.size(); ++k)
+            arrives += all->factors.row(i)[k] * exact.radiosity[k];
+        left += patch.area *
+                glm::abs(patch.emitted + patch.albedo * (arrives / patch.area) -
+                         exact.radiosity[i]);
+        flux += patch.area * patch.emitted;
+    }
+    REQUIRE(exact.residual.size() == 1);
+    const double share = max_component(left / flux);
+    CHECK(share > 0);
+    CHECK(exact.residual[0] == doctest::Approx(share).epsilon(0.5).scale(0));
+
+    // A closed room whose walls send all of one channel back, or all but nothing.
+    const FormFactors closed{.area = {1, 1}, .exchange = {0, 1, 1, 0}};
+    const auto of = [](const Color& albedo) {
+        return std::vector<Patch>(2,
+                                  {.area = 1, .albedo = albedo, .emitted = Color(1)});
+    };
+    for (const double most : {1.0, 1 - 5e-13})
+        for (int channel = 0; channel < 3; ++channel) {
+            Color albedo(0.5);
+            albedo[channel] = most;
+            CHECK(refusal([&] {
+                      (void)solve_radiosity(closed, of(albedo));
+                  }).starts_with("the largest share of its light that a patch gets"));
+        }
+    CHECK_NOTHROW((void)solve_radiosity(closed, of(Color(1 - 1e-11)),
+                                        {.solver = RadiositySolver::lu}));
+}
+
+TEST_CASE("radiosity: how the equations are solved if nothing is said") {
+    const SolveSettings solve;
+    CHECK(solve.solver == RadiositySolver::shooting);
+    CHECK(solve.tolerance == 1e-12);
+    CHECK(solve.max_sweeps == 10000);
+    CHECK(solve.threads == 0);
+    CHECK(LightMapSettings{}.smooth);
+    CHECK(RadiositySolution{}.converged);
+}

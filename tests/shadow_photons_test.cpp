@@ -88,6 +88,11 @@ TEST_CASE("shadow photons: how many are needed, and what they say") {
     CHECK(photons_needed(enough) == 59);
     CHECK(photons_needed(any) == 1);
     CHECK(photons_needed({.rule = SkipRule::report}) == 50);
+    // More than there can be: as many as a number holds, and no fewer.
+    CHECK(photons_needed({.rule = SkipRule::enough, .tolerance = 1e-12f}) ==
+          4000000000u);
+    CHECK(photons_needed({.rule = SkipRule::enough, .tolerance = 1e-9f}) ==
+          doctest::Approx(std::log(0.05f) / std::log1p(-double(1e-9f))).epsilon(1e-6));
 
     using detail::judge;
     CHECK(judge({58, 0}, SkipRule::enough, 59) == Verdict::unknown);
@@ -127,6 +132,9 @@ TEST_CASE("shadow photons: which way a side faces") {
     // Both signs of a tie face opposite ways along one axis.
     CHECK(detail::facing(detail::SmallNormal{90, 90, 0}, 1) == 0);
     CHECK(detail::facing(detail::SmallNormal{-90, -90, 0}, 1) == 3);
+    CHECK(detail::facing(detail::SmallNormal{90, 0, 90}, 1) == 0);
+    CHECK(detail::facing(detail::SmallNormal{0, 90, 90}, 1) == 1);
+    CHECK(detail::facing(detail::SmallNormal{73, 73, 73}, 1) == 0);
     // A photon faces where it came from, whatever the normal says.
     for (const int up : {127, -127}) {
         Photon photon = on_floor(0, 0, PhotonKind::direct);
@@ -630,6 +638,13 @@ TEST_CASE("shadow photons: extremes") {
               Verdict::unknown);
         CHECK(verdict_of(make_verdict_grid(photons, 8, wide), point, 1, 7) ==
               Verdict::lit);
+        // Light number 7 of seven: none, and what it says is of nothing else either.
+        SkipSettings dark = wide;
+        dark.indirect_rays = true;
+        const VerdictGrid seven = make_verdict_grid(photons, 7, dark);
+        CHECK_FALSE(seven.indirect_near(seven.place_of(point, 1)));
+        for (std::size_t light = 0; light < 7; ++light)
+            CHECK(verdict_of(seven, point, 1, light) == Verdict::unknown);
     }
     SUBCASE("a radius larger than the room, and one too small for a number") {
         const auto photons = photons_of(half_plane(), 20000);
@@ -722,6 +737,19 @@ TEST_CASE("shadow photons: settings that make no sense") {
     }
     check(SkipSettings{});
     check(enough);
+    // A grid is not made by them either.
+    const std::vector<Photon> one{on_floor(0, 0, PhotonKind::direct)};
+    CHECK_THROWS_WITH_AS(
+        (void)make_verdict_grid(one, 1, {.rule = SkipRule::any, .risk = 1}),
+        "skip.risk is 1; it must be above 0 and below 1.", std::invalid_argument);
+    CHECK_THROWS_AS((void)make_verdict_grid(std::vector<Photon>{}, 1, {.radius = -1}),
+                    std::invalid_argument);
+    // What they are if nothing is said.
+    CHECK(SkipSettings{}.rule == SkipRule::none);
+    CHECK_FALSE(SkipSettings{}.indirect_rays);
+    CHECK(SkipSettings{}.radius == 0);
+    CHECK(SkipSettings{}.tolerance == 0.05f);
+    CHECK(SkipSettings{}.risk == 0.05f);
 }
 
 TEST_CASE("shadow photons: cells, bricks and the table that finds them") {
@@ -893,4 +921,35 @@ TEST_CASE(
         const float place = (low[axis] - cells.corner[axis]) / cells.length;
         CHECK(place - std::floor(place) == doctest::Approx(0.5).epsilon(0.01));
     }
+}
+
+TEST_CASE(
+    "shadow photons: one indirect photon is enough, whatever the shadow rays ask") {
+    for (const SkipRule rule :
+         {SkipRule::none, SkipRule::report, SkipRule::any, SkipRule::enough}) {
+        CAPTURE(int(rule));
+        const std::vector<Photon> photons{on_floor(0, 0, PhotonKind::indirect),
+                                          on_floor(9, 0, PhotonKind::direct)};
+        const VerdictGrid grid = make_verdict_grid(
+            photons, 1, {.rule = rule, .indirect_rays = true, .radius = 0.5f});
+        CHECK(grid.indirect_near(grid.place_of(floor_point(0, 0), 1)));
+        CHECK(grid.indirect_near(grid.place_of(floor_point(0.4f, 0), 1)));
+        CHECK_FALSE(grid.indirect_near(grid.place_of(floor_point(9, 0), 1)));
+        CHECK_FALSE(grid.indirect_near(grid.place_of(floor_point(0, 0), -1)));
+    }
+}
+
+TEST_CASE("shadow photons: too many bricks are refused before they take any memory") {
+    // Each photon lies in the first cell of a brick, and is near to eight.
+    std::vector<Photon> photons;
+    for (int i = 0; i < 65 * 64 * 64; ++i) {
+        Photon photon =
+            on_floor(float(i % 64) * 8, float(i / 64 % 64) * 8, PhotonKind::indirect);
+        photon.position.y = float(i / 64 / 64) * 8;
+        photons.push_back(photon);
+    }
+    CHECK(refusal([&] {
+              (void)make_verdict_grid(photons, 1, {.indirect_rays = true, .radius = 1});
+          }) == "the number of bricks in a verdict grid is 2129920; it must be at most "
+                "2097152: a larger skip.radius makes fewer.");
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "ljus/accel/mesh.hpp"
 #include "ljus/photons/tracing.hpp"
 #include "support/mean.hpp"
 #include "support/rooms.hpp"
@@ -793,6 +794,109 @@ TEST_CASE("tracing: the memory by hand, and what the sentences say") {
         detail::why_nothing({.photons = 1000}, MapType::general, 800, 200, audit);
     CHECK(general.find("(no light), 30 % met the limit of bounces,") !=
           std::string::npos);
+    // Where no path could be sent nothing is known of flux: no NaN stands there.
+    CHECK(detail::why_nothing({.photons = 9}, MapType::general, 5, 5, {}) ==
+          "gave up after 5 of 9 photons, none of which was stored: 100 % could not be "
+          "sent (no light), 0 % met the limit of bounces, 0 % left the scene, 0 % was "
+          "absorbed");
+}
+
+TEST_CASE(
+    "tracing: settings that make no sense, and what they are if nothing is said") {
+    const auto why = [](const PhotonPassSettings& pass) {
+        try {
+            check(pass);
+        } catch (const std::invalid_argument& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    CHECK(why({.photons = -1}) ==
+          "the number of photons is -1; it must be at least 0.");
+    CHECK(why({.max_bounces = 0}) ==
+          "the largest number of bounces is 0; it must be at least 1.");
+    CHECK(why({.max_memory = 0}) == "the memory for photons is 0; it must be above 0.");
+    CHECK(why({.give_up = 0}) ==
+          "the number of paths without a photon is 0; it must be at least 1.");
+    CHECK(why({.photons = 0, .max_bounces = 1, .max_memory = 1e-9, .give_up = 1}) ==
+          "");
+    const PhotonPassSettings pass;
+    CHECK(pass.photons == 100000);
+    CHECK(pass.seed == 1);
+    CHECK(pass.iteration == 0);
+    CHECK(pass.max_bounces == 1000);
+    CHECK(pass.shadow_photons);
+    CHECK(pass.keep.bits == light_kinds.bits);
+    CHECK_FALSE(pass.equal_lights);
+    CHECK(pass.numbers == PhotonSampling::random);
+    CHECK(pass.shares.empty());
+    CHECK(pass.max_memory == 4e9);
+    CHECK(pass.give_up == 1048576);
+    CHECK(pass.threads == 0);
+}
+
+TEST_CASE("tracing: a shadow photon on each matt surface behind the first") {
+    // Many walls, one behind the other: matt ones, a mirror, one that is both at once,
+    // and a mesh with a normal at its vertices that is not its own.
+    using V = Vec3;
+    Scene<Shapes<Quad, Mesh>, Materials<Lambertian, Mirror, Mixture>> scene;
+    const auto matt = scene.add(Lambertian{});
+    const auto both = scene.add(Mixture{.reflectivity = 0.5f});
+    const auto mirror = scene.add(Mirror{});
+    const auto wall = [](float z) { return Quad{{-1, -1, z}, {2, 0, 0}, {0, 2, 0}}; };
+    for (int i = 1; i <= 30; ++i) scene.add(wall(float(-i)), matt);
+    scene.add(wall(-31), mirror);
+    scene.add(wall(-32), both);
+    MeshData data{.positions{{-1, -1, -33}, {1, -1, -33}, {0, 1, -33}},
+                  .triangles{{0, 1, 2}}};
+    data.normals.assign(3, glm::normalize(V{0.5f, 0, 1}));
+    scene.add(Mesh(data), matt);
+    const EmittedPhotonT<float> photon{
+        .ray{.origin{0, 0, 1}, .direction{0, 0, -1}}, .flux = Rgb{2}, .light = 5};
+    std::vector<Photon> out;
+    detail::trace_shadow(scene, photon, SurfacePoint{},
+                         random_stream(1, Pass::user, 0, 0), out);
+    REQUIRE(out.size() == 32); // all but the mirror
+    for (std::size_t i = 0; i < 32; ++i) {
+        CHECK(out[i].position.z ==
+              doctest::Approx(i < 30 ? -1.0 - double(i) : -2.0 - double(i)));
+        CHECK(out[i].kind == PhotonKind::shadow);
+        CHECK(out[i].light == 5);
+        CHECK(out[i].flux == Rgb{2});
+        CHECK(out[i].direction == V{0, 0, -1});
+        CHECK(out[i].normal == detail::SmallNormal{0, 0, 127}); // the surface's own
+    }
+}
+
+TEST_CASE("tracing: only kinds that are kept, and nothing without flux") {
+    const Room room = make_room<float>(Ball::glass, Lamp::quad, 2);
+    std::size_t kinds[4] = {};
+    for (const Photon& photon :
+         trace_photons(room, MapType::general, {.photons = 500, .threads = 1}).photons)
+        ++kinds[std::size_t(photon.kind)];
+    CHECK(kinds[1] == 0);
+    for (const PhotonKind kind : {PhotonKind::direct, PhotonKind::indirect}) {
+        const auto kept = trace_photons(room, MapType::general,
+                                        {.photons = 500,
+                                         .shadow_photons = false,
+                                         .keep = one_kind(kind),
+                                         .threads = 1});
+        CHECK(kept.photons.size() == kinds[std::size_t(kind)]);
+        for (const Photon& photon : kept.photons) CHECK(photon.kind == kind);
+    }
+    CHECK(trace_photons(room, MapType::caustics,
+                        {.photons = 500, .keep = one_kind(PhotonKind::direct)})
+              .photons.empty());
+    // Glass that lets nothing through: a photon that has lost all of its flux ends.
+    Room dark;
+    add_walls(dark);
+    dark.add(Sphere{.radius = 0.4f}, dark.add(Glass{.absorption = Rgb{1e9f}}));
+    dark.add(PointLight{.position{0, 0.9f, 0}});
+    const auto traced =
+        trace_photons(dark, MapType::caustics, {.photons = 2000, .threads = 1});
+    check_balance(traced.audit);
+    CHECK(traced.photons.size() > 10); // by reflection
+    for (const Photon& photon : traced.photons) REQUIRE(photon.flux.x > 0);
 }
 
 TEST_CASE("tracing: in a disc below a point light lies the flux of its cone") {
@@ -1087,6 +1191,16 @@ TEST_CASE("tracing: progress ascends through all stages of a pass") {
     REQUIRE(heard.size() == 12);
     for (std::size_t i = 0; i < 12; ++i)
         CHECK(heard[i] == static_cast<long long>(i + 1));
+    // Who is told to stop stops, and asks no more in any later stage.
+    int calls = 0;
+    const auto stop = [&](long long, long long) { return ++calls < 0; };
+    const auto stopped = trace_photons(
+        room, MapType::general,
+        {.photons = 6000, .give_up = 3000, .threads = 1, .progress = stop});
+    CHECK(calls == 1);
+    CHECK_FALSE(stopped.complete);
+    CHECK(stopped.emitted == 2048); // the first stage
+    CHECK(stopped.remark.empty());
 }
 
 TEST_CASE("tracing: as many lights as 16 bits can number, and no more") {

@@ -100,3 +100,15 @@ ljus_break_it(NAME bvh-heuristic HEADER accel/detail/bvh_bins.hpp TEST bvh
     FROM "lower.bounds.half_area() * tests_of(lower.count, at_a_time) + above[i];"
     TO   "lower.bounds.half_area() * tests_of(upper.count, at_a_time) + above[i];"
     CASES "bvh: the split is the cheapest*")
+
+# What is as far as the end of the ray is left out.
+ljus_break_it(NAME bvh8-as-far HEADER accel/detail/bvh8_traverse.hpp TEST bvh8
+    FROM "entry > ray.t_max"
+    TO   "entry >= ray.t_max"
+    CASES "wide bvh: who is asked*")
+
+# Before its origin a ray meets nothing: but it may begin there.
+ljus_break_it(NAME few-shapes-behind HEADER accel/few_shapes.hpp TEST index
+    FROM " && ray.t_min >= 0;"
+    TO   ";"
+    CASES "few shapes: a ray for which*")

@@ -59,3 +59,9 @@ ljus_break_it(NAME caustic_budget-denser HEADER photons/budget.hpp TEST caustic_
     FROM "T(std::sqrt(double(paths * count) / double(std::max(pass.photons, 1LL))));"
     TO   "T(1);"
     CASES "caustic_budget: a radius of 0*")
+
+# The pilot draws from the streams of the picture.
+ljus_break_it(NAME budget-pilot-streams HEADER photons/budget.hpp TEST caustic_budget
+    FROM "pass.iteration = ~pass.iteration - object;"
+    TO   ""
+    CASES "caustic_budget: the pilot's numbers*")

@@ -89,3 +89,15 @@ ljus_break_it(NAME emission-no-size HEADER photons/aiming.hpp TEST emission
     FROM "if (!(size > T(0))) continue;"
     TO   ""
     CASES "emission: what has no size*")
+
+# A spot by its even part: photons go beside the target.
+ljus_break_it(NAME aim-spot-inner HEADER photons/aiming.hpp TEST emission
+    FROM "light.outer < cone.one_minus_cos)"
+    TO   "light.inner < cone.one_minus_cos)"
+    CASES "emission: a spot that is wider*")
+
+# What is matt and a mirror at once has no caustic.
+ljus_break_it(NAME aim-mixtures HEADER photons/aiming.hpp TEST emission
+    FROM "has(lobes(m), Lobes::specular)"
+    TO   "lobes(m) == Lobes::specular"
+    CASES "emission: what is matt and a mirror*")

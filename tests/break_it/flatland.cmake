@@ -129,3 +129,15 @@ ljus_break_it(NAME flatland-flux-in-glass HEADER flatland/photon_map.hpp TEST fl
     FROM "continue_path(path, *vertex, Transport::flux, stream)"
     TO   "continue_path(path, *vertex, Transport::radiance, stream)"
     CASES "flatland: a photon within*")
+
+# A lamp of the plane shines on both of its sides.
+ljus_break_it(NAME flatland-both-sides HEADER flatland/path.hpp TEST flatland
+    FROM "wo.y > 0 && object.emission > 0"
+    TO   "object.emission > 0"
+    CASES "flatland: a lamp shines*")
+
+# What does not shine is a lamp, if it comes last.
+ljus_break_it(NAME flatland-dark-lamp HEADER flatland/light.hpp TEST flatland
+    FROM "if (!(own > 0)) continue;"
+    TO   ""
+    CASES "flatland: of two lamps*")

@@ -117,3 +117,10 @@ ljus_break_it(NAME photon-map-k-height HEADER photons/density_estimate.hpp
     FROM "height * height > limit * limit * radius2"
     TO   "height * height > limit * limit * widest2"
     CASES "photon_map: of the k nearest the disc*")
+
+# Places that are asked together by the normal of the frame.
+ljus_break_it(NAME photon-map-place HEADER photons/detail/estimates_together.hpp
+    TEST photon_map
+    FROM "place.normal = vertex.point.normal;"
+    TO   "place.normal = vertex.frame.normal;"
+    CASES "photon_map: estimates that are answered together*")

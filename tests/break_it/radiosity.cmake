@@ -111,3 +111,21 @@ ljus_break_it(NAME light-map-checksum HEADER io/detail/map_bytes.hpp TEST light_
     FROM "checksum != map_checksum(file.bytes)"
     TO   "false"
     CASES "light_map: a file cut short*")
+
+# Pieces of one plane, which by rounding stand before each other.
+ljus_break_it(NAME patches-rounding HEADER radiosity/patches.hpp TEST patches
+    FROM "64 * unit *"
+    TO   "0 * unit *"
+    CASES "patches: what stands between*")
+
+# Rays from two patches, weighted the wrong way round.
+ljus_break_it(NAME form-factor-weights HEADER radiosity/form_factor_matrix.hpp TEST patches
+    FROM "(there * aj + back * ai)"
+    TO   "(there * ai + back * aj)"
+    CASES "form_factors: rays from both*")
+
+# Grey by two of three channels.
+ljus_break_it(NAME radiosity-grey HEADER radiosity/radiosity_lu.hpp TEST radiosity
+    FROM "patch.albedo == RgbT<double>(patch.albedo.x)"
+    TO   "patch.albedo.x == patch.albedo.y"
+    CASES "radiosity: patches of different areas*")

@@ -88,3 +88,10 @@ ljus_break_it(NAME verdict_grid-border HEADER photons/verdict_grid.hpp
     FROM "T(32.5) * length"
     TO   "T(32) * length"
     CASES "shadow photons: a wall lies*")
+
+# As many indirect photons are asked for as direct ones.
+ljus_break_it(NAME shadow-photons-one HEADER photons/detail/verdict_bits.hpp
+    TEST shadow_photons
+    FROM "indirect ? 1 : photons_needed(skip)"
+    TO   "photons_needed(skip)"
+    CASES "shadow photons: one indirect*")

@@ -77,3 +77,15 @@ ljus_break_it(NAME tracing-shadow-time HEADER photons/photon_path.hpp TEST traci
     FROM "spawn_ray(from, photon.ray.direction, photon.ray.time)"
     TO   "spawn_ray(from, photon.ray.direction)"
     CASES "tracing: a shadow falls*")
+
+# No shadow falls on what is matt and a mirror at once.
+ljus_break_it(NAME tracing-shadow-mixture HEADER photons/photon_path.hpp TEST tracing
+    FROM "return has(lobes(m), Lobes::non_specular);"
+    TO   "return !has(lobes(m), Lobes::specular);"
+    CASES "tracing: a shadow photon on each*")
+
+# Kinds that nobody wants are kept all the same.
+ljus_break_it(NAME tracing-keep HEADER photons/photon_path.hpp TEST tracing
+    FROM "== caustics && keep.has(kind);"
+    TO   "== caustics;"
+    CASES "tracing: only kinds*")
