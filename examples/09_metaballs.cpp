@@ -210,12 +210,11 @@ std::vector<Case> made(int count, Make make) {
 
 /// Plot: wrong decisions against how deep the ray dips in.
 void plot_grazing(const examples::Options& options, int count) {
-    examples::Plot plot{
-        .name = "metaballs-grazing",
-        .columns = {"depth of the ray inside, or distance outside, in radii"},
-        .y_label = "wrong hits and misses, %",
-        .rows = {},
-        .log_x = true};
+    examples::Plot plot{.name = "metaballs-grazing",
+                        .columns = {"how deep a ray dips in, or passes by, in radii"},
+                        .y_label = "wrong hits and misses, %",
+                        .rows = {},
+                        .log_x = true};
     for (const char* name : way_names) plot.columns.emplace_back(name);
     Numbers n{3};
     for (int exponent = -30; exponent <= -2; ++exponent) {
@@ -232,7 +231,7 @@ void plot_grazing(const examples::Options& options, int count) {
 void plot_time(const examples::Options& options, int count) {
     examples::Plot plot{.name = "metaballs-time",
                         .columns = {"blobs"},
-                        .y_label = "ns per ray",
+                        .y_label = "ns a ray",
                         .rows = {},
                         .log_x = true,
                         .log_y = true};

@@ -491,7 +491,7 @@ void save_trade(const Experiment& all, const examples::Options& options) {
                         .log_y = true};
     examples::Table table{.name = "general-trade",
                           .columns = {"photons", "best radius", "error, rms",
-                                      "tracing, ms", "tree, ms", "query, µs", "MB",
+                                      "tracing, ms", "tree, ms", "a query, µs", "MB",
                                       "bytes per photon"},
                           .rows = {}};
     const auto& numbers = all.numbers;

@@ -31,7 +31,7 @@ constexpr double pi = std::numbers::pi;
 struct Sizes {
     long long photons = 0; ///< The largest number of photons.
     int seeds = 0;         ///< Runs behind each bias and variance.
-    int truth = 0;         ///< Rays per pixel of the reference.
+    int truth = 0;         ///< Rays a pixel of the reference.
 };
 
 // --- Where a surface ends ------------------------------------------------------------
@@ -483,9 +483,9 @@ void trade(const examples::Options& options, const Sizes& sizes) {
                               .log_x = true,
                               .log_y = true};
     examples::Table table{.name = "final-gathering-table",
-                          .columns = {"photons", "rays per pixel", "way",
-                                      "first pass, s", "second pass, s", "relMSE",
-                                      "squared bias", "variance", "FLIP"}};
+                          .columns = {"photons", "rays a pixel", "way", "first pass, s",
+                                      "second pass, s", "relMSE", "squared bias",
+                                      "variance", "FLIP"}};
     constexpr std::array names{"photons", "map", "gather"};
     constexpr std::array kinds{IndirectLight::photons, IndirectLight::map,
                                IndirectLight::gather};
@@ -577,7 +577,7 @@ void ratio(const examples::Options& options, const Sizes& sizes) {
     print(table, options);
 
     examples::Table every{.name = "final-gathering-every",
-                          .columns = {"photons per point", "points", "first pass, s",
+                          .columns = {"a point at every", "points", "first pass, s",
                                       "second pass, s", "relMSE", "squared bias"}};
     std::vector<PhotonMappingSettings> ways;
     for (const int n : {2, 4, 8, 16, 64, 256, 1024}) {
@@ -616,7 +616,7 @@ int main(int argc, char** argv) {
         line.add("--photons", sizes.photons, "The largest number of photons", 1,
                  100000000);
         line.add("--seeds", sizes.seeds, "Runs behind bias and variance", 2, 1000);
-        line.add("--truth", sizes.truth, "Rays per pixel of the reference", 8, 1000000);
+        line.add("--truth", sizes.truth, "Rays a pixel of the reference", 8, 1000000);
         const examples::Options options =
             line.parse({.draft{.width = 32, .height = 32, .samples = 16},
                         .report{.width = 64, .height = 64, .samples = 64},

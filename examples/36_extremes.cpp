@@ -437,9 +437,8 @@ void trade(const Run& run) {
         return values[values.size() / 2];
     };
     examples::Table table{.name = "extremes-trade",
-                          .columns = {"precision", "s", "over float",
-                                      "bytes per photon", "bytes per pixel",
-                                      "bytes per ball"}};
+                          .columns = {"precision", "s", "over float", "bytes a photon",
+                                      "bytes a pixel", "bytes a ball"}};
     for (int i = 0; i < 2; ++i)
         table.rows.push_back(
             {i == 0 ? "float" : "double", text(median(seconds[i]), "%.3g"),
