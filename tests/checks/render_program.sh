@@ -28,7 +28,7 @@ for file in a.png a.hdr a.pfm; do
     "$render" "$scene" "${few[@]}" --out "new/$file" >out.txt
     [ -s "new/$file" ] || wrong "no new/$file"
     grep -q 'caustics map' out.txt || wrong "no line of the caustics pass"
-    grep -q 'a sample' out.txt || wrong "no rays a sample"
+    grep -q 'per sample' out.txt || wrong "no rays per sample"
 done
 "$render" "$scene" "${few[@]}" --renderer path --quiet --out new >out.txt
 [ -s new/balls.png ] || wrong "no new/balls.png"
