@@ -14,7 +14,7 @@ set linetype 4 lc rgb '#a06cd5'
 set linetype 5 lc rgb '#d64550'
 set linetype 6 lc rgb '#8c8c3a'
 set xlabel 'surface on the photon''s way' noenhanced
-set ylabel 'flux that arrives, of the light''s' noenhanced
+set ylabel 'fraction of the flux that arrives' noenhanced
 set logscale y
 set format y '10^{%L}'
 
