@@ -125,7 +125,7 @@ void one_pixel(const Room3& room, const examples::Options& options) {
     examples::Plot plot{
         .name = "rays_per_pixel-spread",
         .columns = {"mean of n rays over the true one", "n = 4", "16", "64", "256"},
-        .y_label = "relative frequency",
+        .y_label = "probability density",
         .rows = std::vector<examples::Row>(60)};
     examples::Table table{
         .name = "rays_per_pixel-spread-table",
