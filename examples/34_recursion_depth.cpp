@@ -305,7 +305,7 @@ struct Shared {
     double error = 0;          ///< relMSE.
     double block = 0;          ///< Of the means of 10 x 10 pixels.
     double trimmed = 0;        ///< Without the worst hundredth.
-    double estimate = 0;       ///< What it believes.
+    double estimate = 0;       ///< The renderer's own relMSE.
     double mean = 0;           ///< Light.
     std::vector<Image> runs{}; ///< The pictures.
 };
