@@ -148,7 +148,7 @@ int main(int argc, char** argv) {
                  1000000);
         const examples::Options options =
             line.parse({.draft{.width = 200, .height = 200, .samples = 16},
-                        .report{.width = 400, .height = 400, .samples = 64},
+                        .report{.width = 400, .height = 400, .samples = 256},
                         .reference{.width = 500, .height = 500, .samples = 800}});
         settings.caustics_estimate.radius = static_cast<float>(radius);
         settings.caustics.seed = options.seed;
