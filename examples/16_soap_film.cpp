@@ -318,7 +318,7 @@ int main(int argc, char** argv) {
         line.about("Chapter 16, the soap bubble: thin films and their colours.");
         const examples::Options options =
             line.parse({.draft{.width = 200, .height = 200, .samples = 4},
-                        .report{.width = 300, .height = 300, .samples = 36},
+                        .report{.width = 400, .height = 400, .samples = 36},
                         .reference{.width = 500, .height = 500, .samples = 1000}});
         const auto table = ljus::bake_film_table(1.33f);
         const auto look = [&](double c, double d) {

@@ -143,7 +143,7 @@ void profile(const examples::Options& options, long long photons) {
     }
     save_plot(options.out, plot);
 
-    const int size = options.pick(160, 240, 480);
+    const int size = options.pick(160, 400, 480);
     const PhotonMap few = map_of(stage, std::min(photons, 20000LL), options.seed);
     for (std::size_t k = 0; k < kernels.size(); ++k) {
         Image image = make_image(size, size);

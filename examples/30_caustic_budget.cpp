@@ -522,8 +522,8 @@ int main(int argc, char** argv) {
         line.add("--seeds", sizes.seeds, "Maps behind each error", 2, 1000);
         const examples::Options options =
             line.parse({.draft{.width = 80, .height = 80, .samples = 4},
-                        .report{.width = 240, .height = 240, .samples = 16},
-                        .reference{.width = 400, .height = 400, .samples = 64}});
+                        .report{.width = 400, .height = 400, .samples = 16},
+                        .reference{.width = 500, .height = 500, .samples = 64}});
         if (!line.given("--photons")) sizes.photons = options.pick(4000, 10000, 10000);
         if (!line.given("--seeds")) sizes.seeds = options.pick(4, 16, 64);
         const float radius = 0.03f;
