@@ -395,8 +395,9 @@ void pictures(examples::Options options, const Sizes& sizes) {
     const auto room = cornell_box();
     const long long photons = std::min(sizes.photons, 20000LL);
     const int rays = options.samples;
-    options.width *= 3; // than those whose errors are measured
-    options.height *= 3;
+    const int larger = options.pick(3, 7, 7); // than those whose errors are measured
+    options.width *= larger;
+    options.height *= larger;
     const auto take = [&](const std::string& name, IndirectLight indirect,
                           int samples) {
         const auto settings = gather_settings(indirect, photons, options.seed, options);
