@@ -41,7 +41,7 @@ struct Request {
     std::string reference;       ///< Files NAME-0.pfm, NAME-1.pfm, ...
     std::string preset = "fast"; ///< draft, fast or exact.
     int make = 0;                ///< Pieces of the reference to make; 0: measure.
-    int rays = 4096;             ///< A pixel, in each piece.
+    int rays = 4096;             ///< Per pixel, in each piece.
     int seeds = 5;               ///< Pictures to measure.
 };
 

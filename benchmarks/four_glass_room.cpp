@@ -1,8 +1,8 @@
 /// \file four_glass_room.cpp
 /// \brief The report's four-glass room, whole: tables 1 and 2 as a benchmark.
 ///
-/// 400 x 400 pixels, depth 4, 100 000 caustic photons, radius 0.05, as in the report. The counters say
-/// how many rays were traced for a camera ray, and how many a second.
+/// 400 x 400 pixels, depth 4, 100 000 caustic photons, radius 0.05, as in the report.
+/// The counters say how many rays were traced per camera ray, and how many per second.
 ///
 ///     bench_four_glass_room --benchmark_filter=room --benchmark_repetitions=5
 ///     bench_four_glass_room --benchmark_filter=render_loop   # rows of table 1
@@ -33,7 +33,7 @@ void count(benchmark::State& state, const Counts& counts) {
         double(counts.rays()), benchmark::Counter::kIsIterationInvariantRate);
 }
 
-/// Both passes. Arguments: rays a pixel, threads, shadow rays to the lamp.
+/// Both passes. Arguments: rays per pixel, threads, shadow rays to the lamp.
 void room(benchmark::State& state) {
     const auto room = four_glass_room();
     const int threads = static_cast<int>(state.range(1));
@@ -51,7 +51,7 @@ void room(benchmark::State& state) {
     count(state, counts);
 }
 
-/// The second pass alone. Arguments: rays a pixel, threads.
+/// The second pass alone. Arguments: rays per pixel, threads.
 void render_loop(benchmark::State& state) {
     const auto room = four_glass_room();
     const int threads = static_cast<int>(state.range(1));

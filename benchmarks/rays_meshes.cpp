@@ -52,11 +52,11 @@ int main(int argc, char** argv) {
     examples::Table table{.name = "bvh-embree",
                           .columns = {"mesh", "triangles", "primary", "diffuse",
                                       "shadow", "plain tree: primary", "diffuse",
-                                      "shadow", "build time", "bytes a triangle"}};
+                                      "shadow", "build time", "bytes per triangle"}};
     examples::Table tiny_table{.name = "bvh-tinybvh",
                                .columns = {"mesh", "triangles", "primary", "diffuse",
                                            "shadow", "build time",
-                                           "tinybvh's bytes a triangle"}};
+                                           "tinybvh's bytes per triangle"}};
     std::printf("%-10s %-8s %9s %9s %9s %9s   x Embree: plain  wide\n", "", "",
                 "plain, ns", "wide, ns", "Embree", "tinybvh");
     for (const rays::Named& named : rays::meshes()) {

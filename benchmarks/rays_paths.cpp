@@ -1,5 +1,5 @@
 /// \file rays_paths.cpp
-/// \brief The path tracer's rays a second in the report's room: camera, bounce and
+/// \brief The path tracer's rays per second in the report's room: camera, bounce and
 /// shadow rays, with all their shading.
 ///
 /// A program of its own, as a reader's is: in one that holds much else (the peers of
@@ -28,7 +28,7 @@ int main() {
     }
     std::sort(speeds.begin(), speeds.end());
     std::printf(
-        "path tracing: %.2f million rays a second and thread, the middle of %zu "
+        "path tracing: %.2f million rays per second and thread, the middle of %zu "
         "runs %.2f\n",
         speeds.back() / 1e6, speeds.size(), speeds[speeds.size() / 2] / 1e6);
 }

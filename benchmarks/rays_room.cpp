@@ -209,7 +209,7 @@ void print_crossover(const Scene& whole, const std::vector<Ray>& set,
                           .rows = {{"loop"}, {"wide tree"}, {"eight at once"}}};
     using Part = ljus::Scene<ljus::Shapes<ljus::Quad, ljus::Sphere, ljus::Triangle>,
                              ljus::Materials<ljus::Lambertian>>;
-    std::printf("\ndiffuse rays, the first objects only, ns a ray\n%8s %8s %8s %8s\n",
+    std::printf("\ndiffuse rays, the first objects only, ns per ray\n%8s %8s %8s %8s\n",
                 "objects", "loop", "tree", "lanes");
     for (const std::size_t count : {1u, 2u, 3u, 4u, 6u, 8u, 12u, 16u, 22u}) {
         Part part;
@@ -269,7 +269,7 @@ int main(int argc, char** argv) {
     const rays::RaySets sets =
         rays::ray_sets(first_hit, middle.origin, middle.origin + middle.direction,
                        {0, 0, 1}, lamp.corner, lamp.edge_u, lamp.edge_v);
-    std::printf("ns a ray; %zu objects, as the report has them %zu\n", scene.size(),
+    std::printf("ns per ray; %zu objects, as the report has them %zu\n", scene.size(),
                 as_report.size);
     std::printf("%-8s %8s %8s %8s %8s %8s %8s   index x report, virtual, Embree\n", "",
                 "report", "virtual", "loop", "index", "double", "Embree");

@@ -119,7 +119,7 @@ Cells compare_on(const char* name, const rays::Mesh& mesh, Vec3 eye, bool all_ra
         if (i < sets.primary.size()) set.push_back(sets.primary[i]);
     }
     std::printf("%s, %zu triangles, %zu rays\n  %-11s %9s %10s %8s\n", name,
-                mesh.size(), set.size(), "", "build, ms", "ns a ray", "bytes");
+                mesh.size(), set.size(), "", "build, ms", "ns per ray", "bytes");
     // The loop is asked as many rays as it answers in a few seconds.
     const std::size_t some =
         std::min(set.size(), all_rays ? set.size() : 100000000 / mesh.size());
@@ -148,7 +148,7 @@ int main(int argc, char** argv) {
     const std::vector<std::string> structures{"loop",     "grid",       "octree",
                                               "k-d tree", "plain tree", "wide tree"};
     examples::Table times{.name = "bvh-structures",
-                          .columns = {"ns a ray", "triangles"}};
+                          .columns = {"ns per ray", "triangles"}};
     examples::Table builds{.name = "bvh-structures-build",
                            .columns = {"", "triangles"}};
     times.columns.insert(times.columns.end(), structures.begin(), structures.end());
@@ -173,7 +173,7 @@ int main(int argc, char** argv) {
             add(times, name, cells.rays, 0);
             if (count < 100000) continue; // the loop has nothing to build
             add(builds, name + ": build, ms", cells.build, 1);
-            add(builds, name + ": bytes a triangle", cells.bytes, 1);
+            add(builds, name + ": bytes per triangle", cells.bytes, 1);
         }
     const std::string folder = csv_folder(argc, argv);
     save_csv(folder, times);

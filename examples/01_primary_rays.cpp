@@ -49,92 +49,119 @@ struct Onlooker {
     }
 };
 
-/// Figure 3: rays from the view point through the pixels of the camera plane into the
-/// scene, all of them made by the library's own camera.
-void draw_figure_3(const std::string& folder) {
-    const int columns = 6, rows = 4;
-    const Camera camera = ljus::look_at(
-        {.position{-4.2f, 1.6f, 0}, .target{0.4f, 0.7f, 0}, .vfov_degrees = 30});
-    const ljus::Sphere ball{.center{0.3f, 0.75f, 0}, .radius = 0.75f};
-    const ljus::Quad floor{
-        .corner{-1.6f, 0, 1.7f}, .edge_u{4, 0, 0}, .edge_v{0, 0, -3.4f}};
-    const auto scene = ljus::make_scene(placed(floor, ljus::Lambertian{}),
-                                        placed(ball, ljus::Lambertian{}));
-    const Onlooker see{ljus::look_at({.position{-5.2f, 4.0f, 8.5f},
-                                      .target{-0.75f, 0.65f, 0},
-                                      .vfov_degrees = 25}),
-                       720, 380};
-    Drawing figure{.name = "fig-3",
-                   .description = "Rays from a view point through the pixels of the "
-                                  "camera plane into the scene",
-                   .low{0, 0},
-                   .high{720, 380},
-                   .scale = 1};
+/// What figure 3 shows, and from where it is drawn.
+struct Figure3 {
+    static constexpr int columns = 6, rows = 4; ///< Of the camera plane.
 
-    const Vec3 corners[] = {floor.corner, floor.corner + floor.edge_u,
-                            floor.corner + floor.edge_u + floor.edge_v,
-                            floor.corner + floor.edge_v};
-    std::vector<Point> outline;
-    for (const Vec3& corner : corners) outline.push_back(see(corner));
-    draw_area(figure, outline, "currentColor");
-    // The rim of the ball, where lines from the onlooker touch it.
-    const Vec3 way = see.eye.position - ball.center;
+    Camera camera = ljus::look_at(
+        {.position{-4.2f, 1.6f, 0}, .target{0.4f, 0.7f, 0}, .vfov_degrees = 30});
+    ljus::Sphere ball{.center{0.3f, 0.75f, 0}, .radius = 0.75f};
+    ljus::Quad floor{.corner{-1.6f, 0, 1.7f}, .edge_u{4, 0, 0}, .edge_v{0, 0, -3.4f}};
+    Onlooker see{ljus::look_at({.position{-5.2f, 4.0f, 8.5f},
+                                .target{-0.75f, 0.65f, 0},
+                                .vfov_degrees = 25}),
+                 720, 380};
+    Drawing drawing{.name = "fig-3",
+                    .description = "Rays from a view point through the pixels of the "
+                                   "camera plane into the scene",
+                    .low{0, 0},
+                    .high{720, 380},
+                    .scale = 1};
+
+    /// A place of the camera plane in pixels, as far away as suits the drawing.
+    [[nodiscard]] Point plane(float x, float y) const {
+        const Ray ray = primary_ray(camera, Vec2{x, y}, columns, rows);
+        return see(point_at(ray, 2.1f / glm::dot(ray.direction, camera.forward)));
+    }
+};
+
+/// The rim of the ball, where lines from the onlooker touch it.
+std::vector<Point> rim_of_ball(const Figure3& figure) {
+    const ljus::Sphere& ball = figure.ball;
+    const Vec3 way = figure.see.eye.position - ball.center;
     const float near = ball.radius * ball.radius / glm::dot(way, way);
     const ljus::Frame frame = ljus::frame_around(glm::normalize(way));
     std::vector<Point> rim;
     for (int i = 0; i <= 64; ++i) {
         const float angle = float(i) * std::numbers::pi_v<float> / 32;
         const Vec3 round{std::cos(angle), std::sin(angle), 0};
-        rim.push_back(see(ball.center + near * way +
-                          ball.radius * std::sqrt(1 - near) * to_world(frame, round)));
+        rim.push_back(
+            figure.see(ball.center + near * way +
+                       ball.radius * std::sqrt(1 - near) * to_world(frame, round)));
     }
+    return rim;
+}
 
-    // The camera plane, as far away as suits the drawing.
-    const auto plane = [&](float x, float y) {
-        const Ray ray = primary_ray(camera, Vec2{x, y}, columns, rows);
-        return point_at(ray, 2.1f / glm::dot(ray.direction, camera.forward));
-    };
-    const auto draw_ray = [&](const Vec2& pixel, const examples::Pen& pen) {
-        const Ray ray = primary_ray(camera, pixel, columns, rows);
-        const auto hit = closest_hit(scene, ray);
-        const Vec3 end = point_at(ray, hit ? hit->at.t : 6.5f);
-        draw_line(figure, {see(camera.position), see(end)}, pen);
-        if (hit) draw_dot(figure, see(end), 2.5, pen.color);
-    };
-    draw_line(figure, rim);
-    draw_area(figure, rim, examples::colors::orange);
-    for (int y = 0; y < rows; ++y)
-        for (int x = 0; x < columns; ++x)
-            draw_ray({float(x) + 0.5f, float(y) + 0.5f},
-                     {.color = "#80808070", .width = 1});
-    const auto pixel_area = [&](float x, float y) {
-        return std::vector<Point>{see(plane(x, y)), see(plane(x + 1, y)),
-                                  see(plane(x + 1, y + 1)), see(plane(x, y + 1))};
-    };
-    draw_area(figure,
-              {see(plane(0, 0)), see(plane(columns, 0)), see(plane(columns, rows)),
-               see(plane(0, rows))},
+/// A ray through a place of the camera plane, to what it meets.
+void draw_camera_ray(Figure3& figure, const Vec2& pixel, const examples::Pen& pen) {
+    const auto scene = ljus::make_scene(placed(figure.floor, ljus::Lambertian{}),
+                                        placed(figure.ball, ljus::Lambertian{}));
+    const Ray ray = primary_ray(figure.camera, pixel, Figure3::columns, Figure3::rows);
+    const auto hit = closest_hit(scene, ray);
+    const Point end = figure.see(point_at(ray, hit ? hit->at.t : 6.5f));
+    draw_line(figure.drawing, {figure.see(figure.camera.position), end}, pen);
+    if (hit) draw_dot(figure.drawing, end, 2.5, pen.color);
+}
+
+/// The camera plane with the lines between its pixels.
+void draw_camera_plane(Figure3& figure) {
+    const float columns = Figure3::columns, rows = Figure3::rows;
+    const examples::Pen pen{.color = examples::colors::blue, .width = 1.2};
+    draw_area(figure.drawing,
+              {figure.plane(0, 0), figure.plane(columns, 0),
+               figure.plane(columns, rows), figure.plane(0, rows)},
               examples::colors::blue);
-    for (int x = 0; x <= columns; ++x)
-        draw_line(figure, {see(plane(float(x), 0)), see(plane(float(x), rows))},
-                  {.color = examples::colors::blue, .width = 1.2});
-    for (int y = 0; y <= rows; ++y)
-        draw_line(figure, {see(plane(0, float(y))), see(plane(columns, float(y)))},
-                  {.color = examples::colors::blue, .width = 1.2});
-    // One pixel with all of its rays.
-    draw_area(figure, pixel_area(2, 1), examples::colors::red);
+    for (int x = 0; x <= Figure3::columns; ++x)
+        draw_line(figure.drawing,
+                  {figure.plane(float(x), 0), figure.plane(float(x), rows)}, pen);
+    for (int y = 0; y <= Figure3::rows; ++y)
+        draw_line(figure.drawing,
+                  {figure.plane(0, float(y)), figure.plane(columns, float(y))}, pen);
+}
+
+/// One pixel with all of its rays.
+void draw_pixel_with_rays(Figure3& figure) {
+    draw_area(figure.drawing,
+              {figure.plane(2, 1), figure.plane(3, 1), figure.plane(3, 2),
+               figure.plane(2, 2)},
+              examples::colors::red);
     const auto pattern = make_pattern(Sampling::multi_jittered, 5);
     for (int i = 0; i < 5; ++i)
-        draw_ray(Vec2{2, 1} + ljus::detail::spread(pattern, i, 3, Vec2{0.5f}),
-                 {.color = examples::colors::red, .width = 1.3});
-    draw_dot(figure, see(camera.position), 5, "currentColor");
-    const Point eye = see(camera.position);
-    draw_label(figure, {eye.x + 10, eye.y + 26}, "view point");
-    draw_label(figure, {see(plane(3, 0)).x, see(plane(3, 0)).y + 40}, "camera plane",
-               examples::colors::blue);
-    draw_label(figure, {see(corners[1]).x - 60, see(corners[1]).y + 160}, "3D scene");
-    save_drawing(folder, figure);
+        draw_camera_ray(figure,
+                        Vec2{2, 1} + ljus::detail::spread(pattern, i, 3, Vec2{0.5f}),
+                        {.color = examples::colors::red, .width = 1.3});
 }
+
+/// Figure 3: rays from the view point through the pixels of the camera plane into the
+/// scene, all of them made by the library's own camera.
+void draw_figure_3(const std::string& folder) {
+    Figure3 figure;
+    const ljus::Quad& floor = figure.floor;
+    const Vec3 right = floor.corner + floor.edge_u;
+    draw_area(figure.drawing,
+              {figure.see(floor.corner), figure.see(right),
+               figure.see(right + floor.edge_v),
+               figure.see(floor.corner + floor.edge_v)},
+              "currentColor");
+    const std::vector<Point> rim = rim_of_ball(figure);
+    draw_line(figure.drawing, rim);
+    draw_area(figure.drawing, rim, examples::colors::orange);
+    for (int y = 0; y < Figure3::rows; ++y)
+        for (int x = 0; x < Figure3::columns; ++x)
+            draw_camera_ray(figure, {float(x) + 0.5f, float(y) + 0.5f},
+                            {.color = "#80808070", .width = 1});
+    draw_camera_plane(figure);
+    draw_pixel_with_rays(figure);
+    const Point eye = figure.see(figure.camera.position), top = figure.plane(3, 0);
+    draw_dot(figure.drawing, eye, 5, "currentColor");
+    draw_label(figure.drawing, {eye.x + 10, eye.y + 26}, "view point");
+    draw_label(figure.drawing, {top.x, top.y + 40}, "camera plane",
+               examples::colors::blue);
+    draw_label(figure.drawing, {figure.see(right).x - 60, figure.see(right).y + 160},
+               "3D scene");
+    save_drawing(folder, figure.drawing);
+}
+
 /// The four patterns, for 64 rays and for a prime.
 void draw_patterns(const std::string& folder) {
     Drawing drawing{.name = "patterns",
@@ -253,7 +280,7 @@ void plot_errors(const std::string& folder, int pixels, int most) {
         examples::Plot plot{.name = edges ? "patterns-edge" : "patterns-smooth",
                             .columns = {"rays per pixel", "random", "jittered",
                                         "multi-jittered", "Sobol"},
-                            .y_label = "rms error of a pixel",
+                            .y_label = "rms error per pixel",
                             .log_x = true,
                             .log_y = true};
         for (int rays = 4; rays <= most; rays *= 4) {

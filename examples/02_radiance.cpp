@@ -576,7 +576,7 @@ void trade(const std::string& folder, int most, int seeds) {
         const double deviation = std::sqrt(variance(one)) / truth;
         table.rows.push_back({way_names[way], text(deviation, "%.3g"), text(ns, "%.0f"),
                               text(deviation * deviation * 1e4 * ns / 1000, "%.3g")});
-        std::printf("%-28s %s of the truth, %.3g a sample, %.0f ns\n", way_names[way],
+        std::printf("%-28s %s of the truth, %.3g per sample, %.0f ns\n", way_names[way],
                     text(one.mean / truth, "%.4f").c_str(), deviation, ns);
         examples::stop_if_asked();
     }
@@ -643,9 +643,8 @@ double amplitude(const ljus::Image& image) {
     return std::abs(sum) / double(image.pixels.size());
 }
 
-/// Plots of weights and of what passes; a table; pictures of rings.
-void compare_filters(const examples::Options& options, int pixels, int samples) {
-    const std::string folder = options.path("");
+/// Plots: the weights of the filters, and what passes of each frequency.
+void plot_filters(const std::string& folder) {
     examples::Plot weights{.name = "radiance-filters",
                            .columns = {"distance from the pixel's middle (pixels)"},
                            .y_label = "weight"};
@@ -673,7 +672,34 @@ void compare_filters(const examples::Options& options, int pixels, int samples) 
     }
     save_plot(folder, weights);
     save_plot(folder, response);
+}
 
+/// The deviation of pixels of white noise, which has no value twice.
+double deviation_of_noise(Filter filter, std::uint64_t number) {
+    Estimate white;
+    auto stream = ljus::random_stream(5, ljus::Pass::user, 0, number);
+    for (int k = 0; k < 200000; ++k) {
+        const auto at = ljus::sample_filter(filter, next_2d<double>(stream));
+        add(white, at.weight * (next_1d<double>(stream) < 0.5 ? -1 : 1));
+    }
+    return std::sqrt(variance(white));
+}
+
+/// The time that a filter takes to choose a place in the pixel.
+double nanoseconds_per_ray(Filter filter, std::uint64_t number) {
+    return examples::nanoseconds_a_call(20000.0, [&] {
+        float sum = 0;
+        auto numbers = ljus::random_stream(6, ljus::Pass::user, 0, number);
+        for (int k = 0; k < 20000; ++k) {
+            const auto at = ljus::sample_filter(filter, next_2d(numbers));
+            sum += at.place.x + at.place.y * at.weight;
+        }
+        return sum;
+    });
+}
+
+/// Table: what passes by the formula and in a picture, noise, and time.
+void table_of_filters(const examples::Options& options, int samples) {
     examples::Table table{.name = "radiance-filter-table",
                           .columns = {"", "passes at 0.25", "passes at 1.5", "measured",
                                       "noise", "ns per ray"}};
@@ -682,31 +708,20 @@ void compare_filters(const examples::Options& options, int pixels, int samples) 
     for (std::size_t i = 0; i < std::size(filters); ++i) {
         const auto waves = picture_of({.frequency = 1.5, .half = side / 2.0},
                                       filters[i], 16 * samples, side, options);
-        // Noise: the deviation of pixels of white noise, which has no value twice.
-        Estimate white;
-        auto stream = ljus::random_stream(5, ljus::Pass::user, 0, i);
-        for (int k = 0; k < 200000; ++k) {
-            const auto at = ljus::sample_filter(filters[i], next_2d<double>(stream));
-            add(white, at.weight * (next_1d<double>(stream) < 0.5 ? -1 : 1));
-        }
-        const double ns = examples::nanoseconds_a_call(20000.0, [&] {
-            float sum = 0;
-            auto numbers = ljus::random_stream(6, ljus::Pass::user, 0, i);
-            for (int k = 0; k < 20000; ++k) {
-                const auto at = ljus::sample_filter(filters[i], next_2d(numbers));
-                sum += at.place.x + at.place.y * at.weight;
-            }
-            return sum;
-        });
-        table.rows.push_back(
-            {filter_names[i], text(100 * passed(filters[i], 0.25), "%.1f %%"),
-             text(100 * std::abs(passed(filters[i], 1.5)), "%.2f %%"),
-             text(100 * amplitude(waves), "%.2f %%"),
-             text(std::sqrt(variance(white)), "%.2f"), text(ns, "%.1f")});
+        table.rows.push_back({filter_names[i],
+                              text(100 * passed(filters[i], 0.25), "%.1f %%"),
+                              text(100 * std::abs(passed(filters[i], 1.5)), "%.2f %%"),
+                              text(100 * amplitude(waves), "%.2f %%"),
+                              text(deviation_of_noise(filters[i], i), "%.2f"),
+                              text(nanoseconds_per_ray(filters[i], i), "%.1f")});
         examples::stop_if_asked();
     }
-    save_table(folder, table);
+    save_table(options.path(""), table);
+}
 
+/// Rings that become finer outwards: by a ray through the middle of each pixel, and by
+/// each filter.
+void pictures_of_rings(const examples::Options& options, int pixels, int samples) {
     const Card rings{.frequency = 2, .half = pixels / 2.0, .rings = true};
     auto middles = ljus::make_image(pixels, pixels);
     const auto camera = ljus::look_at({.vfov_degrees = 90});
@@ -724,6 +739,13 @@ void compare_filters(const examples::Options& options, int pixels, int samples) 
                  options.path("radiance-rings-" + std::to_string(i + 1) + ".png"));
 }
 
+/// Plots of weights and of what passes; a table; pictures of rings.
+void compare_filters(const examples::Options& options, int pixels, int samples) {
+    plot_filters(options.path(""));
+    table_of_filters(options, samples);
+    pictures_of_rings(options, pixels, samples);
+}
+
 } // namespace
 
 /// Makes the figures of chapter 2.
@@ -731,7 +753,7 @@ int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
         line.about("Chapter 2, radiance: its laws counted with rays, and filters.");
-        line.add("--shots", sizes.shots, "Rays for each count", 1000, 2000000000);
+        line.add("--shots", sizes.shots, "Rays per count", 1000, 2000000000);
         line.add("--pixels", sizes.pixels, "Side of the pictures of rings", 8, 4000);
         const examples::Options options =
             line.parse({.draft{.width = 240, .height = 160, .samples = 16},

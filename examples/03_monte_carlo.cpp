@@ -446,78 +446,101 @@ void roulette(const std::string& folder, int samples) {
 
 // --- The hemisphere -------------------------------------------------------------------
 
-/// Plot and table: the same integral over directions, by points of the square.
-void hemisphere(const std::string& folder, const Sizes& sizes) {
-    struct Way {
-        const char* name;
-        bool cosine;
-        ljus::Sampling sampling;
-    };
-    constexpr Way all[] = {{"uniform random", false, ljus::Sampling::random},
-                           {"cosine random", true, ljus::Sampling::random},
-                           {"cosine strata", true, ljus::Sampling::jittered},
-                           {"cosine Owen", true, ljus::Sampling::sobol}};
-    const auto value = [](const Way& way, const ljus::Vec2T<double>& u, bool glass) {
-        const auto d = way.cosine ? ljus::sample_cosine_hemisphere(u)
-                                  : ljus::sample_uniform_hemisphere(u);
-        const double pdf = way.cosine ? ljus::pdf_cosine_hemisphere(d)
-                                      : ljus::pdf_uniform_hemisphere(d);
-        return (glass ? ljus::schlick(r0, d.z) : 1) * d.z / pdf;
-    };
+/// A density of directions, and where its points of the square come from.
+struct HemisphereWay {
+    const char* name;
+    bool cosine;
+    ljus::Sampling sampling;
+};
+constexpr std::array hemisphere_ways{
+    HemisphereWay{"uniform random", false, ljus::Sampling::random},
+    HemisphereWay{"cosine random", true, ljus::Sampling::random},
+    HemisphereWay{"cosine strata", true, ljus::Sampling::jittered},
+    HemisphereWay{"cosine Owen", true, ljus::Sampling::sobol}};
+
+/// One term of the estimate: of R cos θ over all directions, or of cos θ alone.
+double hemisphere_term(const HemisphereWay& way, const ljus::Vec2T<double>& u,
+                       bool glass) {
+    const auto d = way.cosine ? ljus::sample_cosine_hemisphere(u)
+                              : ljus::sample_uniform_hemisphere(u);
+    const double pdf =
+        way.cosine ? ljus::pdf_cosine_hemisphere(d) : ljus::pdf_uniform_hemisphere(d);
+    return (glass ? ljus::schlick(r0, d.z) : 1) * d.z / pdf;
+}
+
+/// The relative rms error of n samples, over some seeds.
+double hemisphere_error(const HemisphereWay& way, int n, int seeds) {
+    const auto pattern = make_pattern(way.sampling, n);
+    double squares = 0;
+    for (int seed = 1; seed <= seeds; ++seed) {
+        double sum = 0;
+        for (int i = 0; i < n; ++i) {
+            ljus::StratifiedStream stream;
+            start_ray(stream, std::uint64_t(seed), 5, i, pattern);
+            sum += hemisphere_term(way, next_2d<double>(stream), true) / n;
+        }
+        squares += std::pow(sum / (pi * truth) - 1, 2) / seeds;
+    }
+    return std::sqrt(squares);
+}
+
+/// How fast errors fall, from numbers of samples on that are large enough for a law.
+struct ErrorLaws {
+    std::vector<double> counts{};
+    std::array<std::vector<double>, hemisphere_ways.size()> errors{};
+};
+
+/// Plot: the error of each way against the number of samples.
+ErrorLaws plot_hemisphere(const std::string& folder, const Sizes& sizes) {
     examples::Plot plot{.name = "monte_carlo-hemisphere",
                         .columns = {"samples n"},
                         .y_label = "relative rms error",
                         .log_x = true,
                         .log_y = true};
-    examples::Table table{
-        .name = "monte_carlo-hemisphere-table",
-        .columns = {"", "sigma / π, of cos θ", "sigma / (π I), of R cos θ", "slope"}};
-    for (const Way& way : all) plot.columns.emplace_back(way.name);
-    std::array<std::vector<double>, 4> errors;
-    std::vector<double> counts;
+    for (const HemisphereWay& way : hemisphere_ways)
+        plot.columns.emplace_back(way.name);
+    ErrorLaws laws;
     for (int n = 4; n <= std::min(sizes.most, 65536); n *= 4) {
         examples::Row row{double(n)};
-        if (n >= 256 || sizes.most < 4096) counts.push_back(n);
-        for (std::size_t k = 0; k < 4; ++k) {
-            const auto pattern = make_pattern(all[k].sampling, n);
-            double squares = 0;
-            for (int seed = 1; seed <= sizes.seeds; ++seed) {
-                double sum = 0;
-                for (int i = 0; i < n; ++i) {
-                    ljus::StratifiedStream stream;
-                    start_ray(stream, std::uint64_t(seed), 5, i, pattern);
-                    sum += value(all[k], next_2d<double>(stream), true) / n;
-                }
-                squares += std::pow(sum / (pi * truth) - 1, 2) / sizes.seeds;
-            }
-            row.push_back(std::sqrt(squares));
-            if (!counts.empty()) errors[k].push_back(row.back());
+        if (n >= 256 || sizes.most < 4096) laws.counts.push_back(n);
+        for (std::size_t k = 0; k < hemisphere_ways.size(); ++k) {
+            row.push_back(hemisphere_error(hemisphere_ways[k], n, sizes.seeds));
+            if (!laws.counts.empty()) laws.errors[k].push_back(row.back());
             examples::stop_if_asked();
         }
         plot.rows.push_back(row);
     }
     save_plot(folder, plot);
-    for (std::size_t k = 0; k < 4; ++k) {
+    return laws;
+}
+
+/// Plot and table: the same integral over directions, by points of the square.
+void hemisphere(const std::string& folder, const Sizes& sizes) {
+    const ErrorLaws laws = plot_hemisphere(folder, sizes);
+    examples::Table table{
+        .name = "monte_carlo-hemisphere-table",
+        .columns = {"", "sigma / π, of cos θ", "sigma / (π I), of R cos θ", "slope"}};
+    for (std::size_t k = 0; k < hemisphere_ways.size(); ++k) {
+        const HemisphereWay& way = hemisphere_ways[k];
         Estimate one, glass;
         auto stream = stream_of(53);
         for (int i = 0; i < 200000; ++i) {
             const auto u = next_2d<double>(stream);
-            add(one, value(all[k], u, false));
-            add(glass, value(all[k], u, true));
+            add(one, hemisphere_term(way, u, false));
+            add(glass, hemisphere_term(way, u, true));
         }
         table.rows.push_back(
-            {all[k].name, text(std::sqrt(std::abs(variance(one))) / pi, "%.3f"),
+            {way.name, text(std::sqrt(std::abs(variance(one))) / pi, "%.3f"),
              text(std::sqrt(variance(glass)) / (pi * truth), "%.3f"),
-             text(examples::fit_power(counts, errors[k]).slope, "%.2f")});
+             text(examples::fit_power(laws.counts, laws.errors[k]).slope, "%.2f")});
     }
     save_table(folder, table);
 }
 
 // --- The trade ------------------------------------------------------------------------
 
-/// Plot: error against time for all that the chapter has.
-void trade(const std::string& folder, const Sizes& sizes) {
-    const Table steps;
+/// Error against time for all that the chapter has, as it is measured.
+struct Trade {
     examples::Plot plot{.name = "monte_carlo-trade",
                         .columns = {"time (microseconds)", "uniform", "cosine",
                                     "32 steps", "balance", "strata", "Owen"},
@@ -525,71 +548,92 @@ void trade(const std::string& folder, const Sizes& sizes) {
                         .log_x = true,
                         .log_y = true};
     examples::Table table{.name = "monte_carlo-trade-table",
-                          .columns = {"", "ns per sample", "relative error of 1024",
+                          .columns = {"", "ns per sample",
+                                      "relative error, 1024 samples",
                                       "time for 0.1 %, µs"}};
-    std::size_t column = 0;
-    const auto add_curve = [&](const std::string& name, auto estimate) {
-        ++column;
-        auto clock_stream = stream_of(1);
-        const double ns = examples::nanoseconds_a_call(
-            4096.0, [&] { return estimate(4096, 1, clock_stream); });
-        std::vector<double> times, errors;
-        double at_1024 = std::nan("");
-        for (int n = 16; n <= sizes.most; n *= 4) {
-            double squares = 0;
-            for (int seed = 1; seed <= sizes.seeds; ++seed) {
-                auto stream = stream_of(seed, n);
-                squares +=
-                    std::pow(estimate(n, seed, stream) / truth - 1, 2) / sizes.seeds;
-            }
-            examples::Row row(7, std::nan(""));
-            row[0] = n * ns / 1000;
-            row[column] = std::sqrt(squares);
-            if (n == 1024) at_1024 = row[column];
-            times.push_back(row[0]);
-            errors.push_back(row[column]);
-            plot.rows.push_back(row);
-            examples::stop_if_asked();
+};
+
+/// When the error is 0.1 %: from the curve, or where that does not reach so far, by its
+/// fitted slope.
+double time_for_a_thousandth(const std::vector<double>& times,
+                             const std::vector<double>& errors) {
+    const auto law = examples::fit_power(times, errors);
+    const double time = examples::reach(times, errors, 1e-3);
+    return std::isnan(time)
+               ? times.back() * std::pow(1e-3 / errors.back(), 1 / law.slope)
+               : time;
+}
+
+/// Adds the next curve of the plot, and its row of the table.
+/// \param estimate  The integral by n samples: of n, a seed, and a stream.
+template <typename Estimator>
+void add_curve(Trade& trade, const std::string& name, const Sizes& sizes,
+               Estimator estimate) {
+    const std::size_t column = trade.table.rows.size() + 1;
+    auto clock_stream = stream_of(1);
+    const double ns = examples::nanoseconds_a_call(
+        4096.0, [&] { return estimate(4096, 1, clock_stream); });
+    std::vector<double> times, errors;
+    double at_1024 = std::nan("");
+    for (int n = 16; n <= sizes.most; n *= 4) {
+        double squares = 0;
+        for (int seed = 1; seed <= sizes.seeds; ++seed) {
+            auto stream = stream_of(seed, n);
+            squares += std::pow(estimate(n, seed, stream) / truth - 1, 2) / sizes.seeds;
         }
-        // Where it is not reached, by the fitted slope.
-        const auto law = examples::fit_power(times, errors);
-        double time = examples::reach(times, errors, 1e-3);
-        if (std::isnan(time))
-            time = times.back() * std::pow(1e-3 / errors.back(), 1 / law.slope);
-        table.rows.push_back(
-            {name, text(ns, "%.1f"), text(at_1024, "%.2g"), text(time, "%.3g")});
+        examples::Row row(trade.plot.columns.size(), std::nan(""));
+        row[0] = n * ns / 1000;
+        row[column] = std::sqrt(squares);
+        if (n == 1024) at_1024 = row[column];
+        times.push_back(row[0]);
+        errors.push_back(row[column]);
+        trade.plot.rows.push_back(row);
+        examples::stop_if_asked();
+    }
+    trade.table.rows.push_back({name, text(ns, "%.1f"), text(at_1024, "%.2g"),
+                                text(time_for_a_thousandth(times, errors), "%.3g")});
+}
+
+/// The estimator of a density, for add_curve().
+template <typename Way>
+auto by_density(const Way& way) {
+    return [&way](int n, int, ljus::RandomStream& stream) {
+        return integrate(way, n, stream).mean;
     };
-    const auto by = [](const auto& way) {
-        return [&way](int n, int, ljus::RandomStream& stream) {
-            return integrate(way, n, stream).mean;
-        };
+}
+
+/// That of the cosine density with numbers that are placed, not thrown.
+auto by_points(Points points) {
+    return [points](int n, int seed, ljus::RandomStream& stream) {
+        double sum = 0;
+        for (int i = 0; i < n; ++i) {
+            const double c = Cosine::sample(
+                number(points, i, n, std::uint64_t(seed) * 7919, stream));
+            sum += f(c) / Cosine::pdf(c);
+        }
+        return sum / n;
     };
+}
+
+/// Plot: error against time for all that the chapter has.
+void trade(const std::string& folder, const Sizes& sizes) {
+    const Table steps;
     const Uniform uniform;
     const Cosine cosine;
-    add_curve("uniform", by(uniform));
-    add_curve("cosine", by(cosine));
-    add_curve("32 steps", by(steps));
-    add_curve("cosine and grazing, balance",
+    Trade found;
+    add_curve(found, "uniform", sizes, by_density(uniform));
+    add_curve(found, "cosine", sizes, by_density(cosine));
+    add_curve(found, "32 steps", sizes, by_density(steps));
+    add_curve(found, "cosine and grazing, balance", sizes,
               [](int n, int, ljus::RandomStream& stream) {
                   double sum = 0;
                   for (int i = 0; i < n / 2; ++i) sum += both(Weights::balance, stream);
                   return sum / (n / 2);
               });
-    const auto placed = [](Points points) {
-        return [points](int n, int seed, ljus::RandomStream& stream) {
-            double sum = 0;
-            for (int i = 0; i < n; ++i) {
-                const double c = Cosine::sample(
-                    number(points, i, n, std::uint64_t(seed) * 7919, stream));
-                sum += f(c) / Cosine::pdf(c);
-            }
-            return sum / n;
-        };
-    };
-    add_curve("cosine, strata", placed(Points::strata));
-    add_curve("cosine, Owen", placed(Points::owen));
-    save_plot(folder, plot);
-    save_table(folder, table);
+    add_curve(found, "cosine, strata", sizes, by_points(Points::strata));
+    add_curve(found, "cosine, Owen", sizes, by_points(Points::owen));
+    save_plot(folder, found.plot);
+    save_table(folder, found.table);
 }
 
 // --- How errors are measured ----------------------------------------------------------
@@ -692,7 +736,7 @@ int main(int argc, char** argv) {
         line.about(
             "Chapter 3, Monte Carlo: means of random numbers, and their errors.");
         line.add("--seeds", sizes.seeds, "Runs behind each error", 2, 100000);
-        line.add("--most", sizes.most, "Samples of a run, at most", 64, 1 << 24);
+        line.add("--most", sizes.most, "Samples per run, at most", 64, 1 << 24);
         const examples::Options options =
             line.parse({.draft{.width = 240, .height = 240, .samples = 1},
                         .report{.width = 400, .height = 400, .samples = 1},

@@ -175,11 +175,11 @@ Cost cost(const Mesh& mesh, const std::vector<Ray>& rays) {
     return result;
 }
 
-/// Figure: time a ray, against the number of triangles.
+/// Figure: time per ray, against the number of triangles.
 void plot_crossover(const examples::Options& options) {
     examples::Plot plot{.name = "bvh-crossover",
                         .columns = {"triangles", Loop::name, Plain::name, Wide::name},
-                        .y_label = "nanoseconds a ray",
+                        .y_label = "nanoseconds per ray",
                         .rows = {},
                         .log_x = true,
                         .log_y = true};
@@ -199,7 +199,7 @@ void plot_crossover(const examples::Options& options) {
 void tabulate(const examples::Options& options) {
     examples::Table table{
         .name = "bvh-trade",
-        .columns = {"", "build, ms", "bytes a triangle", "ns a ray", "the same hits"}};
+        .columns = {"", "build, ms", "bytes per triangle", "ns per ray", "same hits"}};
     const Mesh mesh = balls(options.pick(10000, 100000, 100000));
     const auto rays = rays_through(options.pick(300, 2000, 5000));
     const Cost loop = cost<Loop>(mesh, rays), plain = cost<Plain>(mesh, rays),
@@ -301,7 +301,7 @@ void heat_map(const examples::Options& options) {
             }
         ljus::save_png(image, options.path(name));
         if (!options.quiet)
-            std::printf("%s: %.1f nodes a ray\n", name,
+            std::printf("%s: %.1f nodes per ray\n", name,
                         sum / (double(options.width) * options.height));
     };
     picture(plain, 60, "bvh-nodes-plain.png");

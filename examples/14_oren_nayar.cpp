@@ -338,7 +338,7 @@ int main(int argc, char** argv) {
         line.about("Chapter 14, rough surfaces: figure 14 and six models.");
         const examples::Options options =
             line.parse({.draft{.width = 140, .height = 140, .samples = 9},
-                        .report{.width = 240, .height = 240, .samples = 64},
+                        .report{.width = 400, .height = 400, .samples = 64},
                         .reference{.width = 400, .height = 400, .samples = 1024}});
         const std::string folder = options.path("");
         const int size = options.pick(150, 600, 1500);

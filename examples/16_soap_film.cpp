@@ -5,6 +5,7 @@
 /// spectrum, a table, three wavelengths, and integrals made beforehand.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -136,7 +137,7 @@ struct Studio {
     }
 };
 
-/// The bubble as seen from the front, with side x side rays a pixel.
+/// The bubble as seen from the front, with side x side rays per pixel.
 template <typename Color>
 Image bubble(int size, int side, Color color) {
     const Studio studio;
@@ -159,40 +160,58 @@ Image bubble(int size, int side, Color color) {
     return image;
 }
 
-/// Table and plot: how far each method is from the spectrum, and what it costs.
-void trade(const examples::Options& options, const ljus::FilmTable& table) {
-    const auto look = [&](double c, double d) {
+/// The colour by the renderer's table, as the other methods give it.
+auto by_table(const ljus::FilmTable& table) {
+    return [&table](double c, double d) {
         return glm::dvec3(ljus::look_up(table, float(c), float(d)));
     };
+}
+
+constexpr std::array method_names{"three wavelengths", "integrated beforehand",
+                                  "table"};
+
+/// How far each method is from the spectrum, as ΔE*ab over angles and thicknesses.
+struct Differences {
+    std::array<double, 3> mean{}, largest{};
+};
+
+/// Plot: how far each method is from the spectrum at each thickness.
+Differences plot_differences(const examples::Options& options,
+                             const ljus::FilmTable& table) {
+    const auto look = by_table(table);
     const int step = options.pick(20, 5, 2);
     examples::Plot plot{.name = "soap_film-error",
                         .columns = {"thickness in nm", "three wavelengths",
                                     "integrated beforehand", "table"},
                         .y_label = "difference of colour, ΔE*ab",
                         .log_y = true};
-    double sum[3] = {}, most[3] = {};
+    Differences found;
     int count = 0;
     for (int d = step; d <= 1500; d += step) {
         examples::Row row{double(d), 0, 0, 0};
         for (int angle = 0; angle <= 70; angle += 10) {
             const double c = std::cos(angle * std::numbers::pi / 180);
             const glm::dvec3 right = lab(spectrum(c, d), c);
-            const glm::dvec3 found[] = {three(c, d), beforehand(c, d), look(c, d)};
+            const glm::dvec3 colors[] = {three(c, d), beforehand(c, d), look(c, d)};
             for (std::size_t i = 0; i < 3; ++i) {
-                const double error = glm::distance(lab(found[i], c), right);
+                const double error = glm::distance(lab(colors[i], c), right);
                 row[i + 1] += error / 8;
-                sum[i] += error;
-                most[i] = std::max(most[i], error);
+                found.mean[i] += error;
+                found.largest[i] = std::max(found.largest[i], error);
             }
             ++count;
         }
         plot.rows.push_back(row);
     }
     save_plot(options.path(""), plot);
+    for (double& mean : found.mean) mean /= count;
+    return found;
+}
 
+/// What a colour costs by each method, in nanoseconds.
+std::array<double, 3> times_of(const ljus::FilmTable& table, int calls) {
     constexpr float n = 1.33f;
-    const int calls = options.pick(20000, 200000, 1000000);
-    const double times[] = {
+    return {
         nanoseconds([](float c, float d) { return ljus::film_three(c, n, d); }, calls),
         nanoseconds(
             [](float c, float d) {
@@ -201,23 +220,31 @@ void trade(const examples::Options& options, const ljus::FilmTable& table) {
             calls),
         nanoseconds([&](float c, float d) { return ljus::look_up(table, c, d); },
                     calls)};
-    const double slow =
-        nanoseconds([](float c, float d) { return ljus::film_spectral(c, n, d); }, 200);
-    // The same for a picture, which has no noise: the bubble.
-    const int size = options.pick(60, 150, 300);
+}
+
+/// The error of a picture by each method, which has no noise: the bubble.
+std::array<double, 3> errors_of_bubble(const ljus::FilmTable& table, int size) {
     const Image right = bubble(size, 1, spectrum);
-    const double pictures[] = {ljus::rel_mse(bubble(size, 1, three), right),
-                               ljus::rel_mse(bubble(size, 1, beforehand), right),
-                               ljus::rel_mse(bubble(size, 1, look), right)};
+    return {ljus::rel_mse(bubble(size, 1, three), right),
+            ljus::rel_mse(bubble(size, 1, beforehand), right),
+            ljus::rel_mse(bubble(size, 1, by_table(table)), right)};
+}
+
+/// Table and plot: how far each method is from the spectrum, and what it costs.
+void trade(const examples::Options& options, const ljus::FilmTable& table) {
+    const Differences found = plot_differences(options, table);
+    const auto times = times_of(table, options.pick(20000, 200000, 1000000));
+    const double slow = nanoseconds(
+        [](float c, float d) { return ljus::film_spectral(c, 1.33f, d); }, 200);
+    const auto pictures = errors_of_bubble(table, options.pick(60, 150, 300));
     examples::Table numbers{
         .name = "soap_film-trade",
         .columns = {"colours by", "mean ΔE*ab", "largest ΔE*ab", "relMSE of the bubble",
                     "ns"},
         .rows = {{"spectrum", "0", "0", "0", examples::text(slow, "%.0f")}}};
-    const char* const names[] = {"three wavelengths", "integrated beforehand", "table"};
     for (std::size_t i = 0; i < 3; ++i)
-        numbers.rows.push_back({names[i], examples::text(sum[i] / count, "%.1f"),
-                                examples::text(most[i], "%.1f"),
+        numbers.rows.push_back({method_names[i], examples::text(found.mean[i], "%.1f"),
+                                examples::text(found.largest[i], "%.1f"),
                                 examples::text(pictures[i], "%.1e"),
                                 examples::text(times[i], "%.0f")});
     examples::print_rows(numbers, 24);
@@ -291,7 +318,7 @@ int main(int argc, char** argv) {
         line.about("Chapter 16, the soap bubble: thin films and their colours.");
         const examples::Options options =
             line.parse({.draft{.width = 200, .height = 200, .samples = 4},
-                        .report{.width = 300, .height = 300, .samples = 36},
+                        .report{.width = 400, .height = 400, .samples = 36},
                         .reference{.width = 500, .height = 500, .samples = 1000}});
         const auto table = ljus::bake_film_table(1.33f);
         const auto look = [&](double c, double d) {

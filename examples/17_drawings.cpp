@@ -30,6 +30,51 @@ std::optional<Vec> refracted(const Vec& d, const Vec& n, double eta) {
     return to_world(frame, *wt);
 }
 
+constexpr Point lamp_place{5.4, 4.0};
+const ljus::SphereT<double> glass_ball{.center{4.0, 1.5, 0}, .radius = 0.95};
+
+/// The room: a floor, a wall, a ball of glass and a lamp.
+void draw_room(Drawing& drawing) {
+    const auto outline = examples::circle(flat(glass_ball.center), glass_ball.radius);
+    draw_line(drawing, {{0.2, 0}, {7.4, 0}}, {.width = 2.5});
+    draw_line(drawing, {{7.4, 0}, {7.4, 4}}, {.width = 2.5});
+    draw_area(drawing, outline, colors::blue);
+    draw_line(drawing, outline);
+    draw_line(drawing, {{5.0, 4.0}, {5.8, 4.0}}, {.color = colors::orange, .width = 6});
+}
+
+/// A shadow ray from a place to the lamp.
+void draw_shadow_ray(Drawing& drawing, const Vec& from) {
+    draw_line(drawing, {flat(from), lamp_place},
+              {.color = colors::orange, .dashed = true});
+    draw_dot(drawing, flat(from), 4, "currentColor");
+}
+
+/// Where a ray meets the ball.
+Vec on_ball(const Vec& from, const Vec& d, double t_min) {
+    const ljus::RayT<double> ray{.origin = from, .direction = d, .t_min = t_min};
+    return from + intersect(ray, glass_ball).value() * d;
+}
+
+/// The ray that passes through the ball to the floor, and what is reflected within it.
+/// \param hit  Where it enters.
+/// \return Where it leaves.
+Vec draw_through_ball(Drawing& drawing, const Vec& hit, const Vec& d) {
+    const Vec inside = refracted(d, normal(glass_ball, hit), 1 / 1.5).value();
+    const Vec leave = on_ball(hit, inside, 1e-6);
+    const Vec out_normal = normal(glass_ball, leave);
+    draw_arrow(drawing, flat(hit), flat(leave), {colors::blue, 2});
+    const Vec out = refracted(inside, -out_normal, 1.5).value();
+    const Vec end{leave.x - out.x * leave.y / out.y, 0, 0};
+    draw_arrow(drawing, flat(leave), flat(end), {colors::blue, 2});
+    draw_shadow_ray(drawing, end);
+    // What is reflected within the ball leaves it further on.
+    const Vec back = ljus::reflect(inside, out_normal);
+    draw_arrow(drawing, flat(leave), flat(on_ball(leave, back, 1e-6)),
+               {colors::red, 2});
+    return leave;
+}
+
 /// A camera ray at a ball of glass between a diffuse floor and a diffuse wall.
 void draw_tree_in_scene(const std::string& folder) {
     Drawing drawing{.name = "whitted-scene",
@@ -40,57 +85,21 @@ void draw_tree_in_scene(const std::string& folder) {
                     .low{-0.2, -0.3},
                     .high{7.7, 4.3},
                     .scale = 95};
-    const ljus::SphereT<double> ball{.center{4.0, 1.5, 0}, .radius = 0.95};
-    const Point lamp{5.4, 4.0};
-    draw_line(drawing, {{0.2, 0}, {7.4, 0}}, {.width = 2.5});
-    draw_line(drawing, {{7.4, 0}, {7.4, 4}}, {.width = 2.5});
-    draw_area(drawing, examples::circle(flat(ball.center), ball.radius), colors::blue);
-    draw_line(drawing, examples::circle(flat(ball.center), ball.radius));
-    draw_line(drawing, {{5.0, 4.0}, {5.8, 4.0}}, {.color = colors::orange, .width = 6});
-
-    const auto to_floor = [&](const Vec& from, const Vec& d) {
-        return Vec{from.x - d.x * from.y / d.y, 0, 0};
-    };
-    const auto shadow = [&](const Vec& from) {
-        draw_line(drawing, {flat(from), lamp},
-                  {.color = colors::orange, .dashed = true});
-        draw_dot(drawing, flat(from), 4, "currentColor");
-    };
+    draw_room(drawing);
     const Vec eye{0.4, 2.7, 0};
     const Vec d = glm::normalize(Vec{3.85, 2.44, 0} - eye);
-    const double t =
-        intersect(ljus::RayT<double>{.origin = eye, .direction = d}, ball).value();
-    const Vec hit = eye + t * d, n = normal(ball, hit);
+    const Vec hit = on_ball(eye, d, 0);
     draw_arrow(drawing, flat(eye), flat(hit), {.width = 2.5});
 
     // Reflected: to the wall.
-    const Vec up = ljus::reflect(d, n);
+    const Vec up = ljus::reflect(d, normal(glass_ball, hit));
     const Vec high = hit + (7.4 - hit.x) / up.x * up;
     draw_arrow(drawing, flat(hit), flat(high), {colors::red, 2});
-    shadow(high);
+    draw_shadow_ray(drawing, high);
 
-    // Refracted into the ball and out of it.
-    const Vec inside = refracted(d, n, 1 / 1.5).value();
-    const double way =
-        intersect(ljus::RayT<double>{.origin = hit, .direction = inside, .t_min = 1e-6},
-                  ball)
-            .value();
-    const Vec leave = hit + way * inside, out_normal = normal(ball, leave);
-    draw_arrow(drawing, flat(hit), flat(leave), {colors::blue, 2});
-    const Vec out = refracted(inside, -out_normal, 1.5).value();
-    const Vec end = to_floor(leave, out);
-    draw_arrow(drawing, flat(leave), flat(end), {colors::blue, 2});
-    shadow(end);
-    // What is reflected within the ball leaves it further on.
-    const Vec back = ljus::reflect(inside, out_normal);
-    const double more =
-        intersect(ljus::RayT<double>{.origin = leave, .direction = back, .t_min = 1e-6},
-                  ball)
-            .value();
-    draw_arrow(drawing, flat(leave), flat(leave + more * back), {colors::red, 2});
-    draw_dot(drawing, flat(eye), 4, "currentColor");
-    draw_dot(drawing, flat(hit), 4, "currentColor");
-    draw_dot(drawing, flat(leave), 4, "currentColor");
+    const Vec leave = draw_through_ball(drawing, hit, d);
+    for (const Vec& at : {eye, hit, leave})
+        draw_dot(drawing, flat(at), 4, "currentColor");
     draw_label(drawing, {0.25, 2.95}, "E");
     draw_label(drawing, {1.6, 2.35}, "camera ray");
     draw_label(drawing, {4.7, 3.75}, "lamp", colors::orange);

@@ -450,21 +450,41 @@ void constant_chances(const examples::Options& options, const Sizes& sizes) {
     print(table, options);
 }
 
-/// Roulette in the room: efficiency against the threshold, and pictures.
-void roulette(const examples::Options& options, const Sizes& sizes) {
-    const auto room = matt_room();
-    const int side = options.pick(48, 80, 120);
-    struct Case {
-        std::string name;
-        double threshold, most;
-        int from = 1; ///< From which surface on.
-    };
-    std::vector<Case> cases{{"1: no roulette", 0, 1}};
+/// A roulette: the probability to go on is throughput / threshold, or most if less.
+struct RouletteCase {
+    std::string name;
+    double threshold, most;
+    int from = 1; ///< From which surface on.
+    [[nodiscard]] PathTracingSettings settings() const {
+        return {.roulette_depth = from,
+                .roulette_threshold = threshold,
+                .roulette_max = most};
+    }
+};
+
+std::vector<RouletteCase> roulette_cases() {
+    std::vector<RouletteCase> cases{{"1: no roulette", 0, 1}};
     for (const double threshold : {0.05, 0.1, 0.2, 0.4, 0.7, 1.0, 2.0, 4.0, 10.0, 40.0})
         cases.push_back({"throughput / " + text(threshold), threshold, 1});
     for (const double most : {0.9, 0.7, 0.5, 0.3, 0.1})
         cases.push_back({text(most), 1e-30, most});
     cases.push_back({"throughput from surface 4 on", 1, 1, 4});
+    return cases;
+}
+
+double efficiency_by_rays(const Noise& n) {
+    return 1 / (n.rms * n.rms * n.rays);
+}
+
+double efficiency_by_time(const Noise& n) {
+    return 1 / (n.rms * n.rms * std::max(n.seconds, 1e-6));
+}
+
+/// The efficiency of each roulette, against the threshold and in a table.
+/// \param usual  That of the threshold 1, which the others are compared with.
+void save_roulettes(const std::vector<RouletteCase>& cases,
+                    const std::vector<Noise>& noises, const Noise& usual,
+                    const examples::Options& options) {
     examples::Plot plot{.name = "path_tracing-roulette",
                         .columns = {"threshold", "by rays", "by time", "no roulette"},
                         .y_label = "efficiency, 1 / (variance x cost); 1: threshold 1",
@@ -473,34 +493,34 @@ void roulette(const examples::Options& options, const Sizes& sizes) {
     examples::Table table{.name = "path_tracing-roulette-table",
                           .columns = {"chance to go on", "rays per camera ray",
                                       "RMS noise", "efficiency by rays", "by time"}};
-    std::vector<Noise> noises;
-    for (const Case& c : cases) {
-        const auto tracer =
-            make_path_tracer(room.scene, {.roulette_depth = c.from,
-                                          .roulette_threshold = c.threshold,
-                                          .roulette_max = c.most});
-        noises.push_back(noise_of(tracer, low_camera(),
-                                  {side, side, sizes.most, options.seed}, options));
-    }
-    const auto by_rays = [&](const Noise& n) { return 1 / (n.rms * n.rms * n.rays); };
-    const auto by_time = [&](const Noise& n) {
-        return 1 / (n.rms * n.rms * std::max(n.seconds, 1e-6));
-    };
-    const Noise& usual = noises[6];                // threshold 1
-    const Noise& rash = noises[noises.size() - 2]; // a chance of 0.1
+    const double none = efficiency_by_rays(noises[0]) / efficiency_by_rays(usual);
     for (std::size_t i = 0; i < cases.size(); ++i) {
-        const double rays = by_rays(noises[i]) / by_rays(usual);
-        const double time = by_time(noises[i]) / by_time(usual);
+        const double rays = efficiency_by_rays(noises[i]) / efficiency_by_rays(usual);
+        const double time = efficiency_by_time(noises[i]) / efficiency_by_time(usual);
         table.rows.push_back({cases[i].name, text(noises[i].rays, "%.2f"),
                               text(noises[i].rms, "%.4f"), text(rays, "%.2f"),
                               text(time, "%.2f")});
         if (cases[i].threshold >= 0.05 && cases[i].from == 1)
-            plot.rows.push_back(
-                {cases[i].threshold, rays, time, by_rays(noises[0]) / by_rays(usual)});
+            plot.rows.push_back({cases[i].threshold, rays, time, none});
     }
     save_plot(options.path(""), plot);
     save_table(options.path(""), table);
     print(table, options);
+}
+
+/// Roulette in the room: efficiency against the threshold, and pictures.
+void roulette(const examples::Options& options, const Sizes& sizes) {
+    const auto room = matt_room();
+    const int side = options.pick(48, 80, 120);
+    const std::vector<RouletteCase> cases = roulette_cases();
+    std::vector<Noise> noises;
+    for (const RouletteCase& c : cases)
+        noises.push_back(noise_of(make_path_tracer(room.scene, c.settings()),
+                                  low_camera(), {side, side, sizes.most, options.seed},
+                                  options));
+    const Noise& usual = noises[6];                // threshold 1
+    const Noise& rash = noises[noises.size() - 2]; // a chance of 0.1
+    save_roulettes(cases, noises, usual, options);
 
     // The same number of rays of all kinds for both pictures.
     const double rays = usual.rays / rash.rays * options.samples;
@@ -518,7 +538,7 @@ void roulette(const examples::Options& options, const Sizes& sizes) {
          std::max(1, int(std::lround(rays))));
 }
 
-/// Rays a second, by one thread and by two.
+/// Rays per second, by one thread and by two.
 void speed(const examples::Options& options) {
     const auto matt = matt_room();
     const auto cornell = ljus::cornell_box();
@@ -555,8 +575,9 @@ int main(int argc, char** argv) {
             "Chapter 19, path tracing: who finds the lamp, and where paths end.");
         line.add("--most", sizes.most, "Most rays per pixel in a curve; 0: by quality",
                  0, 1 << 16);
-        line.add("--runs", sizes.runs, "Of a constant chance; 0: by quality", 0, 10000);
-        line.add("--paths", sizes.paths, "Of a run; 0: by quality", 0, 10000000);
+        line.add("--runs", sizes.runs, "Runs per constant chance; 0: by quality", 0,
+                 10000);
+        line.add("--paths", sizes.paths, "Paths per run; 0: by quality", 0, 10000000);
         const examples::Options options =
             line.parse({.draft{.width = 120, .height = 120, .samples = 9},
                         .report{.width = 360, .height = 360, .samples = 64},

@@ -493,7 +493,7 @@ void compare_choices(const examples::Options& options) {
                               percent(s.deviation[0]), percent(s.deviation[1])});
     };
     row("by power", light_choice(room.lights));
-    row("each as often", {.cumulative = {1, 2, 3}});
+    row("each equally often", {.cumulative = {1, 2, 3}});
     examples::save_table(options.out, table);
     if (!options.quiet)
         for (const auto& cells : table.rows)
@@ -504,7 +504,8 @@ void compare_choices(const examples::Options& options) {
 
 // --- Evenly spread photons ------------------------------------------------------------
 
-void compare_numbers(const examples::Options& options) {
+/// Plot: the error against the number of photons, random beside Sobol.
+examples::Plot plot_numbers(const examples::Options& options) {
     const auto room = small_room(true);
     const LightChoice choice = light_choice(room.lights);
     const int last = options.pick(13, 15, 17);
@@ -519,10 +520,6 @@ void compare_numbers(const examples::Options& options) {
                         .rows = {},
                         .log_x = true,
                         .log_y = true};
-    examples::Table table{.name = "emission-numbers-table",
-                          .columns = {"photons", "slope, random", "slope, Sobol",
-                                      "variance, random over Sobol"},
-                          .rows = {}};
     for (int m = 7; m <= last; ++m) {
         const long long photons = 1LL << m;
         const Spread random =
@@ -540,23 +537,33 @@ void compare_numbers(const examples::Options& options) {
         plot.rows.push_back(row);
     }
     examples::save_plot(options.out, plot);
+    return plot;
+}
 
-    // The slope of each curve by least squares.
-    const auto slope = [&](std::size_t column) {
-        double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
-        for (const auto& row : plot.rows) {
-            if (std::isnan(row[column])) continue;
-            const double x = std::log(row[0]), y = std::log(row[column]);
-            n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
-        }
-        return (n * sxy - sx * sy) / (n * sxx - sx * sx);
-    };
+/// The slope of a curve between logarithms, by least squares.
+double slope_of(const examples::Plot& plot, std::size_t column) {
+    double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+    for (const auto& row : plot.rows) {
+        if (std::isnan(row[column])) continue;
+        const double x = std::log(row[0]), y = std::log(row[column]);
+        n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
+    }
+    return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+/// Random numbers beside Sobol's, after none, one and three bounces.
+void compare_numbers(const examples::Options& options) {
+    const examples::Plot plot = plot_numbers(options);
+    examples::Table table{.name = "emission-numbers-table",
+                          .columns = {"photons", "slope, random", "slope, Sobol",
+                                      "variance, random over Sobol"},
+                          .rows = {}};
     const char* const names[] = {"direct", "after one bounce", "after three bounces"};
     for (std::size_t k = 0; k < orders; ++k) {
         const auto& end = plot.rows.back();
         table.rows.push_back(
-            {names[k], examples::text(slope(1 + 2 * k), "%.2f"),
-             examples::text(slope(2 + 2 * k), "%.2f"),
+            {names[k], examples::text(slope_of(plot, 1 + 2 * k), "%.2f"),
+             examples::text(slope_of(plot, 2 + 2 * k), "%.2f"),
              examples::text(std::pow(end[1 + 2 * k] / end[2 + 2 * k], 2), "%.2g")});
     }
     examples::save_table(options.out, table);

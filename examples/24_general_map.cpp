@@ -194,16 +194,31 @@ using examples::Boxes;
 
 // --- Edges, corners, thin walls -------------------------------------------------------
 
-void failures(const examples::Options& options) {
-    const examples::TwoRooms rooms = examples::two_rooms();
-    constexpr double radius = 0.15;
-    constexpr int steps = 120;
-    const long long photons = options.pick(50'000LL, 400'000LL, 4'000'000LL);
-    std::vector<double> sums(steps + 1, 0.0);
-    const std::array places{Point{-0.5, 0, 0.5}, Point{-1, 0, 0.5},
-                            Point{-1, 0, 0},     Point{-1e-6, 0, 0.5},
-                            Point{1e-6, 0, 0.5}, Point{0.075, 0, 0.5}};
-    std::vector<double> at_places(places.size(), 0.0);
+constexpr double leak_radius = 0.15; ///< Of the estimates.
+constexpr int leak_steps = 120;      ///< Along the floor, from wall to wall.
+
+/// A place on the floor of the two rooms.
+struct FloorPlace {
+    const char* name;
+    Point at;
+};
+constexpr std::array<FloorPlace, 6> floor_places{
+    {{"in the middle of the left room", {-0.5, 0, 0.5}},
+     {"at the foot of the left wall", {-1, 0, 0.5}},
+     {"in its corner with the back wall", {-1, 0, 0}},
+     {"at the wall between, lit side", {-1e-6, 0, 0.5}},
+     {"at the wall between, dark side", {1e-6, 0, 0.5}},
+     {"half a radius into the dark", {0.075, 0, 0.5}}}};
+
+/// What the photons say of the floor, as a mean over several maps.
+struct FloorEstimates {
+    std::array<double, leak_steps + 1> along{}; ///< From the left wall to the right.
+    std::array<double, floor_places.size()> at_places{};
+};
+
+FloorEstimates estimate_floor(const examples::TwoRooms& rooms, long long photons,
+                              const examples::Options& options) {
+    FloorEstimates found;
     const int seeds = options.pick(4, 16, 16);
     for (int seed = 0; seed < seeds; ++seed) {
         const auto map = make_photon_map(
@@ -214,49 +229,63 @@ void failures(const examples::Options& options) {
                            .shadow_photons = false,
                            .threads = options.threads})
                 .photons);
-        for (int i = 0; i <= steps; ++i)
-            sums[std::size_t(i)] +=
-                irradiance(map, {2.0 * i / steps - 1, 0, 0.5}, radius) / seeds / 8;
-        for (std::size_t i = 0; i < places.size(); ++i)
-            at_places[i] += irradiance(map, places[i], radius) / seeds / 8;
+        for (int i = 0; i <= leak_steps; ++i)
+            found.along[std::size_t(i)] +=
+                irradiance(map, {2.0 * i / leak_steps - 1, 0, 0.5}, leak_radius) /
+                seeds / 8;
+        for (std::size_t i = 0; i < floor_places.size(); ++i)
+            found.at_places[i] +=
+                irradiance(map, floor_places[i].at, leak_radius) / seeds / 8;
     }
+    return found;
+}
+
+/// The direct light on the floor: the lamp is in the left room.
+double exact_on_floor(const examples::TwoRooms& rooms, const Point& at) {
+    return at.x < 0 ? irradiance_from(rooms.lamp, at) : 0.0;
+}
+
+void plot_floor(const examples::TwoRooms& rooms, const FloorEstimates& found,
+                const examples::Options& options) {
     examples::Plot plot{.name = "general-edges",
                         .columns = {"along the floor from the left wall to the right",
                                     "exact", "estimate with r = 0.15"},
                         .y_label = "irradiance from a lamp of radiance 1",
                         .rows = {}};
-    const auto exact = [&](const Point& at) {
-        return at.x < 0 ? irradiance_from(rooms.lamp, at) : 0.0;
-    };
-    for (int i = 0; i <= steps; ++i) {
-        const double x = 2.0 * i / steps - 1;
-        plot.rows.push_back({x, exact({x, 0, 0.5}), sums[std::size_t(i)]});
+    for (int i = 0; i <= leak_steps; ++i) {
+        const double x = 2.0 * i / leak_steps - 1;
+        plot.rows.push_back(
+            {x, exact_on_floor(rooms, {x, 0, 0.5}), found.along[std::size_t(i)]});
     }
     examples::save_plot(options.out, plot);
+}
 
+void table_of_floor(const examples::TwoRooms& rooms, const FloorEstimates& found,
+                    const examples::Options& options) {
     examples::Table table{.name = "general-edges-table",
                           .columns = {"on the floor", "exact", "estimate", "ratio"},
                           .rows = {}};
-    const std::array<const char*, 6> names{
-        "in the middle of the left room",   "at the foot of the left wall",
-        "in its corner with the back wall", "at the wall between, lit side",
-        "at the wall between, dark side",   "half a radius into the dark"};
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const double right = exact(places[i]);
-        table.rows.push_back({names[i], examples::text(right, "%.4f"),
-                              examples::text(at_places[i], "%.4f"),
-                              right > 0 ? examples::text(at_places[i] / right, "%.3f")
-                                        : std::string("-")});
+    for (std::size_t i = 0; i < floor_places.size(); ++i) {
+        const double right = exact_on_floor(rooms, floor_places[i].at);
+        const double estimate = found.at_places[i];
+        table.rows.push_back(
+            {floor_places[i].name, examples::text(right, "%.4f"),
+             examples::text(estimate, "%.4f"),
+             right > 0 ? examples::text(estimate / right, "%.3f") : std::string("-")});
     }
     save(options, table);
+}
 
-    // And the picture, light that has bounced included.
+/// The two rooms as pictures, light that has bounced included: by the map, and by path
+/// tracing.
+void leak_pictures(const examples::TwoRooms& rooms, long long photons,
+                   const examples::Options& options) {
     PhotonMappingSettings settings{.indirect = IndirectLight::map};
     settings.general = {.photons = photons,
                         .seed = options.seed,
                         .shadow_photons = false,
                         .threads = options.threads};
-    settings.general_estimate.radius = float(radius);
+    settings.general_estimate.radius = float(leak_radius);
     const auto maps = make_photon_maps(rooms.scene, settings);
     const auto mapper = make_photon_mapper(rooms.scene, maps, settings);
     const Camera camera =
@@ -272,6 +301,16 @@ void failures(const examples::Options& options) {
     more.samples = options.pick(8, 64, 1024);
     save_png(render(make_path_tracer(rooms.scene), camera, more).image,
              options.path("general-leak-path.png"), {.exposure = 0.5});
+}
+
+/// Where an estimate by a disc of photons fails: at edges, in corners, at thin walls.
+void failures(const examples::Options& options) {
+    const examples::TwoRooms rooms = examples::two_rooms();
+    const long long photons = options.pick(50'000LL, 400'000LL, 4'000'000LL);
+    const FloorEstimates found = estimate_floor(rooms, photons, options);
+    plot_floor(rooms, found, options);
+    table_of_floor(rooms, found, options);
+    leak_pictures(rooms, photons, options);
 }
 
 // --- Error against number and radius --------------------------------------------------
@@ -491,7 +530,7 @@ void save_trade(const Experiment& all, const examples::Options& options) {
                         .log_y = true};
     examples::Table table{.name = "general-trade",
                           .columns = {"photons", "best radius", "error, rms",
-                                      "tracing, ms", "tree, ms", "a query, µs", "MB",
+                                      "tracing, ms", "tree, ms", "query, µs", "MB",
                                       "bytes per photon"},
                           .rows = {}};
     const auto& numbers = all.numbers;

@@ -32,7 +32,7 @@ namespace {
 
 using Hall = Scene<Shapes<Mesh, Sphere, Quad>, Materials<Lambertian>>;
 constexpr std::array rules{SkipRule::report, SkipRule::any, SkipRule::enough};
-constexpr std::array rule_names{"the report's", "of 1995", "enough of them"};
+constexpr std::array rule_names{"the report's", "that of 1995", "enough photons"};
 
 void save(const examples::Options& options, const examples::Table& table) {
     examples::save_table(options.out, table);
@@ -311,7 +311,7 @@ void over_photons(const examples::Options& options, long long most) {
     const std::array sizes{0.5f, 0.1f, 0.03f};
     examples::Table table{.name = "shadow-trade",
                           .columns = {"radius of the balls", "photons", "rule",
-                                      "skipped", "wrong, of all", "shadow lost"},
+                                      "skipped", "wrong, of all points", "shadow lost"},
                           .rows = {}};
     examples::Plot skipped{.name = "shadow-skipped",
                            .columns = {"photons emitted"}, // and the rules
@@ -571,7 +571,7 @@ void judge_room(examples::Table& table, const char* name, const S& of,
 void rooms(const examples::Options& options, long long photons) {
     examples::Table table{.name = "shadow-rooms",
                           .columns = {"room", "photons", "rule", "skipped",
-                                      "wrong, of all", "a perfect rule"},
+                                      "wrong, of all rays", "a perfect rule skips"},
                           .rows = {}};
     const auto glass = four_glass_room<float>();
     const auto final = final_room<float>();
@@ -686,9 +686,9 @@ void savings(const examples::Options& options, long long photons, int cuts) {
     const Camera camera =
         look_at({.position{0, 3.2f, 9}, .target{0, 1, 0}, .vfov_degrees = 45});
     examples::Table costs{.name = "shadow-costs",
-                          .columns = {"room", "ns per shadow ray", "the grid, ns",
-                                      "the map itself, ns", "ns per photon",
-                                      "rays it must save"},
+                          .columns = {"room", "ns per shadow ray", "ns per grid lookup",
+                                      "ns per map query", "ns per photon",
+                                      "rays a photon must save"},
                           .rows = {}};
     examples::Table table{.name = "shadow-seconds",
                           .columns = {"room", "shadow rays per lamp", "skipped",
@@ -789,9 +789,9 @@ void indirect(const examples::Options& options) {
         return sum / double(image.pixels.size());
     };
     examples::Table table{.name = "shadow-dark",
-                          .columns = {"photons", "cell", "E is below, W/m^2",
-                                      "of the mean", "bounces skipped",
-                                      "light of the picture", "of the dark room"},
+                          .columns = {"photons", "cell", "bound of E, W/m²",
+                                      "bound over the mean E", "bounces skipped",
+                                      "light left in the picture", "in the dark room"},
                           .rows = {}};
     settings.skip.indirect_rays = true;
     settings.skip.radius = 0.1f; // chosen by the photons, it would shrink with them
@@ -836,7 +836,8 @@ int main(int argc, char** argv) {
         line.about("Chapter 25, shadow photons: rays that need not be cast.");
         line.add("--photons", photons, "Photons emitted for pictures and times", 1,
                  100000000);
-        line.add("--cuts", cuts, "Of the finest meshes: 180 * 4^cuts triangles", 1, 7);
+        line.add("--cuts", cuts,
+                 "Cuts of the finest meshes, which have 180 * 4^cuts triangles", 1, 7);
         const examples::Options options =
             line.parse({.draft{.width = 200, .height = 200, .samples = 1},
                         .report{.width = 400, .height = 400, .samples = 16},

@@ -76,15 +76,8 @@ void draw_gathering(const std::string& folder) {
     save_drawing(folder, drawing);
 }
 
-/// The estimate: the flux of the photons in a disc over its area, with a kernel.
-void draw_estimate(const std::string& folder) {
-    Drawing drawing{.name = "caustics-disc",
-                    .description =
-                        "Photons in a disc around a point, and three kernels "
-                        "that weight them by their distance",
-                    .low{-2.1, -0.75},
-                    .high{7.0, 2.5},
-                    .scale = 95};
+/// A disc around a point of a floor, and the photons on it and beside it.
+void draw_disc(Drawing& drawing) {
     const auto seen = [](double x, double y) { return Point{x, 0.42 * y + 0.55}; };
     std::vector<Point> disc;
     for (int i = 0; i <= 72; ++i)
@@ -107,7 +100,10 @@ void draw_estimate(const std::string& folder) {
     draw_label(drawing, {0.8, 0.72}, "r");
     draw_label(drawing, {0.2, 2.3}, "n");
     draw_label(drawing, {-0.18, 0.38}, "x");
-    // The kernels over the distance, each with the same volume over the disc.
+}
+
+/// Three kernels over the distance, each with the same volume over the disc.
+void draw_kernels(Drawing& drawing) {
     const Point o{4.6, 0};
     draw_arrow(drawing, {o.x - 1.9, 0}, {o.x + 1.95, 0}, {.width = 1});
     const struct {
@@ -136,6 +132,19 @@ void draw_estimate(const std::string& folder) {
     draw_label(drawing, {o.x + 1.5, 1.05}, "Epanechnikov", colors::green);
     draw_label(drawing, {o.x + 1.6, -0.28}, "r");
     draw_label(drawing, {o.x, -0.28}, "0");
+}
+
+/// The estimate: the flux of the photons in a disc over its area, with a kernel.
+void draw_estimate(const std::string& folder) {
+    Drawing drawing{.name = "caustics-disc",
+                    .description =
+                        "Photons in a disc around a point, and three kernels "
+                        "that weight them by their distance",
+                    .low{-2.1, -0.75},
+                    .high{7.0, 2.5},
+                    .scale = 95};
+    draw_disc(drawing);
+    draw_kernels(drawing);
     save_drawing(folder, drawing);
 }
 

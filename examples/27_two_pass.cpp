@@ -30,8 +30,8 @@ using ljus::RenderSettings;
 /// What a figure cost, for the terminal.
 void report(const std::string& file, double first_pass, double second_pass,
             const ljus::Counts& counts, std::size_t photons) {
-    std::printf("%s: photons %.2f s (%zu stored), picture %.2f s, %.2f rays a camera "
-                "ray, %.2f million rays/s\n",
+    std::printf("%s: photons %.2f s (%zu stored), picture %.2f s, %.2f rays per "
+                "camera ray, %.2f million rays/s\n",
                 file.c_str(), first_pass, photons, second_pass,
                 double(counts.rays()) / double(counts.camera_rays),
                 double(counts.rays()) / second_pass / 1e6);
@@ -139,15 +139,16 @@ int main(int argc, char** argv) {
         double radius = 0.1;
         line.about("Figures 1 and 15 of the report: its renderer, whole.");
         std::string only;
-        line.add("--only", only, "Nothing but this figure", {"fig-1", "fig-15"});
+        line.add("--only", only, "Make only this figure", {"fig-1", "fig-15"});
         line.add("--photons", settings.caustics.photons,
                  "Photons aimed at mirrors and glass", 0, 1'000'000'000);
-        line.add("--radius", radius, "Of the caustic estimate, scene units", 1e-6, 1e6);
+        line.add("--radius", radius, "Radius of the caustic estimate, in scene units",
+                 1e-6, 1e6);
         line.add("--depth", settings.max_depth, "Surfaces on a camera path", 1,
                  1000000);
         const examples::Options options =
             line.parse({.draft{.width = 200, .height = 200, .samples = 16},
-                        .report{.width = 400, .height = 400, .samples = 64},
+                        .report{.width = 400, .height = 400, .samples = 256},
                         .reference{.width = 500, .height = 500, .samples = 800}});
         settings.caustics_estimate.radius = static_cast<float>(radius);
         settings.caustics.seed = options.seed;

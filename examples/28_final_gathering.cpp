@@ -31,7 +31,7 @@ constexpr double pi = std::numbers::pi;
 struct Sizes {
     long long photons = 0; ///< The largest number of photons.
     int seeds = 0;         ///< Runs behind each bias and variance.
-    int truth = 0;         ///< Rays a pixel of the reference.
+    int truth = 0;         ///< Rays per pixel of the reference.
 };
 
 // --- Where a surface ends ------------------------------------------------------------
@@ -97,59 +97,75 @@ double corner_by_rule(double s, double t) {
     return sum;
 }
 
-/// What photons say of an even light near an edge and in a corner.
-void borders(const examples::Options& options) {
-    const Flat scene = unit_square();
-    const Vec3 up{0, 0, 1};
-    const float radius = 0.1f;
-    const int maps = options.pick(32, 128, 512);
-    constexpr int steps = 24;
-    IrradiancePointSettings corrected{.nearest = 512, .radius = radius};
-    IrradiancePointSettings plain = corrected;
-    plain.edges = false;
-    std::vector<Mean> with(steps + 1), without(steps + 1);
-    struct Place {
-        const char* name;
-        float x, y;
-        const char* part;
-        Mean plain{}, corrected{};
-    };
+constexpr float border_radius = 0.1f; ///< Of the disc that photons are counted in.
+constexpr int border_steps = 24;      ///< From the edge to where it is out of reach.
+
+/// A place on the square, and what estimates read there.
+struct Place {
+    const char* name;
+    float x, y;
+    const char* part; ///< Of the disc, as the table has it.
+    Mean plain{}, corrected{};
+};
+
+/// What the photons of several maps say of an even light.
+struct Borders {
+    std::vector<Mean> with, without; ///< The correction, step by step from an edge.
     std::vector<Place> places{{"in the middle", 0.5f, 0.5f, "1"},
                               {"at an edge", 0.5f, 1e-4f, "1/2"},
                               {"in a corner", 1e-4f, 1e-4f, "1/4"}};
+};
+
+Borders measure_borders(int maps, std::uint64_t seed) {
+    const Flat scene = unit_square();
+    const Vec3 up{0, 0, 1};
+    IrradiancePointSettings corrected{.nearest = 512, .radius = border_radius};
+    IrradiancePointSettings plain = corrected;
+    plain.edges = false;
+    Borders found{.with = std::vector<Mean>(border_steps + 1),
+                  .without = std::vector<Mean>(border_steps + 1)};
     for (int m = 0; m < maps; ++m) {
-        const PhotonMap map = even_photons(6000, options.seed + std::uint64_t(m));
+        const PhotonMap map = even_photons(6000, seed + std::uint64_t(m));
         const auto estimate = [&](float x, float y, const auto& how) {
             return double(detail::estimate_irradiance(scene, map,
                                                       square_vertex(scene, x, y), up,
-                                                      how, radius, all_photons)
+                                                      how, border_radius, all_photons)
                               .x);
         };
-        for (int i = 0; i <= steps; ++i)
+        for (int i = 0; i <= border_steps; ++i)
             for (const float x : {0.2f, 0.4f, 0.6f, 0.8f}) {
-                const float y = std::max(1e-4f, 1.2f * radius * float(i) / steps);
-                with[std::size_t(i)].add(estimate(x, y, corrected));
-                without[std::size_t(i)].add(estimate(x, y, plain));
+                const float y =
+                    std::max(1e-4f, 1.2f * border_radius * float(i) / border_steps);
+                found.with[std::size_t(i)].add(estimate(x, y, corrected));
+                found.without[std::size_t(i)].add(estimate(x, y, plain));
             }
-        for (Place& place : places) {
+        for (Place& place : found.places) {
             place.plain.add(estimate(place.x, place.y, plain));
             place.corrected.add(estimate(place.x, place.y, corrected));
         }
     }
+    return found;
+}
+
+/// The estimates from an edge inwards, beside the part of the kernel that lies inside.
+void plot_edge(const Borders& found, const examples::Options& options) {
     examples::Plot plot{
         .name = "final-gathering-edge",
         .columns = {"distance from the edge over the radius", "part of the kernel",
                     "photons as they are", "divided by the part"},
         .y_label = "estimate over the truth",
         .more = "set yrange [0:1.3]\nset key inside bottom right vertical\n"};
-    for (int i = 0; i <= steps; ++i) {
-        const double s = 1.2 * double(i) / steps;
+    for (int i = 0; i <= border_steps; ++i) {
+        const double s = 1.2 * double(i) / border_steps;
         const auto k = std::size_t(i);
         plot.rows.push_back(
-            {s, detail::kernel_part(s), without[k].mean(), with[k].mean()});
+            {s, detail::kernel_part(s), found.without[k].mean(), found.with[k].mean()});
     }
     save_plot(options.out, plot);
+}
 
+/// How far the product of two edges' parts is from the part in a corner, at worst.
+double worst_product() {
     double worst = 0;
     for (double s = 0; s < 1; s += 0.1)
         for (double t = 0; t < 1; t += 0.1)
@@ -157,14 +173,22 @@ void borders(const examples::Options& options) {
                              std::abs(detail::kernel_part(s) * detail::kernel_part(t) /
                                           corner_by_rule(s, t) -
                                       1));
-    examples::Table table{.name = "final-gathering-corner",
-                          .columns = {"where", "part of the disc",
-                                      "photons, not corrected", "corrected"}};
-    for (const Place& place : places)
+    return worst;
+}
+
+/// What photons say of an even light near an edge and in a corner.
+void borders(const examples::Options& options) {
+    const Borders found = measure_borders(options.pick(32, 128, 512), options.seed);
+    plot_edge(found, options);
+    examples::Table table{
+        .name = "final-gathering-corner",
+        .columns = {"where", "part of the disc", "photons, uncorrected", "corrected"}};
+    for (const Place& place : found.places)
         table.rows.push_back(
             {place.name, place.part, place.plain.text(), place.corrected.text()});
-    table.rows.push_back({"near a corner, at worst", "product of two", "",
-                          "off by " + examples::text(100 * worst, "%.1f %%")});
+    table.rows.push_back(
+        {"near a corner, at worst", "product of two", "",
+         "off by " + examples::text(100 * worst_product(), "%.1f %%")});
     save_table(options.out, table);
     if (!options.quiet)
         for (const auto& row : table.rows)
@@ -371,8 +395,9 @@ void pictures(examples::Options options, const Sizes& sizes) {
     const auto room = cornell_box();
     const long long photons = std::min(sizes.photons, 20000LL);
     const int rays = options.samples;
-    options.width *= 3; // than those whose errors are measured
-    options.height *= 3;
+    const int larger = options.pick(3, 7, 7); // than those whose errors are measured
+    options.width *= larger;
+    options.height *= larger;
     const auto take = [&](const std::string& name, IndirectLight indirect,
                           int samples) {
         const auto settings = gather_settings(indirect, photons, options.seed, options);
@@ -469,83 +494,110 @@ examples::Plot frontier(const std::string& name, const std::string& label,
     return plot;
 }
 
+constexpr std::array way_names{"photons", "map", "gather"};
+constexpr std::array way_kinds{IndirectLight::photons, IndirectLight::map,
+                               IndirectLight::gather};
+
+/// All settings that were tried, as the plots and the table show them.
+struct Trade {
+    examples::Plot split{.name = "final-gathering-split",
+                         .columns = {"photons", "photons: squared bias",
+                                     "photons: variance", "map: squared bias",
+                                     "map: variance", "gather: squared bias",
+                                     "gather: variance"},
+                         .y_label = "part of relMSE, most rays",
+                         .log_x = true,
+                         .log_y = true};
+    examples::Table table{.name = "final-gathering-table",
+                          .columns = {"photons", "rays per pixel", "way",
+                                      "first pass, s", "second pass, s", "relMSE",
+                                      "squared bias", "variance", "FLIP"}};
+    std::vector<Setting> tried{};
+};
+
+/// Adds what one way has made of some photons and rays.
+/// \return Its bias and variance.
+BiasVariance add_way(Trade& trade, std::size_t way, long long photons, int samples,
+                     const Runs& runs, const examples::Oracle& oracle) {
+    const auto split =
+        examples::relative_split(runs.images, oracle.truth, oracle.noise);
+    double seen = 0;
+    for (const Image& image : runs.images)
+        seen += flip(image, oracle.truth) / double(runs.images.size());
+    const double first = median(runs.first), second = median(runs.second);
+    const double error = split.bias_squared + split.variance;
+    trade.tried.push_back({way, first + second, error, seen});
+    trade.table.rows.push_back(
+        {std::to_string(photons), std::to_string(samples), way_names[way],
+         examples::text(first, "%.2f"), examples::text(second, "%.2f"),
+         examples::text(error, "%.2g"), examples::text(split.bias_squared, "%.2g"),
+         examples::text(split.variance, "%.2g"), examples::text(seen, "%.3f")});
+    return split;
+}
+
+/// Tries the three ways with each number of photons and of rays.
+template <typename Room>
+Trade try_settings(const Room& room, const examples::Oracle& oracle,
+                   const examples::Options& options, const Sizes& sizes) {
+    Trade trade;
+    for (const long long part : {100, 32, 10, 3, 1})
+        for (int samples = 1; samples <= options.samples; samples *= 4) {
+            const long long photons = std::max(1000LL, sizes.photons / part);
+            std::vector<PhotonMappingSettings> ways;
+            for (const IndirectLight kind : way_kinds)
+                ways.push_back(gather_settings(kind, photons, 1, options));
+            const auto runs = compare(room, ways, samples, sizes.seeds, options);
+            examples::Row row{double(photons)};
+            for (std::size_t w = 0; w < ways.size(); ++w) {
+                const auto split = add_way(trade, w, photons, samples, runs[w], oracle);
+                row.push_back(split.bias_squared > 0 ? split.bias_squared
+                                                     : std::nan(""));
+                row.push_back(split.variance);
+            }
+            const bool most = 4LL * samples > options.samples;
+            if (most) trade.split.rows.push_back(row);
+        }
+    return trade;
+}
+
 /// Error against time: three ways, photons and rays.
 void trade(const examples::Options& options, const Sizes& sizes) {
     const auto room = matt_cornell_box();
     const auto oracle = examples::find_oracle("matt-cornell", room, options.width,
                                               sizes.truth, options);
-    examples::Plot split_plot{.name = "final-gathering-split",
-                              .columns = {"photons", "photons: squared bias",
-                                          "photons: variance", "map: squared bias",
-                                          "map: variance", "gather: squared bias",
-                                          "gather: variance"},
-                              .y_label = "part of relMSE, most rays",
-                              .log_x = true,
-                              .log_y = true};
-    examples::Table table{.name = "final-gathering-table",
-                          .columns = {"photons", "rays a pixel", "way", "first pass, s",
-                                      "second pass, s", "relMSE", "squared bias",
-                                      "variance", "FLIP"}};
-    constexpr std::array names{"photons", "map", "gather"};
-    constexpr std::array kinds{IndirectLight::photons, IndirectLight::map,
-                               IndirectLight::gather};
-    const double nan = std::nan("");
-    std::vector<long long> counts;
-    for (const long long part : {100, 32, 10, 3, 1})
-        counts.push_back(std::max(1000LL, sizes.photons / part));
-    std::vector<int> rays;
-    for (int n = 1; n <= options.samples; n *= 4) rays.push_back(n);
-    std::vector<Setting> tried;
-    for (const long long photons : counts)
-        for (const int samples : rays) {
-            std::vector<PhotonMappingSettings> ways;
-            for (const IndirectLight kind : kinds)
-                ways.push_back(gather_settings(kind, photons, 1, options));
-            const auto runs = compare(room, ways, samples, sizes.seeds, options);
-            examples::Row row{double(photons)};
-            for (std::size_t w = 0; w < kinds.size(); ++w) {
-                const auto split = examples::relative_split(runs[w].images,
-                                                            oracle.truth, oracle.noise);
-                double seen = 0;
-                for (const Image& image : runs[w].images)
-                    seen += flip(image, oracle.truth) / sizes.seeds;
-                const double first = median(runs[w].first);
-                const double second = median(runs[w].second);
-                const double error = split.bias_squared + split.variance;
-                tried.push_back({w, first + second, error, seen});
-                row.push_back(split.bias_squared > 0 ? split.bias_squared : nan);
-                row.push_back(split.variance);
-                table.rows.push_back({std::to_string(photons), std::to_string(samples),
-                                      names[w], examples::text(first, "%.2f"),
-                                      examples::text(second, "%.2f"),
-                                      examples::text(error, "%.2g"),
-                                      examples::text(split.bias_squared, "%.2g"),
-                                      examples::text(split.variance, "%.2g"),
-                                      examples::text(seen, "%.3f")});
-            }
-            if (samples == rays.back()) split_plot.rows.push_back(row);
-        }
+    auto [split, table, tried] = try_settings(room, oracle, options, sizes);
     std::sort(tried.begin(), tried.end(),
               [](const Setting& a, const Setting& b) { return a.seconds < b.seconds; });
     save_plot(options.out, frontier("final-gathering-trade", "relMSE", tried,
                                     [](const Setting& s) { return s.error; }));
     save_plot(options.out, frontier("final-gathering-flip", "FLIP", tried,
                                     [](const Setting& s) { return s.seen; }));
-    save_plot(options.out, split_plot);
+    save_plot(options.out, split);
     save_table(options.out, table);
     print(table, options);
 }
 
+/// Processor seconds in which the points of precomputed irradiance are made.
+template <typename Room>
+double seconds_of_points(const Room& room, const PhotonMappingSettings& gather,
+                         int threads) {
+    const auto maps = make_photon_maps(room.scene, gather);
+    const auto scene = index_scene(room.scene);
+    const double begin = examples::processor_seconds();
+    (void)make_irradiance_points(scene, maps.general, maps.caustics, gather.irradiance,
+                                 1, threads);
+    return examples::processor_seconds() - begin;
+}
+
 /// What a lookup saves: the general map and precomputed irradiance at equal settings.
-void ratio(const examples::Options& options, const Sizes& sizes) {
-    const auto room = matt_cornell_box();
-    const auto oracle = examples::find_oracle("matt-cornell", room, options.width,
-                                              sizes.truth, options);
+template <typename Room>
+void table_of_ratios(const Room& room, const examples::Oracle& oracle,
+                     const examples::Options& options, const Sizes& sizes) {
     const int rays = options.pick(16, 100, 100);
     const int seeds = std::min(sizes.seeds, options.pick(2, 3, 16));
     examples::Table table{.name = "final-gathering-ratio",
-                          .columns = {"photons of an estimate", "map, s", "gather, s",
-                                      "ratio", "points, s", "of the time saved",
+                          .columns = {"photons per estimate", "map, s", "gather, s",
+                                      "ratio", "points, s", "share of the time saved",
                                       "relMSE: map", "gather"}};
     for (const std::size_t k : {0u, 32u, 64u, 128u, 256u}) {
         auto map = gather_settings(IndirectLight::map, sizes.photons, 1, options);
@@ -555,12 +607,7 @@ void ratio(const examples::Options& options, const Sizes& sizes) {
         gather.irradiance.nearest = k > 0 ? k : 64;
         const auto runs = compare(room, {map, gather}, rays, seeds, options);
         const double slow = median(runs[0].second), fast = median(runs[1].second);
-        const auto maps = make_photon_maps(room.scene, gather);
-        const auto scene = index_scene(room.scene);
-        const double begin = examples::processor_seconds();
-        (void)make_irradiance_points(scene, maps.general, maps.caustics,
-                                     gather.irradiance, 1, options.threads);
-        const double extra = examples::processor_seconds() - begin;
+        const double extra = seconds_of_points(room, gather, options.threads);
         const auto error = [&](const Runs& r) {
             const auto split =
                 examples::relative_split(r.images, oracle.truth, oracle.noise);
@@ -575,9 +622,14 @@ void ratio(const examples::Options& options, const Sizes& sizes) {
     }
     save_table(options.out, table);
     print(table, options);
+}
 
+/// Points at every second photon, every fourth, and so on.
+template <typename Room>
+void table_of_every(const Room& room, const examples::Oracle& oracle,
+                    const examples::Options& options, const Sizes& sizes) {
     examples::Table every{.name = "final-gathering-every",
-                          .columns = {"a point at every", "points", "first pass, s",
+                          .columns = {"photons per point", "points", "first pass, s",
                                       "second pass, s", "relMSE", "squared bias"}};
     std::vector<PhotonMappingSettings> ways;
     for (const int n : {2, 4, 8, 16, 64, 256, 1024}) {
@@ -603,6 +655,15 @@ void ratio(const examples::Options& options, const Sizes& sizes) {
     print(every, options);
 }
 
+/// Precomputed irradiance: what it saves, and how many points it takes.
+void ratio(const examples::Options& options, const Sizes& sizes) {
+    const auto room = matt_cornell_box();
+    const auto oracle = examples::find_oracle("matt-cornell", room, options.width,
+                                              sizes.truth, options);
+    table_of_ratios(room, oracle, options, sizes);
+    table_of_every(room, oracle, options, sizes);
+}
+
 } // namespace
 
 /// Makes the figures of chapter 28.
@@ -616,7 +677,7 @@ int main(int argc, char** argv) {
         line.add("--photons", sizes.photons, "The largest number of photons", 1,
                  100000000);
         line.add("--seeds", sizes.seeds, "Runs behind bias and variance", 2, 1000);
-        line.add("--truth", sizes.truth, "Rays a pixel of the reference", 8, 1000000);
+        line.add("--truth", sizes.truth, "Rays per pixel of the reference", 8, 1000000);
         const examples::Options options =
             line.parse({.draft{.width = 32, .height = 32, .samples = 16},
                         .report{.width = 64, .height = 64, .samples = 64},

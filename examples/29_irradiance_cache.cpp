@@ -39,7 +39,7 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 /// What the user may set besides the common options.
 struct Sizes {
     int seeds = 0; ///< Runs behind each bias and variance.
-    int truth = 0; ///< Rays a pixel of the references.
+    int truth = 0; ///< Rays per pixel of the references.
     int side = 0;  ///< Of the pictures whose errors are measured, in pixels.
 };
 
@@ -127,77 +127,96 @@ double sees_as_far(double x) {
     return inverse > 0 ? 1 / inverse : std::numeric_limits<double>::infinity();
 }
 
-/// Exact records, no noise: what is wrong then is the interpolation alone.
-void corner(const examples::Options& options) {
-    constexpr double step = 0.1;
-    constexpr int columns = 22, rows = 9, places = 40;
-    constexpr std::array reaches{0.1, 0.3, 1.0, 4.0};
-    const int runs = options.pick(32, 400, 2000);
-    std::array<std::vector<double>, reaches.size()> squares, gathered;
-    for (auto& s : squares) s.assign(places, 0);
-    for (auto& g : gathered) g.assign(places, 0);
-    const auto place = [](int i) {
-        return 0.01 * std::pow(150.0, double(i) / (places - 1));
-    };
-    for (int run = 0; run < runs; ++run) {
-        auto stream = random_stream(options.seed, Pass::gathering, 0,
-                                    static_cast<std::uint64_t>(run));
-        std::vector<Vec3T<double>> positions;
-        std::vector<GatheredT<double>> records;
-        for (int i = 0; i < columns * rows;
-             ++i) { // one for each square, anywhere in it
-            const auto u = next_2d<double>(stream);
-            const Vec3T<double> p{step * (i % columns + u.x),
-                                  step * (double(i / columns) - rows * 0.5 + u.y), 0};
-            positions.push_back(p);
-            records.push_back({.irradiance = RgbT<double>{beside_wall(p.x)},
-                               .distance = sees_as_far(p.x)});
-        }
-        IrradianceCacheT<double> cache;
-        cache.tree = KdTree8T<double>(positions, 1);
-        for (const std::uint32_t i : cache.tree.point_ids())
-            cache.records.push_back(records[i]);
-        detail::measure_spacing(cache, GatherSettings{}, 1);
-        for (std::size_t k = 0; k < reaches.size(); ++k)
-            for (int i = 0; i < places; ++i) {
-                const auto slot = static_cast<std::size_t>(i);
-                const double exact = beside_wall(place(i));
-                const auto found =
-                    interpolate(cache, Vec3T<double>{place(i), 0, 0},
-                                Vec3T<double>{0, 0, 1}, double(reaches[k]));
-                if (!found) {
-                    gathered[k][slot] += 1.0 / runs; // exactly
-                    continue;
-                }
-                const double e = found->x / exact - 1;
-                squares[k][slot] += e * e / runs;
-            }
+constexpr double corner_step = 0.1;               ///< Side of a square of the floor.
+constexpr int corner_places = 40;                 ///< Where it is asked.
+constexpr std::array reaches{0.1, 0.3, 1.0, 4.0}; ///< Of the records.
+
+/// How far from the wall a place is: from 0.01 to 1.5 of its height.
+double corner_place(int i) {
+    return 0.01 * std::pow(150.0, double(i) / (corner_places - 1));
+}
+
+/// Records with the exact irradiance beside the wall: one for each square of the floor,
+/// anywhere in it.
+IrradianceCacheT<double> exact_cache(int run, std::uint64_t seed) {
+    constexpr int columns = 22, rows = 9;
+    auto stream =
+        random_stream(seed, Pass::gathering, 0, static_cast<std::uint64_t>(run));
+    std::vector<Vec3T<double>> positions;
+    std::vector<GatheredT<double>> records;
+    for (int i = 0; i < columns * rows; ++i) {
+        const auto u = next_2d<double>(stream);
+        const Vec3T<double> p{corner_step * (i % columns + u.x),
+                              corner_step * (double(i / columns) - rows * 0.5 + u.y),
+                              0};
+        positions.push_back(p);
+        records.push_back({.irradiance = RgbT<double>{beside_wall(p.x)},
+                           .distance = sees_as_far(p.x)});
     }
+    IrradianceCacheT<double> cache;
+    cache.tree = KdTree8T<double>(positions, 1);
+    for (const std::uint32_t i : cache.tree.point_ids())
+        cache.records.push_back(records[i]);
+    detail::measure_spacing(cache, GatherSettings{}, 1);
+    return cache;
+}
+
+/// What interpolation with one reach brings at the places, means over the runs.
+struct AtCorner {
+    std::array<double, corner_places> squares{};  ///< Of the relative error.
+    std::array<double, corner_places> gathered{}; ///< How often nothing is near enough.
+};
+
+/// Adds what one cache says, as one of so many runs.
+void add_run(AtCorner& corner, const IrradianceCacheT<double>& cache, double reach,
+             int runs) {
+    for (int i = 0; i < corner_places; ++i) {
+        const auto slot = static_cast<std::size_t>(i);
+        const double exact = beside_wall(corner_place(i));
+        const auto found = interpolate(cache, Vec3T<double>{corner_place(i), 0, 0},
+                                       Vec3T<double>{0, 0, 1}, reach);
+        if (!found) {
+            corner.gathered[slot] += 1.0 / runs; // exactly
+            continue;
+        }
+        const double e = found->x / exact - 1;
+        corner.squares[slot] += e * e / runs;
+    }
+}
+
+/// One for each reach.
+using Corner = std::array<AtCorner, reaches.size()>;
+
+void plot_corner(const Corner& corner, const examples::Options& options) {
     examples::Plot plot{.name = "irradiance_cache-corner",
                         .columns = {"distance from the wall, over its height",
                                     "reach 0.1", "reach 0.3", "reach 1", "reach 4"},
                         .y_label = "relative error, root mean square",
                         .log_x = true,
                         .log_y = true};
-    for (int i = 0; i < places; ++i) {
-        examples::Row row{place(i)};
-        for (const auto& s : squares) {
-            const double e = std::sqrt(s[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < corner_places; ++i) {
+        examples::Row row{corner_place(i)};
+        for (const AtCorner& at : corner) {
+            const double e = std::sqrt(at.squares[static_cast<std::size_t>(i)]);
             row.push_back(e > 0 ? e : nothing);
         }
         plot.rows.push_back(row);
     }
     save_plot(options.out, plot);
+}
+
+/// Near the wall and farther out, in means.
+void table_of_corner(const Corner& corner, const examples::Options& options) {
     examples::Table table{.name = "irradiance_cache-corner-table",
                           .columns = {"reach", "error within a step of the wall",
                                       "farther out", "gathered anew within a step",
                                       "farther out"}};
     for (std::size_t k = 0; k < reaches.size(); ++k) {
         std::array<double, 2> error{}, anew{}, count{};
-        for (int i = 0; i < places; ++i) {
-            const std::size_t part = place(i) < step ? 0 : 1;
-            error[part] += squares[k][static_cast<std::size_t>(i)];
-            anew[part] += gathered[k][static_cast<std::size_t>(i)];
+        for (int i = 0; i < corner_places; ++i) {
+            const std::size_t part = corner_place(i) < corner_step ? 0 : 1;
+            error[part] += corner[k].squares[static_cast<std::size_t>(i)];
+            anew[part] += corner[k].gathered[static_cast<std::size_t>(i)];
             count[part] += 1;
         }
         table.rows.push_back({text(reaches[k])});
@@ -209,6 +228,19 @@ void corner(const examples::Options& options) {
                 text(100 * anew[part] / count[part], "%.1f %%"));
     }
     show(options, table);
+}
+
+/// Exact records, no noise: what is wrong then is the interpolation alone.
+void corner(const examples::Options& options) {
+    const int runs = options.pick(32, 400, 2000);
+    Corner found{};
+    for (int run = 0; run < runs; ++run) {
+        const auto cache = exact_cache(run, options.seed);
+        for (std::size_t k = 0; k < reaches.size(); ++k)
+            add_run(found[k], cache, reaches[k], runs);
+    }
+    plot_corner(found, options);
+    table_of_corner(found, options);
 }
 
 // --- The pictures --------------------------------------------------------------------
@@ -332,42 +364,128 @@ examples::Oracle oracle_of(const std::function<Image(int, std::uint64_t)>& shot,
     return oracle;
 }
 
-/// Indirect light alone, one knob after the other.
-void knobs(const examples::Options& options, const Sizes& sizes) {
-    const Box room = cornell_box();
-    const int side = sizes.side;
-    const auto picture = [&](int samples, std::uint64_t seed) {
-        return RenderSettings{.width = side,
-                              .height = side,
-                              .samples = samples,
-                              .seed = seed,
-                              .threads = options.threads};
-    };
-    const auto settings = fast(side, options.seed, options.threads);
-    auto maps = make_photon_maps(room.scene, settings); // the same for all
-    auto one_by_one = settings;
+/// The box as all settings of the cache see it: with the same photons, beside two
+/// references of its indirect light.
+struct Bench {
+    const Box& room;
+    const examples::Options& options;
+    const Sizes& sizes;
+    PhotonMappingSettings settings; ///< The preset `fast`.
+    Maps maps;                      ///< The same for all.
+    examples::Oracle twin{};   ///< Gathered at every vertex, from the same photons.
+    examples::Oracle traced{}; ///< By path tracing.
+
+    [[nodiscard]] RenderSettings picture(int samples, std::uint64_t seed) const {
+        return {.width = sizes.side,
+                .height = sizes.side,
+                .samples = samples,
+                .seed = seed,
+                .threads = options.threads};
+    }
+};
+
+/// The references of the bench.
+void add_oracles(Bench& bench) {
+    const int side = bench.sizes.side, truth = bench.sizes.truth;
+    auto one_by_one = bench.settings;
     one_by_one.indirect = IndirectLight::gather;
-    const auto twin = oracle_of(
+    bench.twin = oracle_of(
         [&](int rays, std::uint64_t seed) {
-            return gathered_light(room, maps, one_by_one, picture(rays, seed));
+            return gathered_light(bench.room, bench.maps, one_by_one,
+                                  bench.picture(rays, seed));
         },
-        4 * sizes.truth, side);
-    const auto tracer = make_path_tracer(room.scene);
+        4 * truth, side);
+    const auto tracer = make_path_tracer(bench.room.scene);
     const auto indirect = only_paths(tracer, "E.*D.*D.*L");
-    const auto traced = oracle_of(
+    bench.traced = oracle_of(
         [&](int rays, std::uint64_t seed) {
-            auto image = render(indirect, room.camera, picture(rays, seed)).image;
+            auto image =
+                render(indirect, bench.room.camera, bench.picture(rays, seed)).image;
             examples::stop_if_asked();
             return image;
         },
-        sizes.truth, side);
+        truth, side);
+}
 
-    examples::Table table{.name = "irradiance_cache-knobs",
-                          .columns = {"", "processor s", "points",
-                                      "bias² of "
-                                      "interpolating",
-                                      "noise", "bias² with the photons'", "blocks",
-                                      "mean", "FLIP"}};
+/// A way to gather, and which curve of the plot it belongs to.
+struct Knob {
+    std::string name;
+    GatherSettings gather{};
+    std::size_t curve = 0; ///< Which column; 0: none.
+    bool cached = true;    ///< Or gathered at every vertex.
+};
+
+/// Each knob of the cache turned, while the others stay where they are.
+std::vector<Knob> all_knobs() {
+    std::vector<Knob> all{Knob{.name = "tile 3, 25 rays, 6 nearest, reach 1"}};
+    for (const int tile : {2, 3, 4, 6})
+        all.push_back({"tile " + std::to_string(tile), {.tile = tile}, 1});
+    for (const int rays : {9, 16, 25, 49, 100})
+        all.push_back({std::to_string(rays) + " gather rays", {.rays = rays}, 2});
+    for (const std::size_t nearest : {3u, 6u, 10u, 20u})
+        all.push_back({std::to_string(nearest) + " nearest", {.nearest = nearest}, 3});
+    for (const float reach : {0.3f, 0.5f, 1.0f, 2.0f, 4.0f})
+        all.push_back({"reach " + text(double(reach), "%.1f"), {.reach = reach}, 4});
+    all.push_back({"25 rays at every vertex, no cache", {}, 0, false});
+    return all;
+}
+
+/// What a knob brings, over several seeds.
+struct Turned {
+    double seconds = 0, mean = 0, flip = 0;
+    std::size_t points = 0;
+    BiasVariance from_twin{}, from_traced{}, blocks{};
+};
+
+Turned turn(Bench& bench, const Knob& knob) {
+    auto now = bench.settings;
+    now.gather = knob.gather;
+    Turned found;
+    std::vector<Image> runs;
+    const int seeds = bench.sizes.seeds;
+    for (int seed = 1; seed <= seeds; ++seed) {
+        const RenderSettings picture =
+            bench.picture(9, static_cast<std::uint64_t>(seed));
+        const double start = examples::processor_seconds();
+        bench.maps.cache = {};
+        if (knob.cached)
+            bench.maps.cache =
+                make_irradiance_cache(bench.room.scene, bench.maps.irradiance,
+                                      bench.room.camera, picture, knob.gather);
+        found.points = bench.maps.cache.records.size();
+        runs.push_back(gathered_light(bench.room, bench.maps, now, picture));
+        found.seconds += (examples::processor_seconds() - start) / seeds;
+        found.flip += flip(runs.back(), bench.traced.truth) / seeds;
+        found.mean += mean_error(runs.back(), bench.traced.truth) / seeds;
+    }
+    const examples::Oracle &twin = bench.twin, &traced = bench.traced;
+    found.from_twin = examples::relative_split(runs, twin.truth, twin.noise);
+    found.from_traced = examples::relative_split(runs, traced.truth, traced.noise);
+    found.blocks = examples::relative_split(runs, traced.truth, traced.block_noise, 10);
+    return found;
+}
+
+/// Which references there are, and how good they are.
+void table_of_oracles(const Bench& bench) {
+    show(bench.options,
+         {.name = "irradiance_cache-truth",
+          .columns = {"reference", "rays per pixel", "its own relMSE"},
+          .rows = {{"gathered at every vertex, the same photons",
+                    std::to_string(bench.twin.rays), text(bench.twin.noise, "%.2g")},
+                   {"path tracing", std::to_string(bench.traced.rays),
+                    text(bench.traced.noise, "%.2g")}}});
+}
+
+/// Indirect light alone, one knob after the other.
+void knobs(const examples::Options& options, const Sizes& sizes) {
+    const Box room = cornell_box();
+    const auto settings = fast(sizes.side, options.seed, options.threads);
+    Bench bench{room, options, sizes, settings, make_photon_maps(room.scene, settings)};
+    add_oracles(bench);
+    examples::Table table{
+        .name = "irradiance_cache-knobs",
+        .columns = {"", "processor seconds", "points", "bias² of interpolating",
+                    "noise", "bias² with the photons'", "blocks", "mean", "FLIP"}};
     examples::Plot plot{
         .name = "irradiance_cache-knobs-plot",
         .columns = {"processor seconds", "tile", "gather rays", "nearest", "reach"},
@@ -375,80 +493,29 @@ void knobs(const examples::Options& options, const Sizes& sizes) {
         .log_x = true,
         .log_y = true,
         .more = "set format x '%g'\n"};
-    const auto measure = [&](const std::string& name, const GatherSettings& gather,
-                             std::size_t knob, bool interpolated) {
-        auto now = settings;
-        now.gather = gather;
-        std::vector<Image> runs;
-        double seconds = 0, seen = 0, mean = 0;
-        std::size_t points = 0;
-        for (int seed = 1; seed <= sizes.seeds; ++seed) {
-            const auto number = static_cast<std::uint64_t>(seed);
-            const double start = examples::processor_seconds();
-            maps.cache = {};
-            if (interpolated)
-                maps.cache =
-                    make_irradiance_cache(room.scene, maps.irradiance, room.camera,
-                                          picture(9, number), gather);
-            points = maps.cache.records.size();
-            runs.push_back(gathered_light(room, maps, now, picture(9, number)));
-            seconds += (examples::processor_seconds() - start) / sizes.seeds;
-            seen += flip(runs.back(), traced.truth) / sizes.seeds;
-            mean += mean_error(runs.back(), traced.truth) / sizes.seeds;
-        }
-        const auto split = examples::relative_split(runs, twin.truth, twin.noise);
-        const auto whole = examples::relative_split(runs, traced.truth, traced.noise);
-        const auto blocks =
-            examples::relative_split(runs, traced.truth, traced.block_noise, 10);
-        table.rows.push_back({name, text(seconds, "%.3f"), std::to_string(points),
-                              text(split.bias_squared, "%.2g"),
-                              text(split.variance, "%.2g"),
-                              text(whole.bias_squared, "%.2g"),
-                              text(blocks.bias_squared + blocks.variance, "%.2g"),
-                              text(100 * mean, "%+.2f %%"), text(seen, "%.3f")});
-        if (knob == 0) return;
-        examples::Row row(5, nothing);
-        row[0] = seconds;
-        row[knob] = std::max(split.bias_squared + split.variance, 1e-9);
+    for (const Knob& knob : all_knobs()) {
+        const Turned found = turn(bench, knob);
+        const auto& [bias, noise] = found.from_twin;
+        table.rows.push_back(
+            {knob.name, text(found.seconds, "%.3f"), std::to_string(found.points),
+             text(bias, "%.2g"), text(noise, "%.2g"),
+             text(found.from_traced.bias_squared, "%.2g"),
+             text(found.blocks.bias_squared + found.blocks.variance, "%.2g"),
+             text(100 * found.mean, "%+.2f %%"), text(found.flip, "%.3f")});
+        if (knob.curve == 0) continue;
+        examples::Row row(plot.columns.size(), nothing);
+        row[0] = found.seconds;
+        row[knob.curve] = std::max(bias + noise, 1e-9);
         plot.rows.push_back(row);
-    };
-    const GatherSettings usual;
-    measure("tile 3, 25 rays, 6 nearest, reach 1", usual, 0, true);
-    for (const int tile : {2, 3, 4, 6}) {
-        auto gather = usual;
-        gather.tile = tile;
-        measure("tile " + std::to_string(tile), gather, 1, true);
     }
-    for (const int rays : {9, 16, 25, 49, 100}) {
-        auto gather = usual;
-        gather.rays = rays;
-        measure(std::to_string(rays) + " gather rays", gather, 2, true);
-    }
-    for (const std::size_t nearest : {3u, 6u, 10u, 20u}) {
-        auto gather = usual;
-        gather.nearest = nearest;
-        measure(std::to_string(nearest) + " nearest", gather, 3, true);
-    }
-    for (const float reach : {0.3f, 0.5f, 1.0f, 2.0f, 4.0f}) {
-        auto gather = usual;
-        gather.reach = reach;
-        measure("reach " + text(double(reach), "%.1f"), gather, 4, true);
-    }
-    measure("25 rays at every vertex, no cache", usual, 0, false);
-    maps.cache = {};
     show(options, table);
     save_plot(options.out, plot);
-    show(options, {.name = "irradiance_cache-truth",
-                   .columns = {"reference", "rays a pixel", "its own relMSE"},
-                   .rows = {{"gathered at every vertex, the same photons",
-                             std::to_string(twin.rays), text(twin.noise, "%.2g")},
-                            {"path tracing", std::to_string(traced.rays),
-                             text(traced.noise, "%.2g")}}});
+    table_of_oracles(bench);
 }
 
 // --- Whole pictures ------------------------------------------------------------------
 
-/// A way to make a whole picture: rays a pixel and a seed for all.
+/// A way to make a whole picture: rays per pixel and a seed for all.
 struct Method {
     std::string name;
     std::function<Image(int, std::uint64_t)> shoot;
@@ -540,9 +607,9 @@ void methods(const examples::Options& options, const Sizes& sizes,
                         .log_y = true};
     for (const Method& method : all) plot.columns.push_back(method.name);
     examples::Table table{.name = "irradiance_cache-trade-table",
-                          .columns = {"indirect light by", "rays a pixel",
-                                      "processor s", "bias²", "noise", "blocks: bias²",
-                                      "noise", "mean", "FLIP"}};
+                          .columns = {"indirect light by", "rays per pixel",
+                                      "processor seconds", "bias²", "noise",
+                                      "blocks: bias²", "noise", "mean", "FLIP"}};
     for (std::size_t m = 0; m < all.size(); ++m)
         for (const int rays : rungs) {
             const Result r = try_method(all[m], rays, oracle, sizes.seeds);
@@ -561,50 +628,56 @@ void methods(const examples::Options& options, const Sizes& sizes,
     show(options, table);
 }
 
+/// One idea more than the rung before.
+struct Rung {
+    const char* idea;
+    int shadow_rays;
+    DirectLight direct;
+    IndirectLight indirect;
+    bool stratified;
+    int more; ///< Rays where the first ones disagree.
+};
+constexpr std::array ladder_rungs{
+    Rung{"the report's: one shadow ray", 1, DirectLight::sampled, IndirectLight::rays,
+         false, 0},
+    Rung{"+ four shadow rays, stratified", 4, DirectLight::sampled, IndirectLight::rays,
+         false, 0},
+    Rung{"+ a stratified stream", 4, DirectLight::sampled, IndirectLight::rays, true,
+         0},
+    Rung{"+ lamps in closed form", 4, DirectLight::analytic, IndirectLight::rays, true,
+         0},
+    Rung{"+ the cache for indirect rays", 4, DirectLight::analytic,
+         IndirectLight::cache, true, 0},
+    Rung{"+ 8 more rays where 2 disagree", 4, DirectLight::analytic,
+         IndirectLight::cache, true, 8}};
+
+/// The room as a rung of the ladder renders it.
+Image shoot_rung(const Rung& rung, const Box& room, const RenderSettings& picture) {
+    auto settings = fast(picture.width, picture.seed, picture.threads);
+    settings.shadow_rays = rung.shadow_rays;
+    settings.direct = rung.direct;
+    settings.indirect = rung.indirect;
+    return rung.stratified
+               ? by_photons<StratifiedStream>(room, settings, picture, rung.more)
+               : by_photons<RandomStream>(room, settings, picture, rung.more);
+}
+
 /// From the report's photon mapper to the preset `fast`, one idea after the other.
 void ladder(const examples::Options& options, const Sizes& sizes,
             const examples::Oracle& oracle) {
     const Box room = cornell_box();
-    const int side = sizes.side;
-    struct Rung {
-        const char* idea;
-        int shadow_rays;
-        DirectLight direct;
-        IndirectLight indirect;
-        bool stratified;
-        int more;
-    };
-    using enum DirectLight;
-    constexpr std::array rungs{
-        Rung{"the report's: one shadow ray", 1, sampled, IndirectLight::rays, false, 0},
-        Rung{"+ four shadow rays, stratified", 4, sampled, IndirectLight::rays, false,
-             0},
-        Rung{"+ a stratified stream", 4, sampled, IndirectLight::rays, true, 0},
-        Rung{"+ lamps in closed form", 4, analytic, IndirectLight::rays, true, 0},
-        Rung{"+ the cache for indirect rays", 4, analytic, IndirectLight::cache, true,
-             0},
-        Rung{"+ 8 rays more where 2 disagree", 4, analytic, IndirectLight::cache, true,
-             8}};
     examples::Table table{.name = "irradiance_cache-ladder",
-                          .columns = {"", "processor s", "relMSE", "trimmed",
+                          .columns = {"", "processor seconds", "relMSE", "trimmed",
                                       "of blocks", "mean", "FLIP"}};
-    for (const Rung& rung : rungs) {
-        const Method method{
-            rung.idea, [&](int rays, std::uint64_t seed) {
-                auto settings = fast(side, seed, options.threads);
-                settings.shadow_rays = rung.shadow_rays;
-                settings.direct = rung.direct;
-                settings.indirect = rung.indirect;
-                const RenderSettings picture{.width = side,
-                                             .height = side,
-                                             .samples = rays,
-                                             .seed = seed,
-                                             .threads = options.threads};
-                return rung.stratified ? by_photons<StratifiedStream>(
-                                             room, settings, picture, rung.more)
-                                       : by_photons<RandomStream>(room, settings,
-                                                                  picture, rung.more);
-            }};
+    for (const Rung& rung : ladder_rungs) {
+        const Method method{rung.idea, [&](int rays, std::uint64_t seed) {
+                                return shoot_rung(rung, room,
+                                                  {.width = sizes.side,
+                                                   .height = sizes.side,
+                                                   .samples = rays,
+                                                   .seed = seed,
+                                                   .threads = options.threads});
+                            }};
         const Result r = try_method(method, 2, oracle, sizes.seeds);
         table.rows.push_back({rung.idea, text(r.seconds, "%.3f"),
                               text(r.error(), "%.2g"), text(r.trimmed, "%.2g"),
@@ -612,17 +685,20 @@ void ladder(const examples::Options& options, const Sizes& sizes,
                               text(100 * r.mean, "%+.2f %%"), text(r.flip, "%.3f")});
     }
     show(options, table);
+}
 
-    // What "three seconds" looks like.
+/// What "three seconds" looks like.
+void fast_picture(const examples::Options& options) {
+    const Box room = cornell_box();
     const double start = examples::processor_seconds();
-    const auto settings = fast(options.width, options.seed, options.threads);
-    const Image image = by_photons<StratifiedStream>(room, settings,
-                                                     {.width = options.width,
-                                                      .height = options.height,
-                                                      .samples = 2,
-                                                      .seed = options.seed,
-                                                      .threads = options.threads},
-                                                     8);
+    const Image image = by_photons<StratifiedStream>(
+        room, fast(options.width, options.seed, options.threads),
+        {.width = options.width,
+         .height = options.height,
+         .samples = 2,
+         .seed = options.seed,
+         .threads = options.threads},
+        8);
     show(options, {.name = "irradiance_cache-fast-table",
                    .columns = {"pixels", "processor seconds of both passes"},
                    .rows = {{std::to_string(options.width) + " x " +
@@ -769,7 +845,7 @@ int main(int argc, char** argv) {
         Sizes sizes;
         line.about("Chapter 29, the irradiance cache: points, knobs, trades.");
         line.add("--seeds", sizes.seeds, "Runs behind each error", 2, 1000);
-        line.add("--truth", sizes.truth, "Rays a pixel of the references", 8,
+        line.add("--truth", sizes.truth, "Rays per pixel of the references", 8,
                  100000000);
         const examples::Options options =
             line.parse({.draft{.width = 96, .height = 96, .samples = 4},
@@ -787,5 +863,6 @@ int main(int argc, char** argv) {
                                                   2 * sizes.truth, options);
         methods(options, sizes, oracle);
         ladder(options, sizes, oracle);
+        fast_picture(options);
     });
 }

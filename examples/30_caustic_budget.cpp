@@ -222,8 +222,8 @@ Errors errors_of(const Known& known, const std::vector<double>& shares,
 void two_rooms(const std::vector<Known>& rooms, const Grid& grid, float radius,
                const Sizes& sizes, const examples::Options& options) {
     examples::Table table{.name = "budget-two-balls",
-                          .columns = {"room", "budget", "photons of index 1.05",
-                                      "of index 1.5", "squared bias", "variance",
+                          .columns = {"room", "budget", "photons for index 1.05",
+                                      "for index 1.5", "squared bias", "variance",
                                       "variance relative to own caustic",
                                       "variance relative to all light",
                                       "squared bias relative to all light", "FLIP"}};
@@ -472,9 +472,9 @@ void four_balls_errors(const FourBalls& balls, const examples::Options& options,
         scene, balls, options.pick(20, 100, 200) * sizes.photons, 99, {}, picture);
     const Image rest = rest_seen(scene, balls, fine);
     const Image truth = rest + expected;
-    examples::Table table{
-        .name = "budget-four-balls-errors",
-        .columns = {"budget", "variance", "relative variance", "FLIP", "processor s"}};
+    examples::Table table{.name = "budget-four-balls-errors",
+                          .columns = {"budget", "variance", "relative variance", "FLIP",
+                                      "processor seconds"}};
     for (std::size_t b = 0; b < budgets.size(); ++b) {
         std::vector<Image> runs;
         const double begin = examples::processor_seconds();
@@ -517,12 +517,13 @@ int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         Sizes sizes;
         line.about("Chapter 30: a budget for the photons of caustics.");
-        line.add("--photons", sizes.photons, "Of a caustics map", 1000, 10000000);
+        line.add("--photons", sizes.photons, "Photons per caustics map", 1000,
+                 10000000);
         line.add("--seeds", sizes.seeds, "Maps behind each error", 2, 1000);
         const examples::Options options =
             line.parse({.draft{.width = 80, .height = 80, .samples = 4},
-                        .report{.width = 240, .height = 240, .samples = 16},
-                        .reference{.width = 400, .height = 400, .samples = 64}});
+                        .report{.width = 400, .height = 400, .samples = 16},
+                        .reference{.width = 500, .height = 500, .samples = 64}});
         if (!line.given("--photons")) sizes.photons = options.pick(4000, 10000, 10000);
         if (!line.given("--seeds")) sizes.seeds = options.pick(4, 16, 64);
         const float radius = 0.03f;

@@ -9,6 +9,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -154,6 +156,76 @@ void run_series(std::vector<Series>& all, long long photons,
     }
 }
 
+/// Bias and variance of a series after each number of passes.
+std::vector<BiasVariance> split_of(const Series& series) {
+    std::vector<BiasVariance> split;
+    for (const auto& runs : series.images)
+        split.push_back(bias_variance(runs, exact_strip(series.strip)));
+    return split;
+}
+
+/// "-0.667 +- 0.010": how a mean square falls with the passes, where it has settled.
+/// \param square  Of a BiasVariance: what is fitted.
+template <typename Square>
+std::string fitted_slope(const std::vector<BiasVariance>& split,
+                         const std::vector<long long>& stops, Square square) {
+    std::vector<double> n, y;
+    for (std::size_t i = 0; i < stops.size(); ++i) {
+        if (stops[i] * 60 < stops.back()) continue; // where it has settled
+        n.push_back(double(stops[i]));
+        y.push_back(square(split[i]));
+    }
+    const auto fit = examples::fit_power(n, y);
+    return examples::text(fit.slope, "%.3f") + " +- " +
+           examples::text(fit.error, "%.3f");
+}
+
+/// The slopes of one series beside the laws: a row of the table.
+std::vector<std::string> slopes_row(const Series& series,
+                                    const std::vector<BiasVariance>& split,
+                                    const std::vector<long long>& stops, bool quiet) {
+    const double a = series.alpha;
+    const double bias_law = series.strip.first < 0 ? -2 * (1 - a) : -(1 - a) / 2;
+    const std::string variance =
+        fitted_slope(split, stops, [](const auto& at) { return at.variance; });
+    const std::string bias =
+        fitted_slope(split, stops, [](const auto& at) { return at.bias_squared; });
+    const std::string both = fitted_slope(
+        split, stops, [](const auto& at) { return at.variance + at.bias_squared; });
+    if (!quiet)
+        std::printf("%s alpha %.2f: variance %s (law %.3f), bias^2 %s (law %.3f)\n",
+                    series.strip.name, a, variance.c_str(), -a, bias.c_str(), bias_law);
+    return {series.strip.name,
+            a < 0.5 ? "1/3" : "2/3",
+            examples::text(-a, "%.3f"),
+            variance,
+            examples::text(bias_law, "%.3f"),
+            bias,
+            examples::text(std::max(-a, bias_law), "%.3f"),
+            both};
+}
+
+/// Bias and variance against the passes, for alpha = 2/3: in the middle of the light,
+/// with the variance as the passes estimate it, and across its edge.
+void plot_laws(const Series& middle, const Series& edge,
+               const std::vector<long long>& stops, const examples::Options& options) {
+    examples::Plot plot{.name = "progressive-laws",
+                        .columns = {"passes", "variance in the middle",
+                                    "squared bias in the middle", "estimated variance",
+                                    "squared bias across the edge", "n^(-2/3)"},
+                        .y_label = "mean square over the places",
+                        .log_x = true,
+                        .log_y = true};
+    const auto inside = split_of(middle), across = split_of(edge);
+    const double last = inside.back().variance;
+    for (std::size_t i = 0; i < stops.size(); ++i)
+        plot.rows.push_back(
+            {double(stops[i]), inside[i].variance, inside[i].bias_squared,
+             stops[i] > 1 ? middle.estimates[i] : std::nan(""), across[i].bias_squared,
+             2 * last * std::pow(double(stops[i]) / double(stops.back()), -2.0 / 3)});
+    save_plot(options.out, plot);
+}
+
 /// Slopes of bias and variance, and the estimated error beside the true one.
 void laws(const examples::Options& options, const Sizes& sizes) {
     constexpr long long photons = 500;
@@ -165,57 +237,75 @@ void laws(const examples::Options& options, const Sizes& sizes) {
             all.push_back({strip, alpha, strip.first < 0 ? 1.2 : 0.6});
     run_series(all, photons, stops, 4 * sizes.seeds);
 
-    examples::Plot plot{.name = "progressive-laws",
-                        .columns = {"passes", "variance in the middle",
-                                    "squared bias in the middle", "estimated variance",
-                                    "squared bias across the edge", "n^(-2/3)"},
-                        .y_label = "mean square over the places",
-                        .log_x = true,
-                        .log_y = true};
     examples::Table table{.name = "progressive-slopes",
                           .columns = {"where", "alpha", "variance: law", "measured",
                                       "squared bias: law", "measured", "both: law",
                                       "measured"}};
-    std::vector<std::vector<BiasVariance>> splits;
-    for (const Series& series : all) {
-        std::vector<BiasVariance> split;
-        for (const auto& runs : series.images)
-            split.push_back(bias_variance(runs, exact_strip(series.strip)));
-        splits.push_back(split);
-        std::vector<double> n, variance, bias, both;
-        for (std::size_t i = 0; i < stops.size(); ++i) {
-            if (stops[i] * 60 < stops.back()) continue; // where it has settled
-            n.push_back(double(stops[i]));
-            variance.push_back(split[i].variance);
-            bias.push_back(split[i].bias_squared);
-            both.push_back(split[i].variance + split[i].bias_squared);
-        }
-        const bool middle = series.strip.first < 0;
-        const double a = series.alpha;
-        const double bias_law = middle ? -2 * (1 - a) : -(1 - a) / 2;
-        const auto fitted = [&](const std::vector<double>& y) {
-            const auto fit = examples::fit_power(n, y);
-            return examples::text(fit.slope, "%.3f") + " +- " +
-                   examples::text(fit.error, "%.3f");
-        };
+    for (const Series& series : all)
         table.rows.push_back(
-            {series.strip.name, a < 0.5 ? "1/3" : "2/3", examples::text(-a, "%.3f"),
-             fitted(variance), examples::text(bias_law, "%.3f"), fitted(bias),
-             examples::text(std::max(-a, bias_law), "%.3f"), fitted(both)});
-        if (!options.quiet)
-            std::printf("%s alpha %.2f: variance %s (law %.3f), bias^2 %s (law %.3f)\n",
-                        series.strip.name, a, fitted(variance).c_str(), -a,
-                        fitted(bias).c_str(), bias_law);
-    }
-    const double last = splits[1].back().variance;
-    for (std::size_t i = 0; i < stops.size(); ++i)
-        plot.rows.push_back(
-            {double(stops[i]), splits[1][i].variance, splits[1][i].bias_squared,
-             stops[i] > 1 ? all[1].estimates[i] : std::nan(""),
-             splits[3][i].bias_squared,
-             2 * last * std::pow(double(stops[i]) / double(stops.back()), -2.0 / 3)});
-    save_plot(options.out, plot);
+            slopes_row(series, split_of(series), stops, options.quiet));
+    plot_laws(all[1], all[3], stops, options);
     save_table(options.out, table);
+}
+
+/// Squared bias and variance of some runs together.
+double error_of(const std::vector<Image>& runs, const Strip& strip) {
+    const auto split = bias_variance(runs, exact_strip(strip));
+    return split.bias_squared + split.variance;
+}
+
+/// The best of several radii, and the mean squared error with it.
+struct BestRadius {
+    double radius = 0;
+    double error = std::numeric_limits<double>::infinity();
+
+    void consider(double other, double its_error) {
+        if (its_error < error) radius = other, error = its_error;
+    }
+};
+
+constexpr std::array radius_steps{-4, -3, -2, -1, 0, 1, 2, 3, 4}; ///< Quarter octaves.
+
+/// All photons in one map, with each of several radii.
+BestRadius best_map(const Strip& strip, long long photons, int seeds) {
+    const auto stage = examples::window_scene<Stage>();
+    std::array<std::vector<Image>, radius_steps.size()> runs;
+    std::array<double, radius_steps.size()> radii{};
+    for (std::size_t i = 0; i < radii.size(); ++i)
+        radii[i] = (strip.first < 0 ? 2.4 * std::pow(double(photons), -1.0 / 6)
+                                    : 4.0 * std::pow(double(photons), -1.0 / 3)) *
+                   std::exp2(radius_steps[i] / 4.0);
+    for (int seed = 1; seed <= seeds; ++seed) {
+        const PhotonMap map = window_map(stage, photons, 5000 + std::uint64_t(seed), 0);
+        for (std::size_t i = 0; i < radii.size(); ++i)
+            runs[i].push_back(read_strip(map, strip, radii[i]));
+        examples::stop_if_asked();
+    }
+    BestRadius best;
+    for (std::size_t i = 0; i < radii.size(); ++i)
+        best.consider(radii[i], error_of(runs[i], strip));
+    return best;
+}
+
+/// The best first radius of the passes at a strip.
+/// \param stop  Which of the numbers of passes.
+BestRadius best_passes(const std::vector<Series>& all, const Strip& strip,
+                       std::size_t stop) {
+    BestRadius best;
+    for (const Series& series : all)
+        if (series.strip.first == strip.first)
+            best.consider(series.radius, error_of(series.images[stop], strip));
+    return best;
+}
+
+/// Passes at each strip, with several first radii.
+std::vector<Series> series_of_radii() {
+    std::vector<Series> all;
+    for (const Strip& strip : strips)
+        for (const int step : radius_steps)
+            all.push_back({strip, strip.first < 0 ? 2.0 / 3 : 1.0 / 3,
+                           (strip.first < 0 ? 0.9 : 0.7) * std::exp2(step / 4.0)});
+    return all;
 }
 
 /// The same photons in one map, with the best radius that one map can have, and in
@@ -232,56 +322,26 @@ void one_map(const examples::Options& options, const Sizes& sizes) {
                           .columns = {"where", "photons", "one map: best radius",
                                       "squared error", "passes of 500", "squared error",
                                       "ratio"}};
-    const auto steps = {-4, -3, -2, -1, 0, 1, 2, 3, 4};
-    const auto error_of = [](const std::vector<Image>& runs, const Strip& strip) {
-        const auto split = bias_variance(runs, exact_strip(strip));
-        return split.bias_squared + split.variance;
-    };
-    std::vector<Series> all; // of each strip, several first radii
-    for (const Strip& strip : strips)
-        for (const int step : steps)
-            all.push_back({strip, strip.first < 0 ? 2.0 / 3 : 1.0 / 3,
-                           (strip.first < 0 ? 0.9 : 0.7) * std::exp2(step / 4.0)});
+    std::vector<Series> all = series_of_radii();
     run_series(all, photons, stops, seeds);
-    const auto stage = examples::window_scene<Stage>();
-    for (const Strip& strip : strips) {
-        const bool middle = strip.first < 0;
+    for (const Strip& strip : strips)
         for (std::size_t s = 0; s < stops.size(); ++s) {
             const long long count = stops[s] * photons;
-            std::vector<std::vector<Image>> runs(steps.size());
-            std::vector<double> radii;
-            for (const int step : steps)
-                radii.push_back((middle ? 2.4 * std::pow(double(count), -1.0 / 6)
-                                        : 4.0 * std::pow(double(count), -1.0 / 3)) *
-                                std::exp2(step / 4.0));
-            for (int seed = 1; seed <= seeds; ++seed) {
-                const PhotonMap map =
-                    window_map(stage, count, 5000 + std::uint64_t(seed), 0);
-                for (std::size_t i = 0; i < radii.size(); ++i)
-                    runs[i].push_back(read_strip(map, strip, radii[i]));
-                examples::stop_if_asked();
-            }
-            std::size_t best = 0;
-            for (std::size_t i = 1; i < radii.size(); ++i)
-                if (error_of(runs[i], strip) < error_of(runs[best], strip)) best = i;
-            double passes = 1e300, first = 0;
-            for (const Series& series : all) {
-                if (series.strip.first != strip.first) continue;
-                const double error = error_of(series.images[s], strip);
-                if (error < passes) passes = error, first = series.radius;
-            }
-            const double map = error_of(runs[best], strip);
-            table.rows.push_back(
-                {strip.name, std::to_string(count), examples::text(radii[best], "%.2f"),
-                 examples::text(map, "%.3g"),
-                 std::to_string(stops[s]) + ", r = " + examples::text(first, "%.2f"),
-                 examples::text(passes, "%.3g"), examples::text(passes / map, "%.2f")});
+            const BestRadius map = best_map(strip, count, seeds);
+            const BestRadius passes = best_passes(all, strip, s);
+            table.rows.push_back({strip.name, std::to_string(count),
+                                  examples::text(map.radius, "%.2f"),
+                                  examples::text(map.error, "%.3g"),
+                                  std::to_string(stops[s]) +
+                                      ", r = " + examples::text(passes.radius, "%.2f"),
+                                  examples::text(passes.error, "%.3g"),
+                                  examples::text(passes.error / map.error, "%.2f")});
             if (!options.quiet)
                 std::printf(
                     "%s, %lld photons: one map %.3g (r %.2f), passes %.3g (r %.2f)\n",
-                    strip.name, count, map, radii[best], passes, first);
+                    strip.name, count, map.error, map.radius, passes.error,
+                    passes.radius);
         }
-    }
     save_table(options.out, table);
 }
 
@@ -290,8 +350,8 @@ void one_map(const examples::Options& options, const Sizes& sizes) {
 void draw_discs(const examples::Options& options) {
     const auto stage = examples::window_scene<Stage>();
     examples::Drawing figure{.name = "progressive-discs",
-                             .description = "Three passes: the photons are others each "
-                                            "time, and the disc is smaller",
+                             .description = "Three passes: each has photons of its own "
+                                            "and a smaller disc than the one before",
                              .low{-0.1, -0.35},
                              .high{6.5, 2.1},
                              .scale = 108};
@@ -414,7 +474,7 @@ Reference reference_of(const Room& room, const examples::Options& options) {
 /// The box after some passes.
 struct Milestone {
     long long passes = 0;
-    std::vector<Image> runs = {}; ///< One a seed that came so far.
+    std::vector<Image> runs = {}; ///< One per seed that came so far.
     double seconds = 0;           ///< Of the first seed.
     double megabytes = 0;         ///< The most that it took up to here.
     double estimate = 0;          ///< Of its error.
@@ -491,9 +551,9 @@ void save_errors(const std::vector<Milestone>& milestones, const Reference& trut
         .log_x = true,
         .log_y = true};
     examples::Table table{.name = "progressive-picture-table",
-                          .columns = {"passes", "processor s", "radius", "relMSE",
+                          .columns = {"passes", "processor seconds", "radius", "relMSE",
                                       "squared bias", "variance", "FLIP",
-                                      "estimated error of a pixel", "peak memory, MB"}};
+                                      "estimated error per pixel", "peak memory, MB"}};
     double first = 0;
     for (const Milestone& at : milestones) {
         const auto split =
@@ -524,8 +584,8 @@ void beside_one_map(const Box& box, const Camera& camera, long long passes,
                     const Reference& truth, const examples::Options& options,
                     int seeds) {
     examples::Table table{.name = "progressive-beside",
-                          .columns = {"how", "processor s", "relMSE", "squared bias",
-                                      "variance", "FLIP"}};
+                          .columns = {"how", "processor seconds", "relMSE",
+                                      "squared bias", "variance", "FLIP"}};
     // All seeds of one way, and the time of the first.
     const auto try_way = [&](const std::string& how, auto make) {
         std::vector<Image> runs;
@@ -611,7 +671,7 @@ int main(int argc, char** argv) {
         Sizes sizes;
         line.about("Chapter 31, progressive photons: laws and pictures.");
         line.add("--seeds", sizes.seeds, "Runs behind bias and variance", 2, 1000);
-        line.add("--picture", sizes.picture, "Make this PFM file and nothing else");
+        line.add("--picture", sizes.picture, "Make only this PFM file");
         examples::add_pass_options(line, sizes.how);
         const examples::Options options =
             line.parse({.draft{.width = 32, .height = 32, .samples = 1},

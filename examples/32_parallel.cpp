@@ -37,7 +37,7 @@ struct Sizes {
 
 /// A row of the report's table 1, in seconds.
 struct ReportRow {
-    int rays;       ///< A pixel.
+    int rays;       ///< Per pixel.
     double one;     ///< Its "unparallelized rendering time".
     double four;    ///< Its "parallelized rendering time", on four cores.
     double printed; ///< Its quotient, as it is printed.
@@ -147,15 +147,123 @@ std::vector<double> errors_of(const R& room, const examples::Oracle& oracle,
     return found;
 }
 
-/// Table 1, and the straight lines through its columns.
-/// \return Seconds of the parts, for Amdahl's law.
+/// What table 1 measures, for its plots and lines: a number for each of its rows.
+struct Measured {
+    std::vector<double> rays{}; ///< Per pixel.
+    std::vector<double> one{};  ///< Seconds with one thread.
+    std::vector<double> many{}; ///< Seconds with several.
+};
+
+/// A row of table 1: medians of pairs of pictures, by one thread and by several.
+struct PairTimes {
+    double one = 0, many = 0; ///< Seconds on the wall.
+    double ratio = 0;         ///< Of these, within a pair.
+    double work = 0;          ///< Processor time of several threads over that of one.
+};
+
+/// \param shot  Renders the picture with the given number of threads: its Timing.
+template <typename Shot>
+PairTimes time_pairs(int repeats, int threads, Shot shot) {
+    std::vector<double> one, many, ratio, work;
+    for (int repeat = 0; repeat < repeats; ++repeat) {
+        const Timing a = shot(1), b = shot(threads);
+        examples::stop_if_asked();
+        one.push_back(a.wall);
+        many.push_back(b.wall);
+        ratio.push_back(a.wall / b.wall);
+        work.push_back(b.work / a.work);
+    }
+    return {median(one), median(many), median(ratio), median(work)};
+}
+
+/// Table 1: the report's times, ours, and the errors of the pictures.
+/// \param shot  Renders the picture with some rays per pixel and some threads.
+template <typename Shot>
+Measured save_table_1(const std::vector<double>& errors, Shot shot,
+                      const examples::Options& options, int repeats, int threads) {
+    examples::Table table{.name = "table-1",
+                          .columns = {"rays", "report: 1 thread, s", "4 threads, s",
+                                      "printed", "is", "1 thread, s",
+                                      std::to_string(threads) + " threads, s", "ratio",
+                                      "work of all", "relMSE"}};
+    Measured measured;
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+        const ReportRow& row = report_rows[i];
+        const PairTimes times =
+            time_pairs(repeats, threads, [&](int by) { return shot(row.rays, by); });
+        measured.rays.push_back(row.rays);
+        measured.one.push_back(times.one);
+        measured.many.push_back(times.many);
+        table.rows.push_back({std::to_string(row.rays), text(row.one), text(row.four),
+                              text(row.printed), text(row.one / row.four, "%.2f"),
+                              text(times.one, "%.3g"), text(times.many, "%.3g"),
+                              text(times.ratio, "%.2f"), text(times.work, "%.2f"),
+                              text(errors[i], "%.2g")});
+    }
+    save_table(options.path(""), table);
+    return measured;
+}
+
+/// The columns of table 1 as the report has them.
+Measured report_columns() {
+    Measured report;
+    for (const ReportRow& row : report_rows) {
+        report.rays.push_back(row.rays);
+        report.one.push_back(row.one);
+        report.many.push_back(row.four);
+    }
+    return report;
+}
+
+/// The straight lines through the columns of table 1, and the times of the first pass.
+/// \return The line of our second pass with one thread.
+Line save_lines(const Measured& measured, const FirstPass& alone,
+                const FirstPass& shared, const examples::Options& options,
+                int threads) {
+    examples::Table lines{.name = "parallel-lines",
+                          .columns = {"", "fixed, s", "one ray in every pixel, s",
+                                      "microseconds per path"}};
+    const auto add = [&](const std::string& name, const Line& line, double of_pixels) {
+        lines.rows.push_back({name, text(line.fixed, "%.3g"), text(line.each, "%.3g"),
+                              text(1e6 * line.each / of_pixels, "%.3g")});
+    };
+    const auto once = [&](const std::string& name, double seconds) {
+        lines.rows.push_back({name, text(seconds, "%.3g"), "", ""});
+    };
+    const Measured report = report_columns();
+    add("report, 1 thread", fit_line(report.rays, report.one), 160000);
+    add("report, 4 threads", fit_line(report.rays, report.many), 160000);
+    const Line loop = fit_line(measured.rays, measured.one);
+    const double pixels = double(options.width) * options.height;
+    const std::string several = std::to_string(threads) + " threads";
+    add("second pass, 1 thread", loop, pixels);
+    add("second pass, " + several, fit_line(measured.rays, measured.many), pixels);
+    once("photons, 1 thread", alone.emission.wall);
+    once("photons, " + several, shared.emission.wall);
+    once("their tree, always 1 thread", alone.tree.wall);
+    save_table(options.path(""), lines);
+    return loop;
+}
+
+/// What table 1 takes for the truth.
+void save_truth(const examples::Oracle& oracle, const examples::Options& options) {
+    const examples::Table truth{
+        .name = "parallel-truth",
+        .columns = {"reference", "rays per pixel", "its own relMSE"},
+        .rows = {{"path tracing, no limit of depth", std::to_string(oracle.rays),
+                  text(oracle.noise, "%.2g")}}};
+    save_table(options.path(""), truth);
+}
+
+/// Table 1, its reference, and the straight lines through its columns.
+/// \param[out] loop  The line of the second pass with one thread.
+/// \return Seconds of the first pass with one thread, for Amdahl's law.
 template <typename R>
 FirstPass table_1(const R& room, const examples::Options& options, const Sizes& sizes,
                   int threads, Line& loop) {
-    PhotonMapsT<float> maps;
+    PhotonMapsT<float> maps, again;
     const PhotonMappingSettings settings = report_settings(1);
     const FirstPass alone = first_pass(room, settings, maps);
-    PhotonMapsT<float> again;
     const FirstPass shared = first_pass(room, report_settings(threads), again);
     const auto mapper = make_photon_mapper(room.scene, maps, settings);
     const auto shot = [&](int rays, int by) {
@@ -174,68 +282,10 @@ FirstPass table_1(const R& room, const examples::Options& options, const Sizes& 
         "four-glass", room, std::min(side, options.width), sizes.truth, options);
     const std::vector<double> errors = errors_of(room, oracle, rays, options);
 
-    examples::Table table{.name = "table-1",
-                          .columns = {"rays", "report: 1 thread, s", "4 threads, s",
-                                      "printed", "is", "1 thread, s",
-                                      std::to_string(threads) + " threads, s", "ratio",
-                                      "work of all", "relMSE"}};
-    std::vector<double> counts, ones, manys;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        const ReportRow& row = report_rows[i];
-        std::vector<double> one, many, ratio, work;
-        for (int repeat = 0; repeat < sizes.repeats; ++repeat) {
-            const Timing a = shot(row.rays, 1), b = shot(row.rays, threads);
-            examples::stop_if_asked();
-            one.push_back(a.wall);
-            many.push_back(b.wall);
-            ratio.push_back(a.wall / b.wall);
-            work.push_back(b.work / a.work);
-        }
-        counts.push_back(row.rays);
-        ones.push_back(median(one));
-        manys.push_back(median(many));
-        table.rows.push_back({std::to_string(row.rays), text(row.one), text(row.four),
-                              text(row.printed), text(row.one / row.four, "%.2f"),
-                              text(ones.back(), "%.3g"), text(manys.back(), "%.3g"),
-                              text(median(ratio), "%.2f"), text(median(work), "%.2f"),
-                              text(errors[i], "%.2g")});
-    }
-    save_table(options.path(""), table);
-
-    const double pixels = double(options.width) * options.height;
-    examples::Table lines{.name = "parallel-lines",
-                          .columns = {"", "fixed, s", "one ray in every pixel, s",
-                                      "microseconds per path"}};
-    const auto add = [&](const std::string& name, const Line& line, double of_pixels) {
-        lines.rows.push_back({name, text(line.fixed, "%.3g"), text(line.each, "%.3g"),
-                              text(1e6 * line.each / of_pixels, "%.3g")});
-    };
-    std::vector<double> all_rays, report_ones, report_fours;
-    for (const ReportRow& row : report_rows) {
-        all_rays.push_back(row.rays);
-        report_ones.push_back(row.one);
-        report_fours.push_back(row.four);
-    }
-    add("report, 1 thread", fit_line(all_rays, report_ones), 160000);
-    add("report, 4 threads", fit_line(all_rays, report_fours), 160000);
-    loop = fit_line(counts, ones);
-    add("second pass, 1 thread", loop, pixels);
-    add("second pass, " + std::to_string(threads) + " threads", fit_line(counts, manys),
-        pixels);
-    const auto once = [&](const std::string& name, double seconds) {
-        lines.rows.push_back({name, text(seconds, "%.3g"), "", ""});
-    };
-    once("photons, 1 thread", alone.emission.wall);
-    once("photons, " + std::to_string(threads) + " threads", shared.emission.wall);
-    once("their tree, always 1 thread", alone.tree.wall);
-    save_table(options.path(""), lines);
-
-    examples::Table truth{
-        .name = "parallel-truth",
-        .columns = {"reference", "rays per pixel", "its own relMSE"},
-        .rows = {{"path tracing, no limit of depth", std::to_string(oracle.rays),
-                  text(oracle.noise, "%.2g")}}};
-    save_table(options.path(""), truth);
+    const Measured measured =
+        save_table_1(errors, shot, options, sizes.repeats, threads);
+    loop = save_lines(measured, alone, shared, options, threads);
+    save_truth(oracle, options);
     return alone;
 }
 
@@ -341,8 +391,9 @@ void draw_schedules(const Image& costs, const examples::Options& options) {
     }
     const double unit = sum_of(jobs) / threads; // what each would have at best
     examples::Drawing drawing{.name = "parallel-schedules",
-                              .description = "Four threads, an equal number of rows "
-                                             "each, and row by row to who is free",
+                              .description = "Four threads: each renders an equal "
+                                             "number of rows, or the next rows go to "
+                                             "whichever thread is free",
                               .low{-0.2, -0.1},
                               .high{6.9, 3.6},
                               .scale = 100};
@@ -362,8 +413,10 @@ void draw_schedules(const Image& costs, const examples::Options& options) {
                    {6.2 * schedule.end / unit, top - 1.3}},
                   {.dashed = true});
     };
-    draw(static_schedule(jobs, threads), 3.1, "an equal number of rows each");
-    draw(dynamic_schedule(jobs, threads), 1.3, "the next rows to who is free");
+    draw(static_schedule(jobs, threads), 3.1,
+         "each thread renders an equal number of rows");
+    draw(dynamic_schedule(jobs, threads), 1.3,
+         "the next rows go to whichever thread is free");
     save_drawing(options.path(""), drawing);
 }
 
@@ -416,7 +469,7 @@ void amdahl(const FirstPass& first, const Line& loop,
     examples::Table table{.name = "parallel-amdahl-table",
                           .columns = {"rays per pixel", "shared out, s",
                                       "not shared, s",
-                                      "at most, any number of threads"}};
+                                      "limit for any number of threads"}};
     for (int threads = 1; threads <= 1024; threads *= 2) {
         examples::Row row{double(threads)};
         for (const int rays : {1, 10, 100, 1000}) {
@@ -458,7 +511,7 @@ float sum_by_block(const std::vector<float>& values, int threads) {
     std::vector<float> part(std::size_t(detail::block_count(total, size)), 0.0f);
     const auto body = [&](long long block) {
         const detail::BlockRange range = detail::block_range(block, size, total);
-        float sum = 0; // of its own: the list is touched once a block
+        float sum = 0; // of its own: the list is touched once per block
         for (long long i = range.first; i < range.last; ++i)
             sum += values[static_cast<std::size_t>(i)];
         part[static_cast<std::size_t>(block)] = sum;
@@ -581,7 +634,7 @@ double nanoseconds_of_counting(std::size_t bytes_apart, int threads, long long t
 void false_sharing(const examples::Options& options, int repeats) {
     examples::Table table{.name = "parallel-sharing",
                           .columns = {"bytes from one counter to the other",
-                                      "ns per increment", "beside 256 bytes"}};
+                                      "ns per increment", "relative to 256 bytes"}};
     const std::array<std::size_t, 6> places{8, 16, 32, 64, 128, 256};
     const long long times = options.pick(1000000, 20000000, 20000000);
     std::array<std::vector<double>, places.size()> found;
@@ -597,7 +650,7 @@ void false_sharing(const examples::Options& options, int repeats) {
 /// A loop that does nothing: what it costs to wake the threads, and a block.
 void empty_loops(const examples::Options& options, int threads) {
     examples::Table table{.name = "parallel-empty",
-                          .columns = {"threads", "a loop of 2 blocks, microseconds",
+                          .columns = {"threads", "loop of 2 blocks, microseconds",
                                       "ns per further block"}};
     for (const int by : {1, threads}) {
         const auto loop = [by](long long blocks) {
@@ -618,11 +671,11 @@ void empty_loops(const examples::Options& options, int threads) {
 
 // --- On many machines, on paper ------------------------------------------------------
 
-/// What would limit many machines, from the times above and a network of a gigabyte a
-/// second.
+/// What would limit many machines, from the times above and a network of a gigabyte
+/// per second.
 void machines(const FirstPass& first, const Line& loop, std::size_t photons,
               const examples::Options& options) {
-    constexpr double network = 1e9; // bytes a second
+    constexpr double network = 1e9; // bytes per second
     examples::Table table{.name = "parallel-machines",
                           .columns = {"ranks", "photons, s", "joining them, s",
                                       "tree, s", "64 rays per pixel, s", "picture, s",

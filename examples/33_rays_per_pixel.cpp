@@ -125,11 +125,11 @@ void one_pixel(const Room3& room, const examples::Options& options) {
     examples::Plot plot{
         .name = "rays_per_pixel-spread",
         .columns = {"mean of n rays over the true one", "n = 4", "16", "64", "256"},
-        .y_label = "how often",
+        .y_label = "probability density",
         .rows = std::vector<examples::Row>(60)};
     examples::Table table{
         .name = "rays_per_pixel-spread-table",
-        .columns = {"rays", "standard deviation, of the mean", "times the root of n"}};
+        .columns = {"rays", "standard deviation over the mean", "times √n"}};
     for (const std::size_t n : {1u, 4u, 16u, 64u, 256u}) {
         const auto means = means_of(values, n);
         double squares = 0;
@@ -284,7 +284,7 @@ void show_errors(const std::vector<Method>& methods,
                         .log_y = true};
     for (const Method& method : methods) plot.columns.push_back(method.name);
     examples::Table split{.name = "rays_per_pixel-split",
-                          .columns = {"rays", "", "bias²", "noise", "of which rays",
+                          .columns = {"rays", "", "bias²", "noise", "noise of the rays",
                                       "blocks: bias²", "noise", "trimmed", "FLIP"}};
     for (std::size_t m = 0; m < methods.size(); ++m)
         for (const Rung& rung : runs[m]) {
@@ -358,7 +358,7 @@ void equal_error(const std::vector<Method>& methods,
             const double when = examples::reach(seconds, errors, target);
             row.push_back(
                 std::isnan(when)
-                    ? "not by " + text(rays.back()) + " rays (" +
+                    ? "not reached with " + text(rays.back()) + " rays (" +
                           text(errors.back(), "%.2g") + ")"
                     : text(when, "%.2g") + " s, " +
                           text(examples::reach(rays, errors, target), "%.3g") +
@@ -435,7 +435,7 @@ void table_3(const std::vector<ReportRow>& shown, const Shots& shots,
     examples::Table table{.name = "table-3",
                           .columns = {"rays", "report", "photons, s", "picture, s",
                                       "relMSE, depth 4", "relMSE, roulette",
-                                      "of blocks, depth 4", "of blocks, roulette",
+                                      "blocks, depth 4", "blocks, roulette",
                                       "FLIP, roulette"}};
     for (std::size_t i = 0; i < shown.size(); ++i) {
         std::vector<std::string> row{std::to_string(shown[i].rays), shown[i].time,

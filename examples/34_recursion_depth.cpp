@@ -108,8 +108,8 @@ void table_4(const Room4& room, const examples::Oracle& oracle,
                                            {0, ""}}};
     examples::Table table{.name = "table-4",
                           .columns = {"depth", "report", "picture, s",
-                                      "rays per camera ray", "light, of all", "bias²",
-                                      "noise", "bias² of blocks"}};
+                                      "rays per camera ray", "light", "bias²", "noise",
+                                      "bias² of blocks"}};
     const double truth = mean_of(oracle.truth);
     for (const Depth& row : depths) {
         const std::string name = row.depth > 0 ? std::to_string(row.depth) : "roulette";
@@ -205,7 +205,8 @@ Mean light_of(const Paths& paths, const Camera& camera, int rays, int threads) {
 void furnace_by_ending(int rays, const examples::Options& options) {
     examples::Table table{.name = "recursion_depth-furnace-table",
                           .columns = {"albedo", "depth 4", "threshold 0.1",
-                                      "threshold 0.01", "roulette", "± of its mean"}};
+                                      "threshold 0.01", "roulette",
+                                      "its standard error"}};
     for (const float albedo : {0.5f, 0.75f, 0.9f}) {
         const auto room = sphere_furnace<float>(Rgb{1}, Rgb{albedo});
         const double all = 1 / (1 - double(albedo));
@@ -294,17 +295,17 @@ void endings(const Room4& room, const examples::Oracle& oracle,
 /// A way to share out rays, by the number of them.
 struct Sharing {
     std::string name;                                    ///< As in plots.
-    std::function<AdaptiveSettings(int samples)> rule{}; ///< None: all alike.
+    std::function<AdaptiveSettings(int samples)> rule{}; ///< None: the same everywhere.
 };
 
 /// What a way brought: the mean over the seeds.
 struct Shared {
-    double rays = 0;           ///< A pixel, in the mean.
+    double rays = 0;           ///< Per pixel, in the mean.
     double seconds = 0;        ///< Processor time.
     double error = 0;          ///< relMSE.
     double block = 0;          ///< Of the means of 10 x 10 pixels.
     double trimmed = 0;        ///< Without the worst hundredth.
-    double estimate = 0;       ///< What it believes.
+    double estimate = 0;       ///< The renderer's own relMSE.
     double mean = 0;           ///< Light.
     std::vector<Image> runs{}; ///< The pictures.
 };
@@ -386,7 +387,7 @@ std::vector<Sharing> sharings() {
         };
     };
     return {
-        {"all alike", {}},
+        {"the same everywhere", {}},
         {"pixel by pixel", [](int) { return AdaptiveSettings{.first = 8, .more = 8}; }},
         {"squares of 4", squares(4, false)},
         {"squares of 8", squares(8, false)},
@@ -405,8 +406,8 @@ void error_of_sharing(const Trial<Renderer>& trial) {
                         .log_y = true};
     for (const Sharing& way : ways) plot.columns.push_back(way.name);
     examples::Table table{.name = "recursion_depth-adaptive-" + trial.name + "-table",
-                          .columns = {"rays", "", "relMSE", "it believes", "trimmed",
-                                      "blocks", "light", "s"}};
+                          .columns = {"rays", "", "relMSE", "estimated relMSE",
+                                      "trimmed", "blocks", "light", "s"}};
     const double level = mean_of(trial.truth);
     const int most = options.pick(64, 256, 1024);
     for (int samples = 16; samples <= most; samples *= 4) {
@@ -453,10 +454,11 @@ template <typename Renderer>
 void stop_at_error(const Trial<Renderer>& trial) {
     examples::Table table{.name = "recursion_depth-stop-" + trial.name,
                           .columns = {"stop at relMSE", "", "rays per pixel",
-                                      "it believes", "relMSE", "trimmed", "light"}};
+                                      "estimated relMSE", "relMSE", "trimmed",
+                                      "light"}};
     for (const double target : {0.1, 0.03, 0.01})
         for (const bool two_stage : {false, true}) {
-            const Sharing way{two_stage ? "two stages" : "as it goes",
+            const Sharing way{two_stage ? "in two stages" : "in one stage",
                               [target, two_stage](int) {
                                   return AdaptiveSettings{.first = 16,
                                                           .more = 8,
@@ -478,9 +480,9 @@ void stop_at_error(const Trial<Renderer>& trial) {
 template <typename Renderer>
 void more_where_two_disagree(const Trial<Renderer>& trial) {
     examples::Table table{.name = "recursion_depth-pairs-" + trial.name,
-                          .columns = {"two rays, and 8 more above", "rays per pixel",
-                                      "relMSE", "relMSE, all alike", "trimmed",
-                                      "trimmed, all alike", "light"}};
+                          .columns = {"8 more rays above", "rays per pixel", "relMSE",
+                                      "relMSE, the same everywhere", "trimmed",
+                                      "trimmed, the same everywhere", "light"}};
     for (const double limit : {1.0, 0.5, 0.25, 0.1}) {
         const Sharing way{"", [limit](int) {
                               return AdaptiveSettings{.first = 2,
@@ -519,7 +521,7 @@ void adaptive(const std::string& name, const Renderer& renderer, const Camera& c
 /// that a ray finds with chance p; two rays, and m more if they disagree.
 void spot(const examples::Options& options) {
     examples::Plot plot{.name = "recursion_depth-spot",
-                        .columns = {"chance of a ray to find the spot",
+                        .columns = {"probability that a ray finds the spot",
                                     "2 rays then 8 more", "8 rays then 8 more",
                                     "32 rays then 32 more"},
                         .y_label = "fraction of the light that is found",

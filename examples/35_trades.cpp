@@ -268,10 +268,10 @@ struct Sweep {
     examples::Table references{.name = "trades-references",
                                .columns = {"room", "rays per pixel", "its own relMSE",
                                            "of blocks", "least relMSE measured",
-                                           "its standard error is"}};
+                                           "its standard error over the root of that"}};
     examples::Table promises{.name = "trades-promises",
                              .columns = {"room", "promised", "chosen", "pictures",
-                                         "took, s", "noise", "bias", "its estimate",
+                                         "time, s", "noise", "bias", "estimated relMSE",
                                          "measured relMSE"}};
 
     /// Some work is done, or when counting, there is some.
@@ -374,7 +374,7 @@ void try_promises(Sweep& sweep, const std::string& name, const Room& room,
     sweep.references.rows.push_back(
         {name, std::to_string(oracle.rays), text(oracle.noise, "%.2g"),
          text(oracle.block_noise, "%.2g"), text(least, "%.2g"),
-         text(100 * std::sqrt(oracle.noise / least), "%.0f") + " % of its root"});
+         text(100 * std::sqrt(oracle.noise / least), "%.0f %%")});
 }
 
 /// Makes the reference of a room, if references are what is asked for.
@@ -465,13 +465,13 @@ int main(int argc, char** argv) {
         line.about("Every knob of the photon mapper: error against time and memory.");
         std::vector<std::string> words{"all"};
         words.insert(words.end(), knobs.begin(), knobs.end());
-        line.add("--only", request.only, "Nothing but this knob", words);
+        line.add("--only", request.only, "Measure only this knob", words);
         line.add("--size", request.size, "Side of the pictures in pixels", 4, 1000);
-        line.add("--seeds", request.seeds, "Pictures by each setting", 3, 1000);
+        line.add("--seeds", request.seeds, "Pictures per setting", 3, 1000);
         line.add("--truth", request.truth, "Rays per pixel of the references", 8,
                  100000000);
-        line.add("--references", request.references, "Make the references only");
-        line.add("--check", request.check, "Fail where a claim of the book does");
+        line.add("--references", request.references, "Make only the references");
+        line.add("--check", request.check, "Fail if a claim of the book does not hold");
         const examples::Options options = line.parse();
         if (!line.given("--seeds")) request.seeds = options.pick(3, 5, 16);
         if (!line.given("--truth")) request.truth = options.pick(4096, 262144, 262144);

@@ -137,7 +137,7 @@ void add_row(const Run& run, const Asked& asked, examples::Table& table, Sheet* 
 void same_rooms(const Run& run) {
     examples::Table table{.name = "extremes-same",
                           .columns = {"the room", "error, float", "error, double",
-                                      "said of float", "said of double"}};
+                                      "remarks, float", "remarks, double"}};
     Sheet scales(5), places(5);
     for (const double scale : {1e-6, 1e-3, 1.0, 1e3, 1e6})
         add_row(run, {text(scale, "%.0e") + " times the size", {.scale = scale}, true},
@@ -167,7 +167,7 @@ void same_rooms(const Run& run) {
 void other_rooms(const Run& run) {
     examples::Table table{.name = "extremes-other",
                           .columns = {"the room", "float against double", "",
-                                      "said of float", "said of double"}};
+                                      "remarks, float", "remarks, double"}};
     Sheet lamps(5), surfaces(5), glasses(5);
     const auto lamp = [&](const std::string& what, double radius) {
         add_row(run, {what, {.lamp = radius}}, table, &lamps, nullptr);
@@ -196,67 +196,82 @@ void other_rooms(const Run& run) {
     glasses.save(run.options.path("extremes-glasses.png"));
 }
 
-/// Numbers of photons, rays, pixels and threads.
-void numbers(const Run& run) {
-    examples::Table table{
-        .name = "extremes-numbers",
-        .columns = {"asked", "mean, float", "mean, double", "photons kept", "said"}};
-    const auto mean = [](const auto& image) {
-        double sum = 0;
-        for (const auto& c : image.pixels)
-            sum += (double(c.x) + double(c.y) + double(c.z)) / 3;
-        return text(sum / double(image.pixels.size()), "%.3f");
-    };
-    Sheet sheet(5);
-    const auto row = [&](const std::string& what, const ExtremeSettings& settings,
-                         bool show = false) {
-        const auto single = render_extreme<float>({}, settings);
-        const auto twice = render_extreme<double>({}, settings);
-        if (!whole(single.rendered) || !whole(twice.rendered))
-            throw std::runtime_error(what + ": a sample is not finite");
-        table.rows.push_back(
-            {what, mean(single.rendered.image), mean(twice.rendered.image),
-             std::to_string(single.photons), first_line(single.remarks)});
-        if (show) sheet.add(single.rendered.image);
-    };
-    ExtremeSettings now = run.picture;
-    const auto photons = [&](long long count, std::size_t nearest) {
-        now = run.picture;
+/// The mean of a picture's pixels and channels, as a cell of the table.
+template <typename T>
+std::string mean_text(const ImageT<T>& image) {
+    double sum = 0;
+    for (const auto& c : image.pixels)
+        sum += (double(c.x) + double(c.y) + double(c.z)) / 3;
+    return text(sum / double(image.pixels.size()), "%.3f");
+}
+
+/// Renders the room as it is with other numbers in both precisions: a row of the table.
+/// \param sheet  Where the picture goes; null: nowhere.
+void add_numbers(examples::Table& table, Sheet* sheet, const std::string& what,
+                 const ExtremeSettings& settings) {
+    const auto single = render_extreme<float>({}, settings);
+    const auto twice = render_extreme<double>({}, settings);
+    if (!whole(single.rendered) || !whole(twice.rendered))
+        throw std::runtime_error(what + ": a sample is not finite");
+    table.rows.push_back({what, mean_text(single.rendered.image),
+                          mean_text(twice.rendered.image),
+                          std::to_string(single.photons), first_line(single.remarks)});
+    if (sheet != nullptr) sheet->add(single.rendered.image);
+}
+
+/// From no photon to ten million.
+void numbers_of_photons(const Run& run, examples::Table& table, Sheet& sheet) {
+    const auto with = [&run](long long count, std::size_t nearest) {
+        ExtremeSettings now = run.picture;
         now.photons = count;
         now.nearest = nearest;
         if (nearest > 0) now.radius = 1;
+        return now;
     };
-    photons(0, 0);
-    row("0 photons", now, true);
-    photons(1, 0);
-    row("1 photon", now, true);
-    photons(200, 0);
-    const std::size_t kept = render_extreme<float>({}, now).photons;
-    photons(200, kept + 1);
-    row("k - 1 photons for an estimate of k", now, true);
-    photons(run.picture.photons, 50);
-    row(std::to_string(now.photons) + " photons, 50 an estimate", now, true);
+    add_numbers(table, &sheet, "0 photons", with(0, 0));
+    add_numbers(table, &sheet, "1 photon", with(1, 0));
+    const std::size_t kept = render_extreme<float>({}, with(200, 0)).photons;
+    add_numbers(table, &sheet, "k - 1 photons for an estimate of k",
+                with(200, kept + 1));
+    add_numbers(table, &sheet,
+                std::to_string(run.picture.photons) + " photons, 50 per estimate",
+                with(run.picture.photons, 50));
     // Ten million take their time, and memory: in float only.
-    photons(run.options.pick(100'000LL, 10'000'000LL, 10'000'000LL), 0);
-    now.radius = 0.05;
-    const auto most = render_extreme<float>({}, now);
+    ExtremeSettings many =
+        with(run.options.pick(100'000LL, 10'000'000LL, 10'000'000LL), 0);
+    many.radius = 0.05;
+    const auto most = render_extreme<float>({}, many);
     if (!whole(most.rendered)) throw std::runtime_error("a sample is not finite");
     sheet.add(most.rendered.image);
-    table.rows.push_back({std::to_string(now.photons) + " photons",
-                          mean(most.rendered.image), "", std::to_string(most.photons),
-                          first_line(most.remarks)});
+    table.rows.push_back({std::to_string(many.photons) + " photons",
+                          mean_text(most.rendered.image), "",
+                          std::to_string(most.photons), first_line(most.remarks)});
+}
 
-    now = run.picture;
+/// One pixel, one ray, and pictures that are a line.
+void numbers_of_pixels(const Run& run, examples::Table& table) {
+    ExtremeSettings now = run.picture;
     now.width = now.height = now.samples = 1;
-    row("1 x 1 pixel, 1 ray", now);
+    add_numbers(table, nullptr, "1 x 1 pixel, 1 ray", now);
     now.samples = run.options.pick(1000, 100'000, 100'000);
-    row("1 x 1 pixel, " + std::to_string(now.samples) + " rays", now);
+    add_numbers(table, nullptr, "1 x 1 pixel, " + std::to_string(now.samples) + " rays",
+                now);
     now = run.picture;
     now.width = 1;
     now.height = 1000;
-    row("1 x 1000 pixels", now);
+    add_numbers(table, nullptr, "1 x 1000 pixels", now);
     std::swap(now.width, now.height);
-    row("1000 x 1 pixels", now);
+    add_numbers(table, nullptr, "1000 x 1 pixels", now);
+}
+
+/// Numbers of photons, rays and pixels.
+void numbers(const Run& run) {
+    examples::Table table{
+        .name = "extremes-numbers",
+        .columns = {"asked", "mean, float", "mean, double", "photons kept", "remarks"}};
+    Sheet sheet(5);
+    numbers_of_photons(run, table, sheet);
+    numbers_of_pixels(run, table);
     save_table(run.options.out, table);
     sheet.save(run.options.path("extremes-photons.png"));
 }
@@ -437,8 +452,9 @@ void trade(const Run& run) {
         return values[values.size() / 2];
     };
     examples::Table table{.name = "extremes-trade",
-                          .columns = {"precision", "s", "over float", "bytes a photon",
-                                      "bytes a pixel", "bytes a ball"}};
+                          .columns = {"precision", "s", "over float",
+                                      "bytes per photon", "bytes per pixel",
+                                      "bytes per ball"}};
     for (int i = 0; i < 2; ++i)
         table.rows.push_back(
             {i == 0 ? "float" : "double", text(median(seconds[i]), "%.3g"),

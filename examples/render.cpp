@@ -179,7 +179,7 @@ PhotonMappingSettings settings_of(const Request& request,
     return settings;
 }
 
-/// How the judge works.
+/// How the path tracer works.
 PathTracingSettings path_settings(const Request& request) {
     PathTracingSettings settings{.max_depth = request.depth,
                                  .roulette_depth = request.roulette,
@@ -191,7 +191,7 @@ PathTracingSettings path_settings(const Request& request) {
     return settings;
 }
 
-/// Refuses what does not go with passes; each has one ray a pixel unless told.
+/// Refuses what does not go with passes; each has one ray per pixel unless told.
 void set_passes(Request& request, const examples::CommandLine& line,
                 RenderSettings& picture) {
     for (const char* option : {"--alpha", "--checkpoint", "--resume", "--preview"})
@@ -626,18 +626,26 @@ void save_part(const std::string& path, const Request& request,
     examples::save_slice(path, part);
 }
 
-/// Does what the user asked for, in one precision.
+/// The scene of a request; what is wrong with its meshes goes to the terminal.
 template <std::floating_point T>
-void run_request(const examples::CommandLine& line, Request request,
-                 const examples::Options& options) {
+LoadedSceneT<T> load_scene(const Request& request, bool quiet) {
 #ifdef LJUS_HAS_TINYOBJLOADER
     std::string troubles;
-    const auto loaded = load_json<T>(request.scene, ObjMeshesT<T>{&troubles});
-    if (!options.quiet) std::fputs(troubles.c_str(), stderr);
+    auto loaded = load_json<T>(request.scene, ObjMeshesT<T>{&troubles});
+    if (!quiet) std::fputs(troubles.c_str(), stderr);
+    return loaded;
 #else
-    const auto loaded = load_json<T>(request.scene);
+    (void)quiet;
+    return load_json<T>(request.scene);
 #endif
-    RenderSettings picture{
+}
+
+/// How the picture is rendered: as the scene says, unless the user says otherwise.
+template <std::floating_point T>
+RenderSettings picture_of(const LoadedSceneT<T>& loaded, const Request& request,
+                          const examples::CommandLine& line,
+                          const examples::Options& options) {
+    const RenderSettings picture{
         .width = line.given("--width") ? options.width : loaded.width,
         .height = line.given("--height") ? options.height : loaded.height,
         .samples = options.samples,
@@ -645,18 +653,60 @@ void run_request(const examples::CommandLine& line, Request request,
         .threads = options.threads,
         .sampling = chosen<Sampling>(patterns, request.sampling)};
     detail::require_image_size(picture.width, picture.height);
+    return picture;
+}
+
+/// Where the picture or the slice goes.
+std::string path_of(const Request& request, const examples::Options& options) {
+    if (!options.file.empty()) return options.path(options.file);
+    const std::string stem = std::filesystem::path(request.scene).stem().string();
+    if (request.part.count == 0) return options.path(stem + ".png");
+    return options.path(stem + "-" + std::to_string(request.part.number) + "-of-" +
+                        std::to_string(request.part.count) + ".slice");
+}
+
+/// Prints what is about to be rendered.
+/// \param rays  How many, in words, or nothing.
+template <std::floating_point T>
+void print_heading(const LoadedSceneT<T>& loaded, const Request& request,
+                   const RenderSettings& picture, const std::string& rays) {
+    const std::string name = loaded.name.empty()
+                                 ? std::filesystem::path(request.scene).stem().string()
+                                 : loaded.name;
+    std::printf("%s: %zu objects, %zu lights; %d x %d, %s%s\n", name.c_str(),
+                loaded.scene.size(), loaded.scene.lights.size(), picture.width,
+                picture.height, rays.c_str(),
+                !request.photons.empty()     ? "not rendered: photons as dots"
+                : request.renderer == "path" ? "path tracing"
+                                             : "photon mapping");
+}
+
+/// Saves a picture with all that tells how it was made, or a slice of one.
+template <std::floating_point T>
+void save_result(const std::string& path, const Request& request,
+                 const RenderSettings& picture, const PhotonMappingSettings& settings,
+                 const RenderedT<T>& rendered, double seconds) {
+    nlohmann::ordered_json json = to_json(request, picture, settings);
+    if (request.part.count > 0)
+        return save_part(path, request, picture, json, rendered, seconds);
+    examples::save_picture(rendered.image, path, request.exposure);
+    json["cost"] = examples::cost_json(rendered.counts, seconds);
+    const std::string text = json.dump(2) + "\n";
+    save_file(path + ".json", Bytes(text.begin(), text.end()));
+}
+
+/// Does what the user asked for, in one precision.
+template <std::floating_point T>
+void run_request(const examples::CommandLine& line, Request request,
+                 const examples::Options& options) {
+    const auto loaded = load_scene<T>(request, options.quiet);
+    RenderSettings picture = picture_of(loaded, request, line, options);
     const bool promised = promises(request, line);
     set_samples(request, line, picture);
     set_passes(request, line, picture);
     set_slice(request, line, options.file);
     PhotonMappingSettings settings = settings_of(request, line, options, picture);
-    const std::string stem = std::filesystem::path(request.scene).stem().string();
-    const std::string ending =
-        request.part.count == 0 ? ".png"
-                                : "-" + std::to_string(request.part.number) + "-of-" +
-                                      std::to_string(request.part.count) + ".slice";
-    const std::string path =
-        options.path(options.file.empty() ? stem + ending : options.file);
+    const std::string path = path_of(request, options);
     if (!request.pixel.empty())
         (void)pixel_of(request.pixel, picture);
     else if (!request.plan) {
@@ -664,16 +714,10 @@ void run_request(const examples::CommandLine& line, Request request,
         examples::require_pass_files(request.passes, path);
     }
 
-    const std::string name = loaded.name.empty() ? stem : loaded.name;
-    const std::string rays =
-        promised ? "" : std::to_string(picture.samples) + " rays per pixel, ";
     if (!options.quiet || request.plan)
-        std::printf("%s: %zu objects, %zu lights; %d x %d, %s%s\n", name.c_str(),
-                    loaded.scene.size(), loaded.scene.lights.size(), picture.width,
-                    picture.height, rays.c_str(),
-                    !request.photons.empty()     ? "not rendered: photons as dots"
-                    : request.renderer == "path" ? "path tracing"
-                                                 : "photon mapping");
+        print_heading(loaded, request, picture,
+                      promised ? ""
+                               : std::to_string(picture.samples) + " rays per pixel, ");
     if (request.plan) {
         if (request.renderer == "photon")
             std::fputs((to_text(survey(loaded.scene, settings)) +
@@ -697,35 +741,24 @@ void run_request(const examples::CommandLine& line, Request request,
             : render_scene(loaded, picture, request, settings, options.quiet);
     if (rendered.image.pixels.empty() && request.part.count == 0) return;
     const double seconds = watch.seconds();
-    nlohmann::ordered_json json = to_json(request, picture, settings);
-    if (request.part.count > 0) {
-        save_part(path, request, picture, json, rendered, seconds);
-    } else {
-        examples::save_picture(rendered.image, path, request.exposure);
-        json["cost"] = examples::cost_json(rendered.counts, seconds);
-        const std::string text = json.dump(2) + "\n";
-        save_file(path + ".json", Bytes(text.begin(), text.end()));
-    }
+    save_result(path, request, picture, settings, rendered, seconds);
     if (options.quiet) return;
     std::printf("  %-16s %8.2f s\n", "all passes", seconds);
     std::printf("  %s\n", path.c_str());
 }
 
-void body(examples::CommandLine& line) {
-    Request request;
-    line.about("Renders a scene file into one picture: --out NAME.png, NAME.hdr or "
-               "NAME.pfm, or a folder for SCENE.png (of a slice: NAME.slice).");
-    line.add_positional("SCENE.json", request.scene, "The scene file");
-    line.file_types({".png", ".hdr", ".pfm", ".slice"});
+/// Options of the renderer, its photons, and all its settings at once.
+void add_renderer_options(examples::CommandLine& line, Request& request) {
     line.add("--renderer", request.renderer, "photon or path", {"photon", "path"});
     line.add("--depth", request.depth, "Surfaces on a path, mirrors counted", 1, 1000);
     line.add("--roulette", request.roulette, "Surface from which roulette ends paths",
              1, 1'000'000);
-    line.add("--shadow-rays", request.shadow_rays, "To each light (photon)", 1, 10'000);
-    line.add("--caustic-photons", request.caustic_photons, "Aimed at mirrors and glass",
-             0, 1'000'000'000);
+    line.add("--shadow-rays", request.shadow_rays, "Shadow rays per light (photon)", 1,
+             10'000);
+    line.add("--caustic-photons", request.caustic_photons,
+             "Photons aimed at mirrors and glass", 0, 1'000'000'000);
     line.add("--general-photons", request.general_photons,
-             "For --indirect map, photons, gather, cache", 0, 1'000'000'000);
+             "Photons for --indirect map, photons, gather, cache", 0, 1'000'000'000);
     line.add("--preset", request.preset,
              "All settings at once; those given by name come before it", presets);
     line.add("--seconds", request.promise.seconds,
@@ -735,29 +768,40 @@ void body(examples::CommandLine& line) {
     line.add("--direct", request.direct,
              "sampled by shadow rays, analytic where lamps have a closed form, or mis",
              direct_lights);
+}
+
+/// Options of the estimates from photons.
+void add_estimate_options(examples::CommandLine& line, Request& request) {
     line.add("--radius", request.radius,
-             "Of a caustics estimate, scene units; 0: from the photons", 0, 1e6);
+             "Radius of a caustics estimate, in scene units; 0: from the photons", 0,
+             1e6);
     line.add("--general-radius", request.general_radius,
-             "Of a general estimate, scene units; 0: from the photons", 0, 1e6);
+             "Radius of a general estimate, in scene units; 0: from the photons", 0,
+             1e6);
     line.add("--caustic-nearest", request.caustic_nearest,
-             "Photons of a caustics estimate, 0: all in radius", 0,
+             "Photons per caustics estimate; 0: all in the radius", 0,
              static_cast<int>(max_nearest));
     line.add("--general-nearest", request.general_nearest,
-             "Photons of a general estimate, 0: all in radius", 0,
+             "Photons per general estimate; 0: all in the radius", 0,
              static_cast<int>(max_nearest));
     line.add("--caustic-kernel", request.caustic_kernel,
              "Weight of a caustic photon by its distance", kernels);
     line.add("--general-kernel", request.general_kernel,
              "Weight of a general photon by its distance", kernels);
+}
+
+/// Options of indirect light: precomputed irradiance, and the cache.
+void add_indirect_options(examples::CommandLine& line, Request& request) {
     line.add("--indirect", request.indirect,
              "rays, map at their ends, photons where the camera looks, gather or cache "
              "with precomputed irradiance, or none",
              indirect_lights);
     line.add("--irradiance-every", request.irradiance_every,
-             "Irradiance is precomputed at one of so many photons", 2, 1'000'000);
+             "Photons per point at which irradiance is precomputed", 2, 1'000'000);
     line.add("--irradiance-nearest", request.irradiance_nearest,
-             "Photons of such an estimate", 2, static_cast<int>(max_nearest));
-    line.add("--gather-rays", request.gather_rays, "Per point of the cache", 1,
+             "Photons per estimate of that irradiance", 2,
+             static_cast<int>(max_nearest));
+    line.add("--gather-rays", request.gather_rays, "Rays per point of the cache", 1,
              1'000'000);
     line.add("--gather-tile", request.gather_tile,
              "Pixels on a side that share a point of the cache", 1, 1000);
@@ -765,33 +809,53 @@ void body(examples::CommandLine& line) {
              "Points of the cache that a pixel takes", 2,
              static_cast<int>(max_cache_nearest));
     line.add("--gather-reach", request.gather_reach,
-             "Of such a point, over the mean distance of what it sees", 1e-3, 1e3);
-    line.add("--more-rays", request.more_rays, "In pixels whose first rays disagree", 0,
-             1'000'000);
+             "How far such a point counts, over the mean distance of what it sees",
+             1e-3, 1e3);
+}
+
+/// Options of camera rays and of paths.
+void add_ray_options(examples::CommandLine& line, Request& request) {
+    line.add("--more-rays", request.more_rays,
+             "Further rays per pixel where the first ones disagree", 0, 1'000'000);
     line.add("--disagreement", request.disagreement,
-             "Relative standard error from which on they do", 1e-6, 1e6);
+             "Relative standard error above which they disagree", 1e-6, 1e6);
     line.add("--split-glass", request.split_glass, "At glass, go both ways (photon)");
     line.add("--sampling", request.sampling, "Where in a pixel its rays go", patterns);
-    line.add("--precision", request.precision, "Of scene, photons and light",
-             {"float", "double"});
+    line.add("--precision", request.precision,
+             "Precision of the scene, the photons and the light", {"float", "double"});
     line.add(
         "--path-lights", request.path_lights,
         "Lamps of --renderer path: rays and paths weighted by balance or power, or "
         "rays or paths alone",
         path_lights);
     line.add("--roulette-threshold", request.roulette_threshold,
-             "A path that carries less is in danger (path)", 0, 1e6);
+             "A path that carries less may be ended (path)", 0, 1e6);
     line.add("--roulette-max", request.roulette_max,
              "Largest probability to survive (path)", 1e-6, 1);
+}
+
+void body(examples::CommandLine& line) {
+    Request request;
+    line.about("Renders a scene file into one picture: --out NAME.png, NAME.hdr or "
+               "NAME.pfm, or a folder for SCENE.png (of a slice: NAME.slice).");
+    line.add_positional("SCENE.json", request.scene, "The scene file");
+    line.file_types({".png", ".hdr", ".pfm", ".slice"});
+    add_renderer_options(line, request);
+    add_estimate_options(line, request);
+    add_indirect_options(line, request);
+    add_ray_options(line, request);
     examples::add_photon_options(line, request.photon_options);
     examples::add_pass_options(line, request.passes);
-    line.add("--exposure", request.exposure, "Of a PNG file, in stops", -100, 100);
-    line.add("--explain", request.pixel, "X,Y: print that pixel's paths, no picture");
-    line.add("--photons", request.photons, "No rendering: photons as dots",
+    line.add("--exposure", request.exposure, "Exposure of a PNG file, in stops", -100,
+             100);
+    line.add("--explain", request.pixel,
+             "X,Y: print the paths of that pixel and make no picture");
+    line.add("--photons", request.photons, "Draw photons as dots and render nothing",
              {"direct", "indirect", "shadow", "caustic", "all"});
     line.add("--slice", request.slice,
              "K/N: the K-th of N parts, for ljus-merge to put together");
-    line.add("--plan", request.plan, "Print what would run and why, no picture");
+    line.add("--plan", request.plan,
+             "Print what would run and why, and make no picture");
     const examples::Options options = line.parse();
     if (request.precision == "double")
         run_request<double>(line, request, options);

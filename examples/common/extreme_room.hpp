@@ -172,7 +172,7 @@ template <std::floating_point T>
 struct ExtremeSettings {
     int width = 64;            ///< Pixels.
     int height = 64;           ///< Pixels.
-    int samples = 4;           ///< Rays a pixel.
+    int samples = 4;           ///< Rays per pixel.
     long long photons = 20000; ///< Of the caustics map.
     double radius = 0.15;      ///< Of its estimates, before scaling.
     std::size_t nearest = 0;   ///< Photons of an estimate; 0: all in the radius.

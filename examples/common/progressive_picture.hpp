@@ -106,8 +106,8 @@ template <typename RenderPass>
 /// \param state  Of at least one pass.
 inline void print_passes(const ljus::ProgressiveState& state) {
     const auto error = ljus::estimate_error(state);
-    std::printf("%lld passes, standard error %.3g a pixel, %.3g a block of %d x %d; "
-                "radius %.3f of the first\n",
+    std::printf("%lld passes, standard error %.3g per pixel, %.3g per block of "
+                "%d x %d; radius %.3f of the first\n",
                 state.passes, error.pixels, error.blocks, state.block_side,
                 state.block_side, std::sqrt(state.shrink));
 }

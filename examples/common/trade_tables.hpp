@@ -33,7 +33,7 @@ inline void save_knob(const std::string& folder, const Notebook& notebook,
               .log_y = true,
               .notes = {notebook.conditions}};
     Table table{.name = plot.name + "-table",
-                .columns = {"room", "at", "s", "of which photons", "MB",
+                .columns = {"room", "setting", "s", "of which photons", "MB",
                             "rays per pixel", "RMSE", "relMSE", "bias²", "noise",
                             "of which photons", "blocks", "trimmed", "FLIP"},
                 .notes = plot.notes};
@@ -102,7 +102,7 @@ inline void save_front(const std::string& folder, const Notebook& notebook,
     });
     Table table{.name = "trades-front-" + scene,
                 .columns = {"s", "relMSE", "bias²", "blocks", "trimmed", "FLIP", "MB",
-                            "knob", "at"},
+                            "knob", "setting"},
                 .notes = {notebook.conditions}};
     Plot plot{.name = table.name,
               .columns = {"processor seconds", "all settings", "path tracing",
