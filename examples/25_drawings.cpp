@@ -33,7 +33,7 @@ void draw_verdicts(const std::string& folder) {
     };
     auto stream = ljus::random_stream(7, ljus::Pass::user, 0, 0);
     const Point centers[] = {{1.2, 1.2}, {3.5, 1.2}, {5.8, 1.2}};
-    const char* names[] = {"shadow: skip", "unknown: ask", "lit: skip"};
+    const char* names[] = {"shadow: skip", "unknown: cast rays", "lit: skip"};
     const double radius = 0.75;
     for (int i = 0; i < 260; ++i) {
         const ljus::Vec2 u = next_2d(stream);

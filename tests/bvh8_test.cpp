@@ -200,12 +200,12 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "wide bvh: at most 100 bytes a triangle, the same for any number of threads") {
+    "wide bvh: at most 100 bytes per triangle, the same for any number of threads") {
     const Triangles mesh = ball(80, Vec3{0});
     const auto count = static_cast<std::uint32_t>(mesh.size());
     const auto at = [&](std::uint32_t i) { return mesh[i]; };
     const TriangleBvh one(count, at, 1), many(count, at, 5);
-    MESSAGE("bytes a triangle: " << double(one.bytes()) / count);
+    MESSAGE("bytes per triangle: " << double(one.bytes()) / count);
     CHECK(double(one.bytes()) / count <= 100);
     CHECK(one.primitive_ids() == many.primitive_ids());
     REQUIRE(one.tree().nodes().size() == many.tree().nodes().size());

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int seeds = 8;
 
-/// The variance of pictures of some rays a pixel, over seeds.
+/// The variance of pictures of some rays per pixel, over seeds.
 template <typename Renderer>
 double variance_of(const Renderer& renderer, int rays, Sampling sampling) {
     std::vector<Image> runs;

@@ -98,7 +98,7 @@ extern "C" {
 }
 
 /// One more sample for each pixel of a row, by each way.
-/// \return The pictures, 4 bytes a pixel.
+/// \return The pictures, 4 bytes per pixel.
 [[gnu::used]] const unsigned char* trace_row(int shares) {
     Figure& f = *figure;
     const ljus::RenderSettings picture{

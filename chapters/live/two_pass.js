@@ -7,8 +7,8 @@ ljusLive.define("two_pass", figure => {
     const { wasm } = figure;
     const size = 240, shown = 480;     // pixels that are rendered; units of the canvas
     const band = 24;                   // rows that a worker renders at a time
-    const renew = 16;                  // rays a pixel until a worker makes new maps
-    const enough = 4096;               // rays a pixel
+    const renew = 16;                  // rays per pixel until a worker makes new maps
+    const enough = 4096;               // rays per pixel
 
     // --- What a reader chooses ------------------------------------------------------
 

@@ -60,7 +60,7 @@ if [ "${1:-}" = --write ]; then
         processor=$(sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo 2>/dev/null | sed -n 1p)
         echo "# tests/checks/footprint.sh, -O2, one thread, 64 x 64 pixels;"
         echo "# $compiler; ${processor:-$(uname -m)}. Seconds: the least of five runs."
-        echo "program,lines of ours,all lines,seconds to compile,code in bytes,instructions,seconds,rays,searches,photons,bytes a photon"
+        echo "program,lines of ours,all lines,seconds to compile,code in bytes,instructions,seconds,rays,searches,photons,bytes per photon"
     } >"$scratch/table"
     TIMEFORMAT=%U
     while IFS=, read -r name source; do

@@ -234,7 +234,7 @@ cp t1.pfm older.pfm
 ) || wrong "the file-size limit: $(cat limit.txt)"
 cmp older.pfm t1.pfm || wrong "the older file is lost"
 
-# Ctrl-C: exit code 130 within a second, even with a million rays a pixel.
+# Ctrl-C: exit code 130 within a second, even with a million rays per pixel.
 set -m
 "$render" "$scene" --rays 1000000 --caustic-photons 500 --out never.png >out.txt 2>err.txt &
 pid=$!

@@ -33,7 +33,7 @@ public:
     /// Builds the tree.
     /// \param points  Any points, equal ones too; below 2^32.
     /// \throws std::invalid_argument  if a point is not finite.
-    /// \cost O(n log n), whatever the points; 16 bytes a point in float, and 3 to 12
+    /// \cost O(n log n), whatever the points; 16 bytes per point in float, and 3 to 12
     ///       for the boxes.
     explicit KdTreeT(std::span<const Vec3T<T>> points) {
         require(points.size() <= std::numeric_limits<std::uint32_t>::max(),

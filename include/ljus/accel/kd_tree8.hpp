@@ -49,8 +49,8 @@ public:
     /// \param points   Any points, equal ones too; below 2^32.
     /// \param threads  As in ParallelSettings; the tree is the same for any number.
     /// \throws std::invalid_argument  if a point is not finite.
-    /// \cost O(n log n), whatever the points; 16 bytes a point in float and about 1 for
-    ///       the boxes, and 32 more while it is built.
+    /// \cost O(n log n), whatever the points; in float 16 bytes per point and about 1
+    ///       for the boxes, and 32 more while it is built.
     explicit KdTree8T(std::span<const Vec3T<T>> points, int threads = 0) {
         require(points.size() <= std::numeric_limits<std::uint32_t>::max(),
                 "the number of points in a k-d tree",

@@ -20,7 +20,7 @@ namespace ljus {
 /// see vertex_at() and scatter().
 /// \{
 
-/// A mesh; made once, then fixed. In float about 90 bytes a triangle of a closed
+/// A mesh; made once, then fixed. In float about 90 bytes per triangle of a closed
 /// mesh with normals, its tree included, and below 120 if no vertex is shared: bytes().
 template <std::floating_point T>
 class MeshT {

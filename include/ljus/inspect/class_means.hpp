@@ -50,7 +50,7 @@ struct ClassesLog {
 ///                  class, as "DS+L", the shortest path decides; see ExpressionLog.
 /// \return W/(m^2 sr), one a class, the same for any number of threads.
 /// \throws std::invalid_argument  if the size or the number of rays is below 1.
-/// \cost One picture, and a few bit operations a letter and class.
+/// \cost One picture, and a few bit operations per letter and class.
 /// \report{Section 2}
 // [class_means]
 template <typename R, template <std::floating_point> typename AnyCamera,

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/hdr.hpp
-/// \brief Radiance files (.hdr, RGBE): linear radiance in four bytes a pixel.
+/// \brief Radiance files (.hdr, RGBE): linear radiance in four bytes per pixel.
 
 #include <algorithm>
 #include <array>

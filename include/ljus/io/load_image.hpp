@@ -158,7 +158,7 @@ inline const char* jpeg_trouble(const Bytes& file) {
 }
 
 #ifdef LJUS_HAS_STB_IMAGE
-// A picture as a file has it: sRGB, three bytes a pixel.
+// A picture as a file has it: sRGB, three bytes per pixel.
 struct DecodedBytes {
     int width = 0, height = 0;
     std::unique_ptr<stbi_uc, void (*)(void*)> pixels{nullptr, stbi_image_free};

@@ -86,7 +86,7 @@ template <SceneLike S>
 /// \param map   The map.
 /// \param key   What it was made from: photon_map_key().
 /// \throws std::runtime_error  as save_file().
-/// \cost 42 bytes a photon in float.
+/// \cost 42 bytes per photon in float.
 template <std::floating_point T>
 void save_photon_map(const std::string& path, const PhotonMapT<T>& map,
                      const MapKey& key) {

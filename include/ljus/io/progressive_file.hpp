@@ -74,7 +74,7 @@ inline void require_sense(const MapReader& file, const ProgressiveState& state) 
 /// \param path   The file; an older one is replaced at the very end (save_file()).
 /// \param state  After at least one pass.
 /// \throws std::runtime_error  as save_file(); std::invalid_argument without a pass.
-/// \cost 48 bytes a pixel.
+/// \cost 48 bytes per pixel.
 inline void save_checkpoint(const std::string& path, const ProgressiveState& state) {
     require(state.passes >= 1, "the number of passes", state.passes, "at least 1");
     Bytes bytes = detail::map_front(

@@ -152,7 +152,7 @@ namespace detail {
 /// \param paths  The class.
 /// \param path   As "EDSSL".
 /// \return True if the whole path matches.
-/// \cost A few bit operations a letter; no memory.
+/// \cost A few bit operations per letter; no memory.
 // [contains]
 [[nodiscard]] constexpr bool contains(const LightPathExpression& paths,
                                       std::string_view path) noexcept {

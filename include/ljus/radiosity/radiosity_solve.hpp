@@ -154,7 +154,7 @@ inline void relax(const FormFactors& factors, const std::vector<Patch>& patches,
 /// \return The radiosity, and what was left after each sweep.
 /// \throws std::invalid_argument  if a patch sends back as much as it gets, or more: an
 ///         albedo of 1 in a closed room, or a row sum above 1 by the noise of few rays.
-/// \cost n^2 multiplications a sweep and channel.
+/// \cost n^2 multiplications per sweep and channel.
 /// \report{Section 2.2}
 [[nodiscard]] inline RadiositySolution
 solve_radiosity(const FormFactors& factors, const std::vector<Patch>& patches,

@@ -14,7 +14,7 @@ namespace ljus {
 ///
 /// Every pixel gets a few rays, which tell how much rays differ there; the others go
 /// where they take away most of the error. RenderSettings::samples is the number of
-/// rays a pixel in the mean, at most.
+/// rays per pixel in the mean, at most.
 ///
 ///     // 2 rays; 8 more where their mean has a relative standard error above 0.2
 ///     render_adaptive(mapper, camera, {.samples = 10},
@@ -83,7 +83,7 @@ void trace_block(SampleSums<R, T>& samples, const R& renderer,
 ///         that is not finite is left out and counted.
 /// \throws std::invalid_argument  as render(), or for a setting out of range, or if
 ///         there are fewer samples than first rays.
-/// \cost The rays, and 48 bytes a pixel.
+/// \cost The rays, and 48 bytes per pixel.
 /// \report{Sections 4.3 and 5}
 template <typename R, template <std::floating_point> typename AnyCamera,
           std::floating_point T>

@@ -191,11 +191,11 @@ settings_for_passes(const S& scene, PhotonMappingSettings settings) {
 /// one is smaller, and until then no bias goes away. A radius that is chosen from the
 /// photons, and shares that a pilot finds, are chosen once: see settings_for_passes().
 /// Points of an irradiance cache are the pass's own; what they are blurred by stays.
-/// \tparam Draws    RandomStream, or StratifiedStream for several rays a pixel.
+/// \tparam Draws    RandomStream, or StratifiedStream for several rays per pixel.
 /// \param scene     The scene, or an IndexedScene, which saves indexing it each time.
 /// \param camera    A CameraT, or anything with a camera_ray().
 /// \param settings  Photons *of one pass*; the radii of the first, above 0.
-/// \param picture   Size; rays a pixel in one pass.
+/// \param picture   Size; rays per pixel in one pass.
 /// \param pass      Its number, from 1 on.
 /// \param scale     Of the radii, in (0, 1].
 /// \return The picture; not complete if a progress callback stopped it.

@@ -107,7 +107,7 @@ template <typename Caller>
 ///         if (const auto hit = intersect<double>(rest, tree.triangle(slot)))
 ///             nearest.offer(*hit, tree.primitive_ids()[slot], rest);
 ///     });
-/// \cost About 60 bytes a triangle.
+/// \cost About 60 bytes per triangle.
 class TriangleBvh {
 public:
     /// A tree over nothing.

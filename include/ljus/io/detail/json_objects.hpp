@@ -21,7 +21,7 @@ namespace ljus {
 /// | `type` of an object | its fields, besides material, name and emission         |
 /// |---------------------|---------------------------------------------------------|
 /// | sphere              | center, radius                                          |
-/// | triangles           | vertices, indices: three numbers a triangle, from 0     |
+/// | triangles           | vertices, indices: three numbers per triangle, from 0   |
 /// | mesh                | file: OBJ, beside the scene's; scale (1); normals (file, |
 /// |                     | smooth or flat); see ObjMeshes                          |
 ///

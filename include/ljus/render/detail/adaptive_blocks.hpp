@@ -91,7 +91,7 @@ adaptive_blocks(const RenderSettings& picture, int size) {
     return std::size_t(y) * std::size_t(width) + std::size_t(x);
 }
 
-/// How many rays a pixel gets by a batch.
+/// How many rays a pixel gets in a batch.
 /// \param rule   The rule.
 /// \param batch  0: the first rays.
 [[nodiscard]] constexpr int rays_in_batch(const AdaptiveSettings& rule,
@@ -109,7 +109,7 @@ adaptive_blocks(const RenderSettings& picture, int size) {
 ///
 /// Relative to the mean of the block, which is surer than that of a pixel. The rays of
 /// a pixel are taken for independent; as they are stratified, they are a little better.
-/// \param block    At least 2 rays a pixel.
+/// \param block    At least 2 rays per pixel.
 /// \param sums     Of all pixels.
 /// \param width    Of the picture.
 /// \param epsilon  What counts as dark.

@@ -18,11 +18,11 @@ struct RayShare {
     double rays = 1;     ///< Rays that each of its pixels has.
 };
 
-/// The number of rays a pixel that each part should have, so that the mean of
+/// The number of rays per pixel that each part should have, so that the mean of
 /// variance / rays over all pixels falls to a target with the fewest rays, or is the
 /// least that a number of rays can buy.
 ///
-/// With n rays a pixel in each part, sum w v / n shall be least for a given sum w n.
+/// With n rays per pixel in each part, sum w v / n is to be least for a given sum w n.
 /// Lagrange: v / n^2 is the same everywhere, so that n is in proportion to the root of
 /// the variance \cite neyman1934. A part that has more rays already keeps them,
 /// and the rest is shared out among the others.
