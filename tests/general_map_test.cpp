@@ -832,6 +832,21 @@ TEST_CASE("general map: which maps are made for what, and which photons they kee
     });
     CHECK_FALSE(fewer.verdicts.empty());
     CHECK(kinds(fewer.general) == indirect);
+    int lit = 0; // direct photons have told the verdicts, though no map keeps them
+    for (int i = 0; i < 100; ++i) {
+        const SurfacePoint place{
+            .position{0.19f * float(i % 10) - 0.9f, -1, 0.19f * float(i / 10) - 0.9f},
+            .normal{0, 1, 0}};
+        const auto at = fewer.verdicts.place_of(place, 1);
+        lit += fewer.verdicts.verdict(at, 0) == Verdict::lit;
+    }
+    CHECK(lit > 20);
+    // Who keeps the map keeps its shadows, whatever the verdicts ask for.
+    const auto with_shadows = make([](auto& s) {
+        s.skip.rule = SkipRule::any;
+        s.keep_general_map = true;
+    });
+    CHECK(kinds(with_shadows.general) == (direct | indirect | shadow));
     CHECK(kinds(fewer.caustics) == caustic);
     CHECK(fewer.caustics.records.size() == rays.caustics.records.size());
     // A cache is made if it is asked for, and not else.
