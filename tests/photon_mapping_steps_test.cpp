@@ -255,12 +255,13 @@ TEST_CASE("photon mapping: where a path ends that has gathered, and who shows a 
     // seen by the camera alone.
     const Room room = make_room<float>(Ball::lambertian, Lamp::quad, 2);
     const Camera camera = look_at(View{.position{0, -0.9f, 0.9f}, .target{0, 1, 0}});
-    for (const auto& [indirect, least, most] : {std::tuple{IndirectLight::rays, 2, 100},
-                                                {IndirectLight::map, 1, 1},
-                                                {IndirectLight::gather, 1, 1},
-                                                {IndirectLight::photons, 0, 0},
-                                                {IndirectLight::cache, 0, 0},
-                                                {IndirectLight::none, 0, 0}}) {
+    for (const auto& [way, least, most] : {std::tuple{IndirectLight::rays, 2, 100},
+                                           {IndirectLight::map, 1, 1},
+                                           {IndirectLight::gather, 1, 1},
+                                           {IndirectLight::photons, 0, 0},
+                                           {IndirectLight::cache, 0, 0},
+                                           {IndirectLight::none, 0, 0}}) {
+        const IndirectLight indirect = way; // captured below
         PhotonMappingSettings settings = distinct(indirect, DirectLight::sampled);
         const auto maps = make_photon_maps(room, settings);
         const auto mapper = make_photon_mapper(room, maps, settings);
