@@ -509,6 +509,19 @@ TEST_CASE("distributed rays: max_depth turns, and no ray of black light") {
             CHECK(counts.bounce_rays == std::uint64_t(share > 0 ? depth : 0));
             CHECK(counts.cut_paths == (share > 0 || depth == 0 ? 1u : 0u));
         }
+    // A red mirror and a green one: what comes by both of them is black.
+    Hall red_and_green;
+    red_and_green.add(QuadT<double>{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}},
+                      red_and_green.add(MirrorT<double>{.reflectance{0, 1, 0}}));
+    red_and_green.add(QuadT<double>{{-1, -1, 1}, {0, 2, 0}, {2, 0, 0}},
+                      red_and_green.add(MirrorT<double>{.reflectance{1, 0, 0}}));
+    Counts both;
+    StratifiedStream numbers;
+    (void)radiance(make_distributed(red_and_green, {.max_depth = 4}),
+                   RayT<double>{.origin{0, 0, 0.5}, .direction{0, 0, 1}}, numbers,
+                   both);
+    CHECK(both.bounce_rays == 1);
+    CHECK(both.cut_paths == 0);
     // A matt surface sends no ray on, so that the depth cuts none; gloss does.
     const Ray down{.origin{0, 1, 0}, .direction{0, -1, 0}};
     for (const int depth : {0, 1}) {

@@ -76,7 +76,10 @@ TEST_CASE("estimate: two halves joined are the whole") {
         CHECK(both.mean == within(whole.mean, 1e-12));
         CHECK(both.squares == within(whole.squares, 1e-12));
     }
-    CHECK(joined(Estimate{}, Estimate{}).count == 0);
+    const Estimate nothing = joined(Estimate{}, Estimate{});
+    CHECK(nothing.count == 0);
+    CHECK(nothing.mean == 0);
+    CHECK(nothing.squares == 0);
 }
 
 // 20 000 estimates of 10 samples each. The mean of their variances has a relative

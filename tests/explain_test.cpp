@@ -92,6 +92,15 @@ TEST_CASE("explain: the largest sum is first, in whichever channel") {
     CHECK(apart.sums[2].owner == "red");
     CHECK(apart.sums[0].value == glm::dvec3{1, 5, 0});
     CHECK(apart.radiance == Rgb{3, 5, 3});
+    CHECK(apart.samples == 4);
+    // Four rays are kept, if there are so many, and sixteen sums are shown.
+    for (const int samples : {2, 4, 9})
+        CHECK(detail::take_apart(Colors{}, camera,
+                                 {.width = 3, .height = 2, .samples = samples}, 2, 1)
+                  .first_rays.size() == std::size_t(std::min(samples, 4)));
+    ExplainedPixelT<float> many{.samples = 1};
+    for (int i = 0; i < 18; ++i) many.sums.push_back({"EL", "emission", {}, 1});
+    CHECK(detail::describe(many).find("  2 more ") != std::string::npos);
 }
 
 TEST_CASE("explain: each term counts as much as the filter says") {

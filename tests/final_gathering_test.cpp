@@ -10,6 +10,7 @@
 #include "ljus/accel/mesh.hpp"
 #include "ljus/geometry/moving.hpp"
 #include "ljus/materials/glass.hpp"
+#include "ljus/materials/glossy.hpp"
 #include "ljus/materials/mirror.hpp"
 #include "ljus/materials/mixture.hpp"
 #include "ljus/render/photon_mapping.hpp"
@@ -955,6 +956,56 @@ TEST_CASE(
     // Head on r = (1.4 / 3.4)^2 at each side: (1 - r) / (1 + r) pass, 71 %.
     CHECK(arrived > 220);
     CHECK(arrived < 400);
+}
+
+TEST_CASE("final gathering: a gather ray looks up the side that it meets") {
+    // A ceiling whose normal looks up, seen from below; and each side on its own.
+    Hall hall;
+    hall.add(Quad{.corner{-9, -9, 1}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}},
+             hall.add(Lambertian{.albedo = Rgb{0.5f}}));
+    IrradiancePoints points = everywhere(Rgb{0}, {{0, 0, 1}, {0, 0, -1}});
+    for (auto& record : points.records) record.irradiance = Rgb{record.normal.z + 2};
+    for (const float way : {1.0f, -1.0f}) {
+        auto stream = random_stream(test_seed(5), Pass::user, 0, 0);
+        Counts counts;
+        const PathState path{.ray{.origin{0, 0, 1 - way}, .direction{0, 0, way}},
+                             .met_diffuse = true,
+                             .depth = 1};
+        const auto found = gather_ray(hall, points, path, 100, stream, counts);
+        CHECK(double(found.radiance.x) ==
+              ljus_test::within(0.5 * double(2 - way) / pi, 1e-5));
+    }
+}
+
+TEST_CASE("final gathering: a gloss that a gather ray meets sends light, too") {
+    // Its albedo at this angle, by the midpoint rule over the hemisphere.
+    const Glossy gloss{.reflectance{0.9f, 0.6f, 0.3f}, .roughness = 0.4f};
+    const Vec3 wo{0.6f, 0, 0.8f};
+    glm::dvec3 albedo{0};
+    constexpr int n = 300;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            const double cosine = (i + 0.5) / n, phi = 2 * pi * (j + 0.5) / n;
+            const double sine = std::sqrt(1 - cosine * cosine);
+            const Vec3 wi(sine * std::cos(phi), sine * std::sin(phi), cosine);
+            albedo += glm::dvec3(evaluate(gloss, wo, wi)) * cosine * (2 * pi / n / n);
+        }
+    Scene<Shapes<Quad>, Materials<Lambertian, Glossy>> hall;
+    hall.add(Quad{.corner{-9, -9, -1}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}},
+             hall.add(gloss));
+    const IrradiancePoints points = everywhere(Rgb{3}, {{0, 0, 1}});
+    Mean mean;
+    for (std::uint64_t i = 0; i < 4000; ++i) {
+        auto stream = random_stream(test_seed(6), Pass::user, 0, i);
+        Counts counts;
+        const PathState path{.ray{.direction = -wo}, .met_diffuse = true, .depth = 1};
+        mean.add(
+            double(gather_ray(hall, points, path, 100, stream, counts).radiance.y));
+        CHECK(counts.map_queries == 1);
+        CHECK(counts.bounce_rays == 1);
+    }
+    CHECK(albedo.y > 0.3);
+    CHECK(std::abs(apart(mean, albedo.y * 3 / pi)) < 4.5); // once in 150 000 seeds
 }
 
 TEST_CASE("final gathering: rays meet what moves where it is at their time") {

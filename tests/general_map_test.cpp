@@ -722,6 +722,26 @@ TEST_CASE("general map: what the presets ask for") {
         CHECK(preset_settings(preset, 10, 10).general.photons == 10000);
         CHECK(preset_settings(preset, 20000, 20000).general.photons == 1000000);
     }
+    // Beyond 2^31 pixels, too; seven tenths of them lie between the limits at 300 x 300.
+    CHECK(preset_settings(Preset::fast, 50000, 50000).general.photons == 1000000);
+    CHECK(preset_settings(Preset::fast, 300, 300).general.photons == 63000);
+    CHECK(exact.general.photons == 100000);
+    for (const auto& settings : {draft, fast})
+        for (const auto& pass : {settings.general, settings.caustics})
+            CHECK(pass.numbers == PhotonSampling::sobol);
+    for (const auto& pass : {exact.general, exact.caustics})
+        CHECK(pass.numbers == PhotonSampling::random);
+    CHECK(draft.irradiance.shadow_rays == 4); // a gather ray is one of 16
+    CHECK(fast.irradiance.shadow_rays == 2);
+    CHECK(exact.irradiance.shadow_rays == 4);
+    const auto rays = [](Preset preset) {
+        const PresetRays found = preset_rays(preset);
+        return std::array<double, 3>{double(found.first), double(found.more),
+                                     found.disagreement};
+    };
+    CHECK(rays(Preset::draft) == std::array<double, 3>{1, 0, 0.4});
+    CHECK(rays(Preset::fast) == std::array<double, 3>{2, 8, 0.4});
+    CHECK(rays(Preset::exact) == std::array<double, 3>{64, 0, 0.4});
     CHECK(preset_settings(Preset::draft, 20000, 20000).caustics.photons == 500000);
     CHECK(preset_settings(Preset::fast, 20000, 20000).caustics.photons == 1000000);
     CHECK(detail::gathers(IndirectLight::map));
@@ -812,6 +832,21 @@ TEST_CASE("general map: which maps are made for what, and which photons they kee
     });
     CHECK_FALSE(fewer.verdicts.empty());
     CHECK(kinds(fewer.general) == indirect);
+    int lit = 0; // direct photons have told the verdicts, though no map keeps them
+    for (int i = 0; i < 100; ++i) {
+        const SurfacePoint place{
+            .position{0.19f * float(i % 10) - 0.9f, -1, 0.19f * float(i / 10) - 0.9f},
+            .normal{0, 1, 0}};
+        const auto at = fewer.verdicts.place_of(place, 1);
+        lit += fewer.verdicts.verdict(at, 0) == Verdict::lit;
+    }
+    CHECK(lit > 20);
+    // Who keeps the map keeps its shadows, whatever the verdicts ask for.
+    const auto with_shadows = make([](auto& s) {
+        s.skip.rule = SkipRule::any;
+        s.keep_general_map = true;
+    });
+    CHECK(kinds(with_shadows.general) == (direct | indirect | shadow));
     CHECK(kinds(fewer.caustics) == caustic);
     CHECK(fewer.caustics.records.size() == rays.caustics.records.size());
     // A cache is made if it is asked for, and not else.
@@ -852,6 +887,99 @@ TEST_CASE("general map: which maps are made for what, and which photons they kee
                 }).complete);
 }
 
+TEST_CASE("general map: a pass that was stopped is not made up for by the next one") {
+    const Room room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    const auto stop = [](long long, long long) { return false; };
+    PhotonMappingSettings settings{.indirect = IndirectLight::gather};
+    settings.caustics = {.photons = 3000, .threads = 1, .progress = stop};
+    settings.general = {.photons = 3000, .threads = 1};
+    const auto maps = make_photon_maps(room, settings);
+    CHECK_FALSE(maps.general.empty()); // that one was complete
+    CHECK_FALSE(maps.complete);
+    CHECK(maps.irradiance.empty()); // and nothing is worked out from half a map
+    settings.caustics.progress = {};
+    const auto whole = make_photon_maps(room, settings);
+    CHECK(whole.complete);
+    CHECK_FALSE(whole.irradiance.empty());
+}
+
+TEST_CASE("general map: who is asked of what, with the seed of which pass") {
+    const Room room = make_room<float>(Ball::glass, Lamp::quad, 1);
+    PhotonMappingSettings settings{.indirect = IndirectLight::cache};
+    settings.caustics = {.photons = 500, .seed = 9, .threads = 1};
+    settings.general = {.photons = 1000, .seed = 5, .threads = 1};
+    settings.irradiance.shadow_rays = 1;
+    auto maps = make_photon_maps(room, settings);
+    const auto points_by = [&](std::uint64_t seed) {
+        const auto points =
+            make_irradiance_points(detail::IndexedT<Room>(room), maps.general,
+                                   maps.caustics, settings.irradiance, seed, 1);
+        std::vector<Rgb> found;
+        for (const auto& record : points.records) found.push_back(record.irradiance);
+        return found;
+    };
+    std::vector<Rgb> seen;
+    for (const auto& record : maps.irradiance.records)
+        seen.push_back(record.irradiance);
+    CHECK(seen.size() > 100);
+    CHECK(seen == points_by(5));
+    CHECK(seen != points_by(9));
+    // A cache is made of photons: without any there is none, and no ray is sent for it.
+    settings.general.photons = 0;
+    auto none = make_photon_maps(room, settings);
+    add_irradiance_cache(none, room, room_camera<float>(),
+                         {.width = 6, .height = 6, .samples = 1, .threads = 1},
+                         settings);
+    CHECK(none.cache.empty());
+    CHECK(none.cache.counts.bounce_rays == 0);
+}
+
+TEST_CASE("general map: for shadow rays alone each lamp sends as many photons") {
+    // A lamp and a candle of a millionth of its power: by power it would send none of 3000
+    // photons, and no verdict would know it.
+    Room room;
+    add_walls(room);
+    add_ball(room, Ball::lambertian);
+    const auto black = room.add(Lambertian{.albedo = Rgb{0}});
+    const Quad lamp{
+        .corner{-0.5f, 0.9f, -0.5f}, .edge_u{0.4f, 0, 0}, .edge_v{0, 0, 0.4f}};
+    Quad candle = lamp;
+    candle.corner.x = 0.3f;
+    room.add(lamp, black, Rgb{1e6f});
+    room.add(candle, black, Rgb{1});
+    PhotonMappingSettings settings;
+    settings.general = {.photons = 3000, .threads = 1};
+    settings.skip.rule = SkipRule::any;
+    int dark = 0; // verdicts that say so
+    const auto verdicts_of = [&](bool indirect_too) {
+        PhotonMappingSettings how = settings;
+        how.skip.indirect_rays = indirect_too;
+        how.general.shadow_photons = false; // no map keeps them, but verdicts ask
+        const auto maps = make_photon_maps(room, how);
+        // Of places all over the floor: so many know something of a lamp.
+        std::array<int, 2> known{};
+        for (int i = 0; i < 400; ++i) {
+            const SurfacePoint place{.position{0.095f * float(i % 20) - 0.9f, -1,
+                                               0.095f * float(i / 20) - 0.9f},
+                                     .normal{0, 1, 0}};
+            const auto at = maps.verdicts.place_of(place, 1);
+            for (const std::size_t light : {0u, 1u}) {
+                const Verdict verdict = maps.verdicts.verdict(at, light);
+                known[light] += verdict != Verdict::unknown;
+                dark += verdict == Verdict::shadow;
+            }
+        }
+        return known;
+    };
+    const auto alone = verdicts_of(false), with_bounces = verdicts_of(true);
+    CHECK(alone[0] > 200);
+    CHECK(alone[1] > 200);
+    CHECK(dark > 20); // below the ball
+    // Where photons bring light on, they are sent as the light is.
+    CHECK(with_bounces[0] > 200);
+    CHECK(with_bounces[1] == 0);
+}
+
 TEST_CASE("general map: how caustic photons are shared out, by which light") {
     Room room = make_room<float>(Ball::glass, Lamp::quad, 1);
     room.add(Sphere{.center{-0.5f, 0.3f, 0}, .radius = 0.2f}, room.add(Mirror{}));
@@ -872,6 +1000,13 @@ TEST_CASE("general map: how caustic photons are shared out, by which light") {
     REQUIRE(shares.size() == 2);
     CHECK(shares[0] + shares[1] == doctest::Approx(1));
     CHECK(shares[0] != in_the_dark[0]); // the light of the room counts
+    // The pilot tells nobody of itself: neither of its passes is the one that is watched.
+    int told = 0;
+    const auto tell = [&](long long, long long) { return ++told < 0; };
+    PhotonMappingSettings watched = settings;
+    watched.caustics.progress = watched.general.progress = tell;
+    CHECK(caustic_shares(room, watched) == shares);
+    CHECK(told == 0);
     // By twenty thousand photons of the other pass, another repetition of it.
     PhotonPassSettings pass = settings.general;
     pass.photons = 20000;

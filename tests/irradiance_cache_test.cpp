@@ -250,6 +250,54 @@ TEST_CASE("irradiance cache: a point in each square of pixels") {
     CHECK_FALSE(make_irradiance_cache(scene, points, camera, picture, {}).complete);
 }
 
+TEST_CASE("irradiance cache: each square has numbers of its own, with each seed") {
+    // Where in its square a point stands: of 3 x 12 places in the unit square two are
+    // as near as that once in 50 000 runs.
+    const Hall scene = hall();
+    const Camera camera = look_at({.position{0, 0, 3}, .target{0, 0, 0}, .up{0, 1, 0}});
+    std::vector<glm::dvec2> places;
+    for (const std::uint64_t seed : {1u, 2u, 3u}) {
+        const auto cache = make_irradiance_cache(
+            scene, known(Rgb{2}), camera,
+            {.width = 40, .height = 30, .seed = seed, .threads = 1},
+            {.rays = 1, .tile = 10});
+        REQUIRE(cache.records.size() == 12);
+        for (std::size_t i = 0; i < 12; ++i) {
+            const auto pixel = project(camera, cache.tree.point(i), 40, 30);
+            REQUIRE(pixel);
+            const glm::dvec2 at = glm::dvec2(*pixel) / 10.0;
+            places.push_back(at - glm::floor(at));
+        }
+    }
+    for (std::size_t i = 0; i < places.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k)
+            CHECK(glm::distance(places[i], places[k]) > 1e-4);
+}
+
+TEST_CASE("irradiance cache: each point has what was gathered there") {
+    // A floor and a wall that stand in view: the normal tells which, and 1 / distance is
+    // the mean of those of all rays, which are longer the farther the ceiling is.
+    Hall scene = hall();
+    scene.add(Quad{.corner{1, -50, 0}, .edge_u{0, 0, 4}, .edge_v{0, 100, 0}},
+              scene.add(Lambertian{}));
+    const Camera camera = look_at(
+        {.position{-1, 0, 3}, .target{1, 0, 0}, .up{0, 1, 0}, .vfov_degrees = 60});
+    const auto cache = make_irradiance_cache(scene, known(Rgb{2}), camera,
+                                             {.width = 40, .height = 40, .threads = 2},
+                                             {.rays = 4, .tile = 2});
+    REQUIRE(cache.records.size() == 400);
+    int on_floor = 0;
+    for (std::size_t i = 0; i < 400; ++i) {
+        const Vec3 place = cache.tree.point(i);
+        const bool floor = std::abs(place.z) < 1e-4f;
+        on_floor += floor;
+        CHECK((floor || std::abs(place.x - 1) < 1e-4f));
+        CHECK(cache.records[i].normal == (floor ? up : Vec3{-1, 0, 0}));
+    }
+    CHECK(on_floor > 50);
+    CHECK(on_floor < 350);
+}
+
 TEST_CASE("irradiance cache: it equals path tracing, block by block") {
     // Balls of each kind under a lamp. Blocks of 10 x 10 pixels, 6 seeds against 6 of the
     // path tracer; what is allowed beside 4 standard errors is the bias of radius and

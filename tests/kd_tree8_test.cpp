@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 #include "ljus/accel/kd_tree.hpp"
@@ -109,8 +110,61 @@ TEST_CASE("kd_tree8: each range is halved by one of the axes") {
                     for (auto j = middle; j < last; ++j)
                         high = glm::min(high, tree.point(j));
                     REQUIRE((low.x <= high.x || low.y <= high.y || low.z <= high.z));
+                    // By the longest: of a range that is one point, any.
+                    Vec3 least{1e30f}, most{-1e30f};
+                    for (auto j = first; j < last; ++j) {
+                        least = glm::min(least, tree.point(j));
+                        most = glm::max(most, tree.point(j));
+                    }
+                    const Vec3 sides = most - least;
+                    bool longest = false;
+                    for (int axis = 0; axis < 3; ++axis)
+                        longest =
+                            longest || (sides[axis] == ljus::max_component(sides) &&
+                                        low[axis] <= high[axis]);
+                    REQUIRE(longest);
                 }
         }
+}
+
+TEST_CASE("kd_tree8: many balls at once find what each of them finds alone") {
+    Draws numbers{23};
+    ljus::detail::BallBlocks found; // what was in it is gone
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    for (const std::size_t n : {0u, 1u, 8u, 31u, 33u, 257u, 777u, 5000u})
+        for (const std::size_t balls : {7u, 1u, 0u})
+            for (const float radius : {0.3f, 0.0f, infinity, -1.0f, nan}) {
+                std::vector<Vec3> points(n);
+                for (Vec3& point : points) point = numbers.point<float>(1);
+                const KdTree8 tree{std::span<const Vec3>(points)};
+                std::vector<Vec3> centers(balls);
+                for (Vec3& center : centers) center = numbers.point<float>(1.2);
+                if (balls > 5) {
+                    centers[2] = Vec3{nan};
+                    centers[5] = Vec3{9};
+                    if (n > 0) centers[3] = points[n / 2];
+                }
+                std::vector<std::size_t> told; // the blocks that were announced
+                tree.find_in_balls(
+                    balls, [&](std::size_t i) -> const Vec3& { return centers[i]; },
+                    radius, [&](std::size_t block) { told.push_back(block); }, found);
+                std::size_t at = 0;
+                for (std::uint32_t ball = 0; ball < balls; ++ball)
+                    tree.visit_blocks(centers[ball], radius, [&](const auto& block) {
+                        REQUIRE(at < found.blocks.size());
+                        CHECK(found.blocks[at].ball == ball);
+                        CHECK(found.blocks[at].block == block.first / 8);
+                        CHECK(found.blocks[at].found == block.found);
+                        REQUIRE(at < told.size());
+                        CHECK(told[at] == block.first / 8);
+                        ++at;
+                    });
+                CHECK(at == found.blocks.size());
+                CHECK(at == told.size());
+                const bool all = n > 0 && balls == 7 && radius == infinity;
+                if (all) CHECK(at == (balls - 1) * ((n + 7) / 8)); // but for the NaN
+            }
 }
 
 TEST_CASE("kd_tree8: the same tree from any number of threads") {

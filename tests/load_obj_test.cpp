@@ -1,6 +1,7 @@
 // needs: tinyobjloader
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <ctime>
 #include <fstream>
@@ -208,6 +209,28 @@ TEST_CASE("load_obj: the corners beside an ear are asked again when it is cut of
         CHECK(
             glm::cross(corners[t[1]] - corners[t[0]], corners[t[2]] - corners[t[0]]).z >
             0);
+}
+
+TEST_CASE("load_obj: a corner on the line that would cut off an ear keeps it") {
+    // The fourth corner lies between the first and the third: were the second one cut
+    // off there, the first, third and fourth would be left, which have no area.
+    const std::vector<glm::dvec3> corners{
+        {6, 4, 0}, {6, 5, 0}, {4, 6, 0}, {5, 5, 0}, {1, 1, 0}};
+    for (std::size_t first = 0; first < corners.size(); ++first) {
+        std::vector<glm::dvec3> turned = corners;
+        std::rotate(turned.begin(), turned.begin() + std::ptrdiff_t(first),
+                    turned.end());
+        const auto triangles = detail::cut_polygon(turned);
+        REQUIRE(triangles.size() == 3);
+        double twice = 0;
+        for (const auto& t : triangles) {
+            const double one =
+                glm::cross(turned[t[1]] - turned[t[0]], turned[t[2]] - turned[t[0]]).z;
+            CHECK(one > 0);
+            twice += one;
+        }
+        CHECK(twice == 10); // by the shoelace formula
+    }
 }
 
 TEST_CASE("load_obj: a plus sign, and a normal that is none") {

@@ -189,6 +189,17 @@ TEST_CASE("mesh: smooth_normals() finds the normals of a sphere and of a ring") 
                     .triangles{{0, 4, 1}, {0, 2, 4}, {0, 1, 3}, {0, 3, 2}}};
     smooth_normals(corner);
     CHECK(glm::length(corner.normals[0] + Vec3{std::sqrt(1.0f / 3.0f)}) < 1e-6f);
+    // A corner of 120 degrees that looks up, and one of 90 that looks to -y: 4 to 3.
+    MeshData blunt{
+        .positions{{0, 0, 0}, {1, 0, 0}, {-0.5f, std::sqrt(0.75f), 0}, {0, 0, 1}},
+        .triangles{{0, 1, 2}, {0, 1, 3}}};
+    for (const bool collapsed : {false, true}) {
+        // A triangle without an area has no say, and takes nobody's normal away.
+        if (collapsed) blunt.triangles.push_back({0, 0, 1});
+        smooth_normals(blunt);
+        CHECK(glm::distance(blunt.normals[0], Vec3{0, -0.6f, 0.8f}) < 1e-6f);
+        CHECK(blunt.normals[2] == Vec3{0, 0, 1});
+    }
     // However narrow a corner is, it has a normal.
     MeshData thin{.positions{{0, 0, 0}, {1, 0, 0}, {1, 1e-3f, 0}},
                   .triangles{{0, 1, 2}}};
@@ -435,6 +446,10 @@ TEST_CASE("mesh: the memory of a triangle, its tree included") {
     }
     const Mesh loose(apart);
     CHECK(double(loose.bytes()) / loose.size() < 120);
+    // All that it holds, at least: three corners and numbers, an area, and the tree.
+    CHECK(loose.bytes() >= loose.size() * (3 * sizeof(Vec3) + 12 + sizeof(double)) +
+                               loose.tree().bytes());
+    CHECK(loose.tree().bytes() > 30 * std::size_t(loose.size()));
 }
 
 TEST_CASE("mesh: what is wrong is said with its place") {
@@ -475,12 +490,56 @@ TEST_CASE("mesh: what is wrong is said with its place") {
     bad.uv.assign(bad.positions.size(), Vec2{0});
     bad.uv[1].y = NAN;
     CHECK(message(bad).find("mesh.uv[1] is (0, NaN") == 0);
+    bad.uv[1] = {INFINITY, 0};
+    CHECK(message(bad).find("mesh.uv[1] is (infinity, 0") == 0);
+    bad = good;
+    bad.normals[5].z = INFINITY;
+    CHECK(message(bad).find("mesh.normals[5] is (") == 0);
     Mesh moved(good);
     const Mesh taken(std::move(moved));
     CHECK_THROWS_AS(check(moved), std::invalid_argument);
     CHECK_NOTHROW(check(taken));
     CHECK_THROWS_AS((void)icosphere(unit_ball, 11), std::invalid_argument);
     CHECK_THROWS_AS((void)torus(Vec3{0}, 1.0f, 0.3f, 2, 5), std::invalid_argument);
+}
+
+TEST_CASE("mesh: a number is a triangle's, and the rest of it a place there") {
+    // Of areas 1, 2 and 1/2: up to 2/7 of u the first one, up to 6/7 the second.
+    const MeshData data{.positions{{0, 0, 0},
+                                   {2, 0, 0},
+                                   {0, 1, 0},
+                                   {0, 0, 1},
+                                   {4, 0, 1},
+                                   {0, 1, 1},
+                                   {0, 0, 2},
+                                   {1, 0, 2},
+                                   {0, 1, 2}},
+                        .triangles{{0, 1, 2}, {3, 4, 5}, {6, 7, 8}}};
+    const Mesh mesh(data, 1);
+    const double ends[] = {0, 2.0 / 7, 6.0 / 7, 1};
+    for (std::uint32_t part = 0; part < 3; ++part)
+        for (const double left : {0.01, 0.25, 0.6, 0.99})
+            for (const float y : {0.0f, 0.3f, 1.0f}) {
+                const double x = ends[part] + left * (ends[part + 1] - ends[part]);
+                const Vec3 seen = sample_area(mesh, Vec2(x, y)).position;
+                const Vec3 right =
+                    sample_area(mesh.triangle(part), Vec2(left, y)).position;
+                CHECK(glm::distance(seen, right) < 1e-5f);
+            }
+}
+
+TEST_CASE("mesh: a normal between normals is unit, however short they are") {
+    MeshData data{.positions{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, .triangles{{0, 1, 2}}};
+    for (const float length : {1e-30f, 1e-20f, 1.0f, 1e20f}) {
+        data.normals = {{0, 0, length}, {length, 0, length}, {0, length, length}};
+        const Mesh mesh(data, 1);
+        const Ray down{.origin{1, 2, 9}, .direction{0, 0, -1}}; // u = 1/4, v = 1/2
+        const auto hit = intersect(down, mesh);
+        REQUIRE(hit);
+        const Vec3 normal =
+            shading_normal(mesh, *hit, surface_point(mesh, down, *hit).normal);
+        CHECK(glm::distance(normal, glm::normalize(Vec3{0.25f, 0.5f, 1})) < 1e-6f);
+    }
 }
 
 TEST_CASE("mesh: triangles without an area, and normals without a direction") {

@@ -207,4 +207,10 @@ TEST_CASE("photon_map_file: the limit of a file's bytes, and none without one") 
     CHECK(ljus::detail::map_limit(0, 42) == 56);
     CHECK(ljus::detail::map_limit(all, 42) == all);
     CHECK(ljus::detail::map_limit(all / 42, 42) == all);
+    // The header counts, too: never beyond what a number holds, and so less again.
+    for (const std::size_t bytes : {1u, 8u, 24u, 38u, 42u, 96u})
+        for (std::size_t below = 0; below < 60; ++below) {
+            const std::size_t most = all / bytes - below;
+            CHECK(ljus::detail::map_limit(most, bytes) >= most);
+        }
 }

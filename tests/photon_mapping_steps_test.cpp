@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "ljus/materials/glossy.hpp"
@@ -44,6 +46,12 @@ TEST_CASE("photon mapping: who answers at a vertex, term by term") {
     Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass, Mirror, Glossy>> room;
     const Lambertian matt{.albedo{0.8f, 0.5f, 0.2f}};
     const Glossy gloss{.reflectance{0.9f, 0.7f, 0.5f}, .roughness = 0.3f};
+    const Mixture mixed{.color{0.7f, 0.5f, 0.3f},
+                        .reflectivity = 0.2f,
+                        .transparency = 0.3f,
+                        .index = 1.5f,
+                        .specularity = 1,
+                        .sigma = 0.4f};
     const auto grey = room.add(Lambertian{.albedo = Rgb{0.5f}});
     for (const float y : {-1.0f, 1.0f})
         room.add(Quad{{-2, y, -2}, {0, 0, 4}, {4, 0, 0}}, grey);
@@ -136,9 +144,20 @@ TEST_CASE("photon mapping: who answers at a vertex, term by term") {
                                 const Rgb known = irradiance_between(
                                     mapper.scene, maps.irradiance, maps.cache, vertex,
                                     settings.gather, twin, cost);
-                                right.push_back({"irradiance cache", "D..DL",
-                                                 known * in_all * matt.albedo});
-                                (void)next_3d<float>(twin);
+                                if constexpr (std::is_same_v<decltype(material),
+                                                             const Lambertian&>) {
+                                    right.push_back({"irradiance cache", "D..DL",
+                                                     known * in_all * matt.albedo});
+                                    (void)next_3d<float>(twin);
+                                } else { // of its matt part, and of nothing else
+                                    const auto part = sample(
+                                        material, vertex.wo, next_3d<float>(twin),
+                                        Transport::radiance, Lobes::diffuse);
+                                    right.push_back({"irradiance cache", "D..DL",
+                                                     part
+                                                         ? known * in_all * part->weight
+                                                         : Rgb{0}});
+                                }
                             }
                             caustics();
                         }
@@ -160,6 +179,7 @@ TEST_CASE("photon mapping: who answers at a vertex, term by term") {
                         if (gather && !gathers) continue;
                         check_with(matt, true, gather);
                         check_with(gloss, false, gather);
+                        check_with(mixed, true, gather);
                     }
                 }
             }
@@ -203,7 +223,9 @@ TEST_CASE("photon mapping: a path goes both ways eight times, and loses nothing"
             if (split) {
                 // Of the tree of paths each edge once: what two ways share is one ray.
                 CHECK(counts.bounce_rays < rays);
-                CHECK(counts.bounce_rays >= 16);
+                // Both ways from eight surfaces; and one ray from each later one, which
+                // are those of the longest way but for E, L and the eight.
+                CHECK(counts.bounce_rays == 16 + longest - 10);
             }
         }
         // From the first surface on roulette may end it, but the n^2 of glass is no
@@ -226,6 +248,120 @@ TEST_CASE("photon mapping: a path goes both ways eight times, and loses nothing"
         }
         if (split) CHECK(mirrored == 400); // it carries more than a 16th
     }
+}
+
+TEST_CASE("photon mapping: where a path ends that has gathered, and who shows a lamp") {
+    // A matt room: an indirect ray that gathers where it ends goes no farther; a lamp is
+    // seen by the camera alone.
+    const Room room = make_room<float>(Ball::lambertian, Lamp::quad, 2);
+    const Camera camera = look_at(View{.position{0, -0.9f, 0.9f}, .target{0, 1, 0}});
+    for (const auto& [way, least, most] : {std::tuple{IndirectLight::rays, 2, 100},
+                                           {IndirectLight::map, 1, 1},
+                                           {IndirectLight::gather, 1, 1},
+                                           {IndirectLight::photons, 0, 0},
+                                           {IndirectLight::cache, 0, 0},
+                                           {IndirectLight::none, 0, 0}}) {
+        const IndirectLight indirect = way; // captured below
+        PhotonMappingSettings settings = distinct(indirect, DirectLight::sampled);
+        const auto maps = make_photon_maps(room, settings);
+        const auto mapper = make_photon_mapper(room, maps, settings);
+        std::uint64_t longest = 0;
+        int seen = 0, lamps = 0;
+        for (std::uint64_t i = 0; i < 400; ++i) {
+            auto stream = random_stream(5, Pass::user, 0, i);
+            const Ray ray = primary_ray(
+                camera, Vec2{float(i % 20) + 0.5f, float(i / 20) + 0.5f}, 20, 20);
+            Counts counts;
+            PathLog log;
+            (void)radiance(mapper, ray, stream, counts, log);
+            // Where a cache is asked that has nothing, rays gather in its place.
+            if (indirect != IndirectLight::cache)
+                longest = std::max(longest, counts.bounce_rays);
+            const auto hit = closest_hit(room, ray);
+            REQUIRE(hit);
+            const Vertex first = vertex_at(room, ray, *hit);
+            seen += first.emits();
+            const glm::dvec3 here(first.point.position);
+            for (const auto& line : log.lines) {
+                if (line.what == "emission") {
+                    ++lamps;
+                    CHECK(line.path == "EL");
+                }
+                // The log knows where each term was found, and each vertex.
+                if (line.path == "EL" || line.path == "EDL" || line.path == "ED" ||
+                    line.path == "ED..DL")
+                    CHECK(glm::distance(line.position, here) < 1e-5);
+                else
+                    CHECK(glm::distance(line.position, here) > 1e-5);
+            }
+        }
+        CAPTURE(int(indirect));
+        CHECK(longest >= std::uint64_t(least));
+        CHECK(longest <= std::uint64_t(most));
+        CHECK(lamps == seen);
+        CHECK(seen > 5);
+    }
+}
+
+TEST_CASE("photon mapping: what the depth cuts off is counted, what is black is not") {
+    // At the last surface that the depth allows: matt, mirror, and black.
+    for (const IndirectLight indirect :
+         {IndirectLight::rays, IndirectLight::map, IndirectLight::none})
+        for (const int kind : {0, 1, 2}) {
+            Room room;
+            const Quad floor{{-1e3f, -1, -1e3f}, {0, 0, 2e3f}, {2e3f, 0, 0}};
+            if (kind == 1)
+                room.add(floor, room.add(Mirror{.reflectance = Rgb{0.5f}}));
+            else
+                room.add(floor,
+                         room.add(Lambertian{.albedo = Rgb{kind == 0 ? 1.f : 0.f}}));
+            room.add(Quad{{-1e3f, 1, -1e3f}, {2e3f, 0, 0}, {0, 0, 2e3f}},
+                     room.add(Lambertian{.albedo = Rgb{0.5f}}));
+            room.add(PointLight{.intensity = Rgb{1}});
+            for (const int depth : {1, 2}) {
+                PhotonMappingSettings settings{.max_depth = depth,
+                                               .indirect = indirect};
+                settings.general = settings.caustics = {.photons = 100, .threads = 1};
+                const auto maps = make_photon_maps(room, settings);
+                const auto mapper = make_photon_mapper(room, maps, settings);
+                auto stream = random_stream(6, Pass::user, 0, 0);
+                Counts counts;
+                (void)radiance(mapper, Ray{.direction{0, -1, 0}}, stream, counts);
+                CAPTURE(int(indirect));
+                CAPTURE(kind);
+                CAPTURE(depth);
+                // A ray for direct light alone is not cut; one to a mirror is.
+                std::uint64_t bounces = 0, cut = kind == 1 ? 1 : 0;
+                if (depth == 2) {
+                    // What goes on meets the ceiling, where it is cut, or gathers.
+                    const bool rays = indirect != IndirectLight::none;
+                    bounces = kind == 1 || (kind == 0 && rays) ? 1 : 0;
+                    cut = (kind == 0 && indirect == IndirectLight::rays) ||
+                                  (kind == 1 && rays)
+                              ? 1
+                              : 0;
+                }
+                CHECK(counts.bounce_rays == bounces);
+                CHECK(counts.cut_paths == cut);
+            }
+        }
+}
+
+TEST_CASE("photon mapping: what a red mirror and a green one leave goes no farther") {
+    Room room;
+    room.add(Quad{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}},
+             room.add(Mirror{.reflectance{0, 1, 0}}));
+    room.add(Quad{{-1, -1, 1}, {0, 2, 0}, {2, 0, 0}},
+             room.add(Mirror{.reflectance{1, 0, 0}}));
+    const PhotonMappingSettings settings{.roulette_depth = 100};
+    const auto maps = make_photon_maps(room, settings);
+    const auto mapper = make_photon_mapper(room, maps, settings);
+    auto stream = random_stream(7, Pass::user, 0, 0);
+    Counts counts;
+    (void)radiance(mapper, Ray{.origin{0, 0, 0.5f}, .direction{0, 0, 1}}, stream,
+                   counts);
+    CHECK(counts.bounce_rays == 1);
+    CHECK(counts.cut_paths == 0);
 }
 
 TEST_CASE("photon mapping: roulette begins at the surface that is named") {

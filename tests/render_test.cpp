@@ -1,11 +1,13 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <set>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "ljus/render/path_tracing.hpp"
@@ -153,11 +155,13 @@ TEST_CASE("render: no ray of a picture has the numbers of another one") {
     // Of 24 bits each: that two of 3200 triples agree by chance is as good as impossible.
     std::set<std::array<double, 3>> seen;
     for (const std::uint64_t seed : {1u, 2u}) {
-        const RenderSettings picture{
-            .width = 20, .height = 20, .samples = 4, .seed = seed};
+        const RenderSettings picture{.width = seed == 1 ? 25 : 16,
+                                     .height = seed == 1 ? 16 : 25,
+                                     .samples = 4,
+                                     .seed = seed};
         const Pattern pattern = make_pattern(picture.sampling, 4);
-        for (int y = 0; y < 20; ++y)
-            for (int x = 0; x < 20; ++x)
+        for (int y = 0; y < picture.height; ++y)
+            for (int x = 0; x < picture.width; ++x)
                 for (int i = 0; i < 4; ++i) {
                     Counts counts;
                     const auto numbers = detail::sample_pixel(
@@ -358,6 +362,114 @@ TEST_CASE("render: neighbours do not look through the same places of their squar
         }
         CHECK(by_seed.size() > 8);
     }
+}
+
+TEST_CASE("render: a ray goes as far from its pixel as the filter reaches") {
+    for (const Filter filter :
+         {Filter::box, Filter::tent, Filter::gaussian, Filter::mitchell}) {
+        CAPTURE(int(filter));
+        const RenderSettings picture{
+            .width = 9, .height = 6, .samples = 256, .seed = 3, .filter = filter};
+        const Pattern pattern = make_pattern(picture.sampling, 256);
+        double farthest = 0, sum = 0;
+        bool negative = false;
+        for (int i = 0; i < 256; ++i) {
+            RandomStream stream;
+            const auto at =
+                detail::place_of_ray<double>(picture, pattern, 7, 4, i, stream);
+            farthest = std::max(
+                {farthest, std::abs(at.place.x - 7.5), std::abs(at.place.y - 4.5)});
+            sum += at.weight;
+            negative = negative || at.weight < 0;
+            // Its stream is past the two numbers of the place, and no others.
+            RandomStream twin;
+            start_ray(twin, 3, 4 * 9 + 7, i, pattern);
+            (void)next_2d<double>(twin);
+            CHECK(next_1d<double>(stream) == next_1d<double>(twin));
+        }
+        CHECK(farthest <= filter_radius(filter));
+        CHECK(farthest > 0.8 * filter_radius(filter));
+        CHECK(sum / 256 == ljus_test::within(1, 0.15)); // 4 standard errors, or fewer
+        CHECK(negative == (filter == Filter::mitchell));
+    }
+}
+
+TEST_CASE("render: sums of samples and of their squares, each by its weight") {
+    // Numbers of few bits, so that all is exact; 1e20 has no square in float.
+    const auto check = [](const auto& renderer, int repetitions) {
+        std::array<detail::PixelSums, 3> sums{};
+        Counts cost;
+        detail::SampleSums<std::remove_cvref_t<decltype(renderer)>, float> samples(
+            renderer, sums, cost);
+        const auto add = [&](std::size_t pixel, const Rgb& light, float weight) {
+            samples.add(pixel, [&](auto&) {
+                return detail::PixelSampleT<float>{light, weight};
+            });
+        };
+        for (int i = 0; i < repetitions; ++i) {
+            add(2, Rgb{3, 5, 7}, 0.5f);
+            add(0, Rgb{8, 4, 2}, -0.25f);
+            add(2, Rgb{1, 2, 4}, 2);
+            add(1, Rgb{1, std::numeric_limits<float>::infinity(), 1}, 1);
+            add(0, Rgb{std::numeric_limits<float>::quiet_NaN(), 1, 1}, 0);
+        }
+        add(1, Rgb{1e20f, 0, 1}, 1);
+        samples.finish();
+        samples.finish(); // nothing is added twice
+        const double n = repetitions, huge = double(1e20f);
+        CHECK(sums[0].sum == n * RgbT<double>{-2, -1, -0.5});
+        CHECK(sums[0].squares == n * RgbT<double>{4, 1, 0.25});
+        CHECK(sums[1].sum == RgbT<double>{huge, 0, 1});
+        CHECK(sums[1].squares == RgbT<double>{huge * huge, 0, 1});
+        CHECK(sums[2].sum == n * RgbT<double>{3.5, 6.5, 11.5});
+        CHECK(sums[2].squares == n * RgbT<double>{6.25, 22.25, 76.25});
+        CHECK(cost.rejected == 2 * static_cast<std::uint64_t>(repetitions));
+    };
+    for (const int repetitions : {1, 12, 13, 50}) { // 64 of Late's wait at most
+        check(Probe{}, repetitions);
+        check(Late{}, repetitions);
+    }
+}
+
+TEST_CASE("render: of a caustics map only light is seen, asked together or not") {
+    // A map may be made by hand, and may have shadow photons in it: they are no light.
+    Room room;
+    room.add(Quad{{-9, -9, -3}, {18, 0, 0}, {0, 18, 0}},
+             room.add(Lambertian{.albedo = Rgb{0.5f}}));
+    room.add(PointLight{.position{0, 0, 9}, .intensity = Rgb{1}});
+    PhotonMappingSettings settings{.max_depth = 1};
+    settings.caustics_estimate.radius = 1;
+    const auto picture_of = [&](bool shadows) {
+        std::vector<Photon> photons;
+        for (int i = 0; i < 400; ++i) {
+            const bool shadow = i % 2 == 1;
+            if (!shadow || shadows)
+                photons.push_back(
+                    {.position{0.2f * float(i % 20) - 2, 0.2f * float(i / 20) - 2, -3},
+                     .direction{0, 0, -1},
+                     .flux{1, 2, 3},
+                     .kind = shadow ? PhotonKind::shadow : PhotonKind::caustic,
+                     .normal = small_normal(Vec3{0, 0, 1})});
+        }
+        PhotonMapsT<float> maps;
+        maps.caustics = make_photon_map(photons);
+        const auto mapper = make_photon_mapper(room, maps, settings);
+        const RenderSettings picture{
+            .width = 9, .height = 9, .samples = 2, .threads = 1};
+        const auto together = render(mapper, Camera{}, picture);
+        const auto plain = plain_picture(mapper, Camera{}, picture);
+        CHECK(together.counts.map_photons == plain.counts.map_photons);
+        for (std::size_t i = 0; i < plain.image.pixels.size(); ++i)
+            CHECK(together.image.pixels[i].y ==
+                  doctest::Approx(plain.image.pixels[i].y).epsilon(1e-5));
+        return together;
+    };
+    const auto light = picture_of(false), both = picture_of(true);
+    CHECK(light.counts.map_photons > 0);
+    CHECK(light.counts.map_photons == both.counts.map_photons);
+    for (std::size_t i = 0; i < light.image.pixels.size(); ++i)
+        CHECK(both.image.pixels[i].y ==
+              doctest::Approx(light.image.pixels[i].y).epsilon(1e-5));
 }
 
 TEST_CASE("render: one pixel's ray is the same alone as in the picture") {

@@ -354,6 +354,30 @@ TEST_CASE("survey: where float stops holding, it says so, with the digits left")
         remarks(moved(1e14, 1.0))[0] ==
         "coordinates reach 1e+14 times the smallest radius, 1: double keeps 1 digit of "
         "it; move the scene towards the origin");
+    // Whichever comes first, and however large what comes later is.
+    Scene<Shapes<Sphere>, Materials<Lambertian>> turned;
+    const auto grey = turned.add(Lambertian{});
+    turned.add(PointLight{.intensity = Rgb{1}});
+    turned.add(Sphere{.center{0, -1e5f, 0}, .radius = 1}, grey);
+    turned.add(Sphere{.radius = 0.5f}, grey);
+    CHECK(remarks(turned) == remarks(moved(1e5f, 1.0f)));
+    turned.add(Sphere{.center{1e6f, 0, 0}, .radius = 1e6f}, grey);
+    CHECK(remarks(turned) == remarks(moved(1e5f, 1.0f)));
+    // All corners are one point: no digit is left, and no ratio to say it by.
+    const auto point = [](auto far) {
+        using T = decltype(far);
+        Scene<Shapes<TriangleT<T>>, Materials<LambertianT<T>>> scene;
+        const Vec3T<T> corner{far, -far, far};
+        scene.add(TriangleT<T>{.v1 = corner, .v2 = corner, .v3 = corner},
+                  scene.add(LambertianT<T>{}));
+        return detail::digits_remark(scene);
+    };
+    CHECK(point(100.0f) ==
+          "an object is so small or so far away that float keeps nothing of its size; "
+          "use double, or move the scene towards the origin");
+    CHECK(point(100.0) ==
+          "an object is so small or so far away that double keeps nothing of its size; "
+          "move the scene towards the origin");
     // It stands in the plan, and the first pass says it again.
     const auto far = moved(1e5f, 1.0f);
     const Plan plan = survey(far, PhotonMappingSettings{});
@@ -444,6 +468,17 @@ TEST_CASE("survey: a lobe that shadow rays do not find is named") {
         CHECK(remarks(wide, DirectLight::sampled).empty());
     CHECK(remarks(0.01f, DirectLight::mis).empty());
     CHECK(remarks(0.01f, DirectLight::analytic).empty());
+    // Objects are counted, and not their materials.
+    Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glossy>> three;
+    const auto polished = three.add(Glossy{.reflectance = Rgb{1}, .roughness = 0.01f});
+    three.add(Sphere{}, polished);
+    three.add(Sphere{.center{3, 0, 0}}, polished);
+    three.add(Quad{}, polished);
+    three.add(Quad{.corner{0, 5, 0}}, three.add(Glossy{.roughness = 0.5f}));
+    three.add(PointLight{.intensity = Rgb{1}});
+    const auto said = survey(three, PhotonMappingSettings{}).remarks;
+    REQUIRE(said.size() == 1);
+    CHECK(said[0].starts_with("3 object(s) are nearly mirrors"));
 }
 
 TEST_CASE("survey: which passes each way of indirect light needs, and from how many") {

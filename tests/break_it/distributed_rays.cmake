@@ -93,3 +93,9 @@ ljus_break_it(NAME stratified-stream-chance HEADER math/stratified_stream.hpp
     FROM "if (stream.pattern.sampling == Sampling::random) return u;"
     TO   ""
     CASES "stratified stream: by chance*")
+
+# A ray that is black already looks on.
+ljus_break_it(NAME distributed-rays-black HEADER render/distributed.hpp TEST distributed_rays
+    FROM "if (is_black(path.throughput)) break;"
+    TO   "(void)0;"
+    CASES "distributed rays: max_depth*")

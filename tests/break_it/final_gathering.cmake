@@ -102,3 +102,10 @@ ljus_break_it(NAME final-gathering-branch HEADER render/final_gathering.hpp
     FROM "std::uint64_t(i + 1) << 20"
     TO   "std::uint64_t(1) << 20"
     CASES "final gathering: in a hall*")
+
+# What is known of the side that the normal points to, whichever the ray meets.
+ljus_break_it(NAME final-gathering-seen-side HEADER render/final_gathering.hpp
+    TEST final_gathering
+    FROM "detail::seen_normal(*vertex)"
+    TO   "vertex->frame.normal"
+    CASES "final gathering: a gather ray looks up*")

@@ -71,3 +71,21 @@ ljus_break_it(NAME general-map-other-side HEADER photons/detail/flux_in_disc.hpp
     FROM "towards < T(0) ? T(1) : T(0)"
     TO   "towards < T(0) ? T(1) : T(1)"
     CASES "general map: a flat estimate*")
+
+# A candle beside a lamp sends photons by its power: no verdict knows it.
+ljus_break_it(NAME general-map-equal-lights HEADER render/photon_maps.hpp TEST general_map
+    FROM "general.equal_lights = true;"
+    TO   "(void)0;"
+    CASES "general map: for shadow rays alone*")
+
+# The second pass was complete, and so is all, whatever became of the first one.
+ljus_break_it(NAME general-map-complete HEADER render/photon_maps.hpp TEST general_map
+    FROM "maps.complete && traced.complete"
+    TO   "traced.complete"
+    CASES "general map: a pass that was stopped*")
+
+# The irradiance by the seed of the caustics.
+ljus_break_it(NAME general-map-irradiance-seed HEADER render/photon_maps.hpp TEST general_map
+    FROM "settings.irradiance, settings.general.seed,"
+    TO   "settings.irradiance, settings.caustics.seed,"
+    CASES "general map: who is asked*")

@@ -46,3 +46,17 @@ ljus_break_it(NAME all-lights-weight HEADER path/all_lights.hpp TEST all_lights
     FROM "balance_heuristic(next->sample.pdf, T(rays) * pdf) * path.throughput"
     TO   "path.throughput"
     CASES "all lights: multiple importance*")
+
+# Each picture's points in the same places of their squares.
+ljus_break_it(NAME irradiance-cache-seed HEADER render/irradiance_cache.hpp
+    TEST irradiance_cache
+    FROM "random_stream(picture.seed, Pass::gathering"
+    TO   "random_stream(1, Pass::gathering"
+    CASES "irradiance cache: each square*")
+
+# What was gathered stays in the order of the picture, while the tree has its own.
+ljus_break_it(NAME irradiance-cache-order HEADER render/irradiance_cache.hpp
+    TEST irradiance_cache
+    FROM "cache.records.push_back(records[i]);"
+    TO   "(void)i; cache.records.push_back(records[cache.records.size()]);"
+    CASES "irradiance cache: each point has*")

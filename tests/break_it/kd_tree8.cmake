@@ -75,3 +75,9 @@ ljus_break_it(NAME wide-kd-tree-thin HEADER accel/detail/kd_tree8_search.hpp TES
     FROM "kept += x <= bound;"
     TO   "kept += x < least;"
     CASES "kd_tree8: every search*")
+
+# Many balls at once: the leaves of those that were asked before.
+ljus_break_it(NAME wide-kd-tree-balls HEADER accel/detail/kd_tree8_traverse.hpp TEST kd_tree8
+    FROM "found.leaves.clear();"
+    TO   "(void)0;"
+    CASES "kd_tree8: many balls*")

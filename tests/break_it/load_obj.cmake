@@ -81,3 +81,9 @@ ljus_break_it(NAME load-obj-glass-first HEADER io/load_obj.hpp TEST load_obj
     FROM "if (is.is_glass()) return scene.add(glass);"
     TO   "if (is.is_glass() && !is.is_mirror()) return scene.add(glass);"
     CASES "load_obj: the rarer words*")
+
+# A corner on the line that cuts an ear off does not keep it.
+ljus_break_it(NAME polygon-ear-line HEADER geometry/detail/polygon.hpp TEST load_obj
+    FROM "turn(c, a, p) >= 0"
+    TO   "turn(c, a, p) > 0"
+    CASES "load_obj: a corner on the line*")

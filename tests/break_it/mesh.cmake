@@ -30,8 +30,8 @@ ljus_break_it(NAME mesh-area HEADER accel/mesh.hpp TEST mesh
 
 # What the choice of the triangle left of u is not stretched again.
 ljus_break_it(NAME mesh-left-of-u HEADER accel/mesh.hpp TEST mesh
-    FROM "glm::min(T(left), T(1))"
-    TO   "u.x"
+    FROM "Vec2T<T>{T(left), u.y}"
+    TO   "Vec2T<T>{u.x, u.y}"
     CASES "mesh: points are uniform*")
 
 # Every triangle of a corner has the same say, however it was cut.
@@ -51,3 +51,9 @@ ljus_break_it(NAME mesh-uv-corners HEADER accel/mesh.hpp TEST mesh
     FROM "hit.u * uv[corner[1]] +"
     TO   "hit.u * uv[corner[2]] +"
     CASES "mesh: texture coordinates*")
+
+# Each corner by the sine of its angle: of blunt ones the smaller angle.
+ljus_break_it(NAME mesh-blunt-angle HEADER accel/mesh_data.hpp TEST mesh
+    FROM "std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b))"
+    TO   "std::asin(glm::length(glm::cross(a, b)) / (glm::length(a) * glm::length(b)))"
+    CASES "mesh: smooth_normals() finds*")

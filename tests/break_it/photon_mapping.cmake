@@ -68,3 +68,10 @@ ljus_break_it(NAME render-one-pattern HEADER render/render.hpp TEST render
     FROM "mix_bits(picture.seed) ^ pixel"
     TO   "mix_bits(picture.seed)"
     CASES "render: neighbours*")
+
+# The irradiance cache's light through the clear part of a mixture, too.
+ljus_break_it(NAME photon-mapping-cache-lobes HEADER render/photon_mapping.hpp
+    TEST photon_mapping_steps
+    FROM "Lobes::diffuse, stream));"
+    TO   "Lobes::all, stream));"
+    CASES "photon mapping: who answers*")

@@ -55,3 +55,21 @@ ljus_break_it(NAME radiance-filter-later HEADER render/detail/sample_sums.hpp TE
     FROM "sample(weights_[i] * samples_[i]);"
     TO   "sample(samples_[i]);"
     CASES "render: answers that come later*")
+
+# Rows as far apart as the picture is high: pixels that share their numbers.
+ljus_break_it(NAME radiance-pixel-number HEADER render/render.hpp TEST render
+    FROM "static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(picture.width)"
+    TO   "static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(picture.height)"
+    CASES "render: no ray of a picture*")
+
+# The squares of samples without what the filter counts them.
+ljus_break_it(NAME radiance-squares HEADER render/detail/sample_sums.hpp TEST render
+    FROM "squares += sample * sample;"
+    TO   "squares += RgbT<double>(samples_[i] * samples_[i]);"
+    CASES "render: sums of samples*")
+
+# Shadow photons of a map made by hand shine, if many samples ask together.
+ljus_break_it(NAME radiance-later-kinds HEADER render/detail/later_caustics.hpp TEST render
+    FROM "light_kinds, counts.map_photons, found,"
+    TO   "all_kinds, counts.map_photons, found,"
+    CASES "render: of a caustics map*")

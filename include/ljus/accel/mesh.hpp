@@ -217,7 +217,7 @@ template <std::floating_point T>
     const double before = found == 0 ? 0.0 : sums[found - 1];
     const double left = (wanted - before) / (sums[found] - before);
     const auto part = static_cast<std::uint32_t>(found);
-    return sample_area(mesh.triangle(part), Vec2T<T>{glm::min(T(left), T(1)), u.y});
+    return sample_area(mesh.triangle(part), Vec2T<T>{T(left), u.y});
 }
 /// The area, in squared scene units.
 template <std::floating_point T>

@@ -71,7 +71,6 @@ constexpr void add(Estimate& estimate, double x) noexcept {
 /// \param estimate  Of the samples.
 /// \return sqrt(variance / n), in the unit of the samples; infinity for fewer than 2.
 [[nodiscard]] inline double standard_error(const Estimate& estimate) noexcept {
-    if (estimate.count < 2) return std::numeric_limits<double>::infinity();
     return std::sqrt(variance(estimate) / estimate.count);
 }
 // [variance]

@@ -208,7 +208,6 @@ template <typename R, template <std::floating_point> typename AnyCamera,
                                   const RenderSettings& picture) {
     constexpr bool renders = Renderer<R, T>;
     static_assert(renders, "It is no renderer: make_path_tracer(scene) makes one.");
-    detail::require_image_size(picture.width, picture.height);
     if constexpr (renders)
         return render_rows(renderer, camera, picture, {0, picture.height});
     else
