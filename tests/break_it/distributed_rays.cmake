@@ -93,3 +93,17 @@ ljus_break_it(NAME stratified-stream-chance HEADER math/stratified_stream.hpp
     FROM "if (stream.pattern.sampling == Sampling::random) return u;"
     TO   ""
     CASES "stratified stream: by chance*")
+
+# Bounces whose draws overlap.
+ljus_break_it(NAME stratified_stream-bounce HEADER math/stratified_stream.hpp
+    TEST lens_camera
+    FROM "stream.dimension = bounce << 16;"
+    TO   "stream.dimension = bounce;"
+    CASES "stratified stream: of which*")
+
+# Rays of neighbouring pixels that stand alike in their cells.
+ljus_break_it(NAME stratified_stream-path HEADER math/stratified_stream.hpp
+    TEST lens_camera
+    FROM "pixel * static_cast<std::uint64_t>(pattern.points) +"
+    TO   "pixel +"
+    CASES "stratified stream: of which*")
