@@ -200,3 +200,19 @@ TEST_CASE("box: around a ball it is hardly larger than the ball") {
     CHECK(glm::distance(box.low, Vec3{-3, -6, -1}) < 1e-5f);
     CHECK(glm::distance(box.high, Vec3{5, 2, 7}) < 1e-5f);
 }
+
+TEST_CASE("box: around a flat quad it is not flat") {
+    // Else a ray in its plane would have no room for any rounding.
+    for (int axis = 0; axis < 3; ++axis) {
+        Quad quad;
+        quad.edge_u = quad.edge_v = Vec3{0};
+        quad.edge_u[(axis + 1) % 3] = quad.edge_v[(axis + 2) % 3] = 1;
+        const Box box = bounds(quad);
+        CHECK(box.low[axis] < 0);
+        CHECK(box.high[axis] > 0);
+        CHECK(box.high[axis] < 1e-6f);
+    }
+    const Box of_ball = bounds(Sphere{.radius = 1e-44f});
+    CHECK(of_ball.low.x < -1e-44f);
+    CHECK(of_ball.high.z > 1e-44f);
+}

@@ -139,3 +139,21 @@ TEST_CASE("bsdf: which hooks a material has, by name") {
           "pass_through only_specular ");
     CHECK(names(ljus::detail::material_hooks<reader::Wall>()) == "at_point uses_uv ");
 }
+
+TEST_CASE("bsdf: a sample without more said, and a material of one place") {
+    const ljus::BsdfSample s;
+    CHECK(s.wi == Vec3{0, 0, 1});
+    CHECK(s.weight == Rgb{0});
+    CHECK(s.pdf == 0);
+    CHECK_FALSE(s.specular);
+    CHECK(s.eta_scale == 1);
+    const reader::Paint paint{.grey = 0.25f};
+    CHECK(&ljus::material_at(paint, Vec3{1}, ljus::Vec2{0}) == &paint);
+    CHECK(ljus::material_at(reader::Wall{}, Vec3{1}, ljus::Vec2{0}).grey == 0.5f);
+    // What a delta need not write.
+    const ljus::Glass glass;
+    const Vec3 up{0, 0, 1};
+    CHECK(lobes(glass) == Lobes::specular);
+    CHECK(evaluate(glass, up, up) == Rgb{0});
+    CHECK(pdf(glass, up, up) == 0);
+}

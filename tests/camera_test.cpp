@@ -200,3 +200,23 @@ TEST_CASE("camera: what lies beside or behind the camera has no place in the pic
     CHECK_FALSE(
         project(camera, Vec3{1e38f, 2, 2.9f}, 200, 100)); // out of float's range
 }
+
+TEST_CASE("camera: without more said it looks along -z, upright") {
+    const Camera camera;
+    CHECK(camera.position == Vec3{0});
+    CHECK(camera.right == Vec3{1, 0, 0});
+    CHECK(camera.up == Vec3{0, 1, 0});
+    CHECK(camera.forward == Vec3{0, 0, -1});
+    CHECK(camera.half_height == 1);
+    const View view;
+    CHECK(view.position == Vec3{0});
+    CHECK(view.target == Vec3{0, 0, -1});
+    CHECK(view.up == Vec3{0, 1, 0});
+    CHECK(view.vfov_degrees == 45);
+    // A pinhole leaves nothing to chance, and draws no number.
+    int drawn = 0;
+    CHECK(camera_ray(camera, Vec2{3, 4}, 10, 20, drawn).direction ==
+          primary_ray(camera, Vec2{3, 4}, 10, 20).direction);
+    CHECK(drawn == 0);
+    CHECK(camera_ray(camera, Vec2{3, 4}, 10, 20, drawn).t_min == 0);
+}

@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "support/bsdf_checks.hpp"
+#include "support/within.hpp"
 
 using ljus::CompensatedGlossyT, ljus::GlossyT, ljus::Lobes, ljus::Transport,
     ljus::Vec3T;
@@ -218,4 +220,93 @@ TEST_CASE("facet loss: a cosine is drawn by its share of what is lost, cell by c
         MESSAGE("at ", alpha, " off by ", worst);
         CHECK(worst < 5e-6);
     }
+}
+
+TEST_CASE(
+    "facet loss: a mirror loses nothing; a table holds shares, and is found again") {
+    const ljus::detail::EnergyLossT<float> none;
+    for (const float c : {0.0f, 1e-30f, 0.5f, 1.0f})
+        CHECK(ljus::detail::lost_at(none, c) == 0);
+    for (const float alpha : {1e-4f, 0.01f, 0.3f, 1.0f}) {
+        const auto loss = ljus::detail::bake_energy_loss(alpha);
+        const auto cells = float(loss.cells);
+        CHECK(loss.alpha == alpha);
+        for (const float lost : loss.at) REQUIRE((lost >= 0 && lost < 1));
+        CHECK(std::is_sorted(loss.below.begin(), loss.below.end()));
+        CHECK(loss.below.front() == 0);
+        CHECK(loss.below.back() == 1);
+        CHECK(ljus::detail::facet_place(alpha, 0.0f) == 0);
+        CHECK(ljus::detail::facet_place(alpha, 1.0f) == cells);
+        CHECK(ljus::detail::facet_place(alpha, 1.25f) == cells); // by rounding, say
+        CHECK(ljus::detail::lost_at(loss, 1.25f) ==
+              ljus_test::within(double(loss.at.back()), 1e-5));
+        for (int i = 1; i <= loss.cells; ++i)
+            REQUIRE(ljus::detail::facet_place(
+                        double(alpha),
+                        ljus::detail::facet_cosine(double(alpha), double(i))) ==
+                    doctest::Approx(i).epsilon(1e-9));
+        for (const float u : {0.0f, 0.5f, std::nextafter(1.0f, 0.0f)}) {
+            const float z = ljus::detail::sample_lost(loss, u);
+            REQUIRE((z >= 0 && z <= 1));
+        }
+    }
+}
+
+TEST_CASE(
+    "facet loss: what is given back is what the table says is lost, cell by cell") {
+    // The integral of 2 mu times the table by a rule of its own, even in mu^2.
+    for (const double alpha : {0.3, 1.0}) {
+        const auto loss = ljus::detail::bake_energy_loss(alpha);
+        constexpr int n = 400000;
+        double sum = 0, farthest = 0;
+        int next = 1;
+        for (int i = 0; i < n; ++i) {
+            const double mu = std::sqrt((i + 0.5) / n);
+            while (next < loss.cells &&
+                   ljus::detail::facet_cosine(alpha, double(next)) <= mu) {
+                farthest = std::max(farthest, std::abs(sum / loss.mean -
+                                                       loss.below[std::size_t(next)]));
+                ++next;
+            }
+            sum += ljus::detail::lost_at(loss, mu) / n;
+            // Where a direction is drawn, there it is lost.
+            const double right = ljus::detail::lost_at(loss, mu) * mu / loss.mean;
+            if (i % 100 == 0)
+                REQUIRE(ljus::detail::pdf_lost(loss, mu) * std::numbers::pi ==
+                        doctest::Approx(right).epsilon(0.02));
+        }
+        MESSAGE("the mean is off by ", loss.mean / sum - 1, ", a cell by ", farthest);
+        CHECK(std::abs(loss.mean / sum - 1) < 4e-6);
+        CHECK(farthest < 1e-5);
+    }
+}
+
+TEST_CASE("full glossy: the first reflection is taken as often as it carries light") {
+    using ljus::detail::chance_of_first;
+    for (const double roughness : {0.4, 0.7, 1.0})
+        for (const double degrees : {0.0, 50.0, 80.0}) {
+            const auto wo = at_degrees<double>(degrees);
+            // All that white loses comes back.
+            const auto all = white<double>(roughness);
+            const double lost = ljus::detail::lost_at(all.loss, wo.z);
+            CHECK(chance_of_first(all, wo) == doctest::Approx(1 - lost).epsilon(1e-6));
+            CHECK(chance_of_first(all, -wo) == chance_of_first(all, wo));
+            // Of copper by quadrature: red, the brightest. Facets are met at other
+            // angles than their mean's, so that this is not exact.
+            const auto m = metal(ljus::copper<double>, roughness);
+            const double full = albedo_by_quadrature(m, wo, 200).x;
+            const double first = albedo_by_quadrature(m.first, wo, 200).x;
+            CHECK(std::abs(chance_of_first(m, wo) - first / full) < 0.02);
+        }
+    const auto mirror = compensated_glossy(
+        GlossyT<double>{.reflectance = ljus::RgbT<double>{0.5}, .roughness = 0});
+    CHECK(chance_of_first(mirror, at_degrees<double>(30)) == 1);
+    // A metal's mean, and a colour's, by another rule.
+    const auto mean = ljus::detail::mean_reflectance<double>(ljus::gold<double>);
+    ljus::RgbT<double> sum{0};
+    for (int i = 0; i < 20000; ++i) {
+        const double mu = (i + 0.5) / 20000;
+        sum += 2 * mu / 20000 * ljus::fresnel_conductor(mu, ljus::gold<double>);
+    }
+    for (int c = 0; c < 3; ++c) CHECK(mean[c] == ljus_test::within(sum[c], 3e-4));
 }

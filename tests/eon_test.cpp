@@ -245,3 +245,39 @@ TEST_CASE("eon: the same from all around, and from both sides") {
         check_symmetry(EonT<double>{.albedo = ljus::RgbT<double>{0.9, 0.5, 0.1},
                                     .roughness = roughness});
 }
+
+TEST_CASE("eon: black has no sample, but a lobe; what is asked for is what is drawn") {
+    const Eon black{.albedo = ljus::Rgb{0}};
+    const ljus::Vec3 up{0, 0, 1}, u{0.5f, 0.5f, 0.5f};
+    const auto flux = ljus::Transport::flux;
+    CHECK_FALSE(sample(black, up, u, flux));
+    CHECK(lobes(black) == ljus::Lobes::diffuse);
+    CHECK(sample(Eon{.albedo{0, 0, 0.01f}}, up, u, flux));
+    CHECK(sample(Eon{}, up, u, flux, ljus::Lobes::diffuse));
+    CHECK_FALSE(sample(Eon{}, up, u, flux, ljus::Lobes::specular));
+    CHECK_FALSE(sample(Eon{}, up, u, flux, ljus::Lobes::glossy));
+    CHECK(pdf(Eon{}, up, up, ljus::Lobes::glossy) == 0);
+    CHECK(Eon{}.albedo == ljus::Rgb{0.5f});
+    CHECK(Eon{}.roughness == 0.5f);
+}
+
+TEST_CASE_TEMPLATE("eon: what is lost is a share, and the lobe leans away from none", T,
+                   float, double) {
+    int wrong = 0;
+    for (int i = 0; i <= 20000; ++i) {
+        // Down to the horizon, where rounding takes the difference below 0.
+        const T mu = i % 2 ? T(i) / T(20000) : T(std::pow(10.0, -9.0 * i / 20000));
+        const T sine = std::sqrt((T(1) - mu) * (T(1) + mu));
+        const T lost = ljus::detail::eon_loss(sine, mu);
+        wrong += !(lost >= T(0) && lost <= ljus::detail::fon_constant<T> * T(1.001));
+        for (const T r : {T(0), T(0.3), T(1)}) {
+            const auto lobe = ljus::detail::eon_lobe(r, Vec3T<T>{sine, T(0), mu});
+            wrong += !(lobe.d <= T(0)) || !(lobe.kept > T(0.5) && lobe.kept <= T(1));
+            wrong += !(lobe.uniform >= T(0) && lobe.uniform < T(1));
+            wrong += !(lobe.a > T(0) && lobe.c > T(0));
+        }
+    }
+    CHECK(wrong == 0);
+    CHECK(ljus::detail::eon_loss(T(1), T(0)) < T(1e-6)); // along the surface none
+    CHECK(ljus::detail::eon_loss(T(0), T(1)) == ljus::detail::fon_constant<T>);
+}

@@ -281,3 +281,61 @@ TEST_CASE("form_factor: from a point, by Lambert") {
                 form_factor_at({(i + 0.5) / 100, (k + 0.5) / 100, 0}, up, side) / 1e4;
     CHECK(mean == doctest::Approx(exchange_area(floor, side)).epsilon(1e-4));
 }
+
+TEST_CASE("facet: a plane cuts it into two parts that are all of it") {
+    Numbers numbers{7};
+    int cut = 0, corners = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const V p = numbers.point(1), u = numbers.point(1), v = numbers.point(1);
+        const Facet whole = i % 2 ? rectangle(p, u, v) : Facet{{p, p + u, p + v}, 3};
+        const V at = numbers.point(1), normal = numbers.direction();
+        const Facet front = ljus::detail::clipped(whole, at, normal);
+        const Facet back = ljus::detail::clipped(whole, at, -normal);
+        const V all = ljus::detail::area_vector(whole);
+        const V sum =
+            ljus::detail::area_vector(front) + ljus::detail::area_vector(back);
+        REQUIRE(glm::distance(sum, all) < 1e-12);
+        for (int k = 0; k < front.count; ++k) {
+            const V corner = front.corners[std::size_t(k)];
+            REQUIRE(glm::dot(corner - at, normal) > -1e-12);
+            REQUIRE(std::abs(glm::dot(corner - p, all)) < 1e-12); // in its plane
+        }
+        REQUIRE((front.count == 0 || front.count >= 3));
+        cut += front.count > 0 && back.count > 0;
+        corners = std::max(corners, front.count);
+        const Facet other = ljus::detail::turned(whole);
+        REQUIRE(other.count == whole.count);
+        REQUIRE(glm::distance(ljus::detail::area_vector(other), -all) < 1e-14);
+    }
+    CHECK(cut > 500);
+    CHECK(corners == 5);
+}
+
+TEST_CASE("facet: what only touches the plane is no part, what is near it lies on it") {
+    const V up{0, 0, 1};
+    const Facet wall = rectangle({0, 0, -1}, {1, 0, 0}, {0, 0, 1}); // its edge at 0
+    CHECK(ljus::detail::clipped(wall, {}, up).count == 0);
+    CHECK(ljus::detail::clipped(wall, {}, -up).count == 4);
+    const Facet tip{{V{0, 0, 0}, V{-1, 0, -1}, V{1, 0, -1}}, 3};
+    CHECK(ljus::detail::clipped(tip, {}, up).count == 0);
+    CHECK(ljus::detail::area_vector(Facet{{V{0, 0, 0}, V{1, 0, 0}}, 2}) == V{0});
+    // An edge that lies 1e-9 beyond: cut off, or taken as it is.
+    const Facet low = rectangle({0, 0, -1e-9}, {1, 0, 0}, {0, 0, 1});
+    const Facet exact = ljus::detail::clipped(low, {}, up);
+    REQUIRE(exact.count == 4);
+    const Facet wide = ljus::detail::clipped(low, {}, up, 1e-8);
+    REQUIRE(wide.count == 4);
+    double least = 1, least_wide = 1;
+    for (std::size_t k = 0; k < 4; ++k) {
+        least = std::min(least, exact.corners[k].z);
+        least_wide = std::min(least_wide, wide.corners[k].z);
+    }
+    CHECK(std::abs(least) < 1e-20);
+    CHECK(least_wide == -1e-9);
+    CHECK(ljus::detail::clipped(low, {}, -up, 1e-8).count == 0);
+    // Edges that a point sees at more than a right angle: a roof without an end.
+    const Facet roof = rectangle({-1e4, -1e4, 1}, {0, 2e4, 0}, {2e4, 0, 0});
+    CHECK(form_factor_at({}, up, roof) > 1 - 1e-7);
+    CHECK(form_factor_at({}, up, roof) < 1 + 1e-12);
+    CHECK(form_factor_at({}, up, Facet{}) == 0);
+}

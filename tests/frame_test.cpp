@@ -132,3 +132,21 @@ TEST_CASE_TEMPLATE("frame: orthonormal within the units that the doc names", T, 
     CHECK(length[1] < 3);
     CHECK(product[1] < 8);
 }
+
+TEST_CASE_TEMPLATE("frame: on the equator the sign of zero tells which side it is of",
+                   T, float, double) {
+    // So that the frame there is the limit from that side, and does not jump.
+    const T near = T(1e-3) * std::numeric_limits<T>::epsilon();
+    for (const T turn : {T(0), T(1), T(2.5), T(4)})
+        for (const T side : {T(1), T(-1)}) {
+            const T x = std::cos(turn), y = std::sin(turn);
+            const auto there = frame_around(Vec3T<T>{x, y, side * T(0)});
+            const auto beside = frame_around(Vec3T<T>{x, y, side * near});
+            CHECK(glm::distance(there.tangent, beside.tangent) < T(1e-6));
+            CHECK(glm::distance(there.bitangent, beside.bitangent) < T(1e-6));
+        }
+    const FrameT<T> none;
+    CHECK(none.tangent == Vec3T<T>{1, 0, 0});
+    CHECK(none.bitangent == Vec3T<T>{0, 1, 0});
+    CHECK(none.normal == Vec3T<T>{0, 0, 1});
+}

@@ -255,3 +255,55 @@ TEST_CASE("glossy: a value beyond the largest float is none") {
     const GlossyT<float> blunt{.reflectance = ljus::Rgb{1}, .roughness = 0.01f};
     CHECK(evaluate(blunt, up, up).x > 1e6f);
 }
+
+TEST_CASE_TEMPLATE("glossy: a mirror from below too, and of a cosine beyond 1", T,
+                   float, double) {
+    const GlossyT<T> mirror{.reflectance{T(0.9), T(0.5), T(0.1)}, .roughness = 0};
+    const Vec3T<T> u{T(0.3), T(0.4), T(0.5)};
+    for (const double degrees : {0.0, 30.0, 80.0}) {
+        const auto wo = at_degrees<T>(degrees, 20);
+        const Vec3T<T> below{wo.x, wo.y, -wo.z};
+        const auto a = sample(mirror, wo, u, Transport::radiance);
+        const auto b = sample(mirror, below, u, Transport::flux);
+        REQUIRE((a && b));
+        CHECK(b->wi == ljus::reflect(below));
+        CHECK(b->weight == a->weight);
+        for (int c = 0; c < 3; ++c)
+            CHECK(double(a->weight[c]) ==
+                  doctest::Approx(double(ljus::schlick(mirror.reflectance[c], wo.z))));
+    }
+    for (const T z : {T(1.5), T(-1.5)})
+        CHECK(sample(mirror, Vec3T<T>{0, 0, z}, u, Transport::flux)->weight ==
+              mirror.reflectance);
+}
+
+TEST_CASE("glossy: black facets reflect nothing straight on, and much at their rims") {
+    const GlossyT<double> black{.reflectance{0, 0, 0}, .roughness = 0.5};
+    const Vec3T<double> up{0, 0, 1};
+    // The facet in the middle of the cap lies flat.
+    CHECK_FALSE(sample(black, up, {0.5, 0, 0.5}, Transport::flux));
+    const auto beside = sample(black, up, {0.5, 0.5, 0.5}, Transport::flux);
+    REQUIRE(beside);
+    CHECK(beside->weight.x > 0);
+    CHECK(sample(black, at_degrees<double>(89), {0.5, 0, 0.5}, Transport::flux)
+              ->weight.x > 0.1);
+}
+
+TEST_CASE("glossy: a metal's facets reflect what the metal does at their angle") {
+    Draws draws{ljus_test::test_seed(3)};
+    const GlossyT<double> white{.reflectance = ljus::RgbT<double>{1}, .roughness = 0.6};
+    const MetalOf<double> metal{.reflectance = ljus::copper<double>, .roughness = 0.6};
+    for (int i = 0; i < 500; ++i) {
+        const auto wo = draws.above<double>(), wi = draws.above<double>();
+        const double half = std::sqrt((1 + glm::dot(wo, wi)) / 2); // of the angle
+        const auto f = evaluate(metal, wo, wi);
+        const double of_white = evaluate(white, wo, wi).x;
+        for (int c = 0; c < 3; ++c)
+            REQUIRE(f[c] == doctest::Approx(of_white * ljus::fresnel_conductor(
+                                                           half, metal.reflectance.n[c],
+                                                           metal.reflectance.k[c]))
+                                .epsilon(1e-9));
+    }
+    CHECK(Glossy{}.roughness == 0.3f);
+    CHECK(ljus::lobes(Glossy{}) == Lobes::glossy);
+}

@@ -167,3 +167,16 @@ TEST_CASE(
     const Moments without = moments(sky, naive, [](const Direction&) { return 1.0; });
     CHECK(without.mean == doctest::Approx(2 / pi).epsilon(1e-5));
 }
+
+TEST_CASE_TEMPLATE("hemisphere_sampling: near the horizon the height keeps its digits",
+                   T, float, double) {
+    // Of the cosine of the inclination rounding leaves none there.
+    using L = long double;
+    const T unit = std::numeric_limits<T>::epsilon() / 2;
+    for (int k = 1; k < 50; ++k) {
+        const T u = T(1) - T(k) * unit;
+        const L right = std::sin((1 - L(u)) * std::numbers::pi_v<L> / 2);
+        const T z = ljus::sample_naive_hemisphere(Vec2T<T>{u, T(0.25)}).z;
+        CHECK(std::abs(L(z) - right) <= 8 * L(unit) * right);
+    }
+}

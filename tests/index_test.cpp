@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <type_traits>
 
 #include "ljus/geometry/watertight.hpp"
 #include "ljus/materials/lambertian.hpp"
@@ -399,4 +401,97 @@ TEST_CASE("few shapes: what has room there") {
     CHECK(make_few_shapes(std::tuple<std::vector<Sphere>, std::vector<Other>>{
                               {Sphere{}}, {Other{}}})
               .empty());
+}
+
+TEST_CASE("indexed scene: the frames of its flat shapes face as the objects do") {
+    Scene<Shapes<Sphere, Quad, Triangle>, Materials<Lambertian>> scene;
+    const auto grey = scene.add(Lambertian{});
+    scene.add(Sphere{}, grey);
+    scene.add(Quad{}, grey);
+    scene.add(Quad{}, grey, Rgb{0}, true);
+    scene.add(Triangle{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}}, grey);
+    const auto frames = detail::frames_of(scene);
+    CHECK(frames[0].empty()); // of a ball there is no one normal
+    REQUIRE(frames[1].size() == 2);
+    REQUIRE(frames[2].size() == 1);
+    CHECK(frames[1][0].normal == Vec3{0, 0, 1});
+    CHECK(frames[1][1].normal == Vec3{0, 0, -1});
+    CHECK(frames[2][0].normal == Vec3{0, 0, -1});
+    CHECK(glm::dot(frames[1][1].tangent, frames[1][1].normal) == 0);
+    CHECK(index_scene(scene).frames[1][1].normal == Vec3{0, 0, -1});
+    // From how many shapes on there is a tree, or eight are asked at a time.
+    CHECK_FALSE(detail::needs_tree(0));
+    CHECK_FALSE(detail::needs_tree(2));
+    CHECK(detail::needs_tree(3));
+    CHECK(detail::are_few(scene));
+    CHECK(detail::are_few(index_scene(scene)));
+    CHECK_FALSE(detail::are_few(index_scene(scene, false)));
+    Scene<Shapes<Sphere>, Materials<Lambertian>> two;
+    const auto matt = two.add(Lambertian{});
+    for (int i = 0; i < 2; ++i) two.add(Sphere{}, matt);
+    CHECK_FALSE(detail::are_few(two));
+    CHECK(index_scene(two).ids.empty());
+    CHECK_FALSE(detail::are_few(index_scene(two)));
+    two.add(Sphere{}, matt);
+    CHECK(detail::are_few(two));
+    CHECK(index_scene(two).ids.size() == 3);
+    // It stands for the scene: what is asked of one is what the other says.
+    const auto indexed = index_scene(scene);
+    const ObjectId wall{1, 1};
+    CHECK(&indexed.object(wall) == &scene.object(wall));
+    CHECK(&indexed.lights == &scene.lights);
+    CHECK(&indexed.materials == &scene.materials);
+    CHECK(indexed.visit_shape(wall, [](const auto& s) { return sizeof(s); }) ==
+          sizeof(Quad));
+    CHECK(indexed.visit_material(grey, [](const auto& m) { return m.albedo.x; }) ==
+          0.5f);
+    using Indexed = std::remove_cvref_t<decltype(indexed)>;
+    const auto is_quad = []<typename G>() { return std::is_same_v<G, Quad>; };
+    const auto is_int = []<typename G>() { return std::is_same_v<G, int>; };
+    CHECK(Indexed::any_shape(is_quad));
+    CHECK_FALSE(Indexed::any_shape(is_int));
+    CHECK_FALSE(Indexed::any_material(is_quad));
+}
+
+namespace reader {
+
+/// A ball that is quick to say whether it is met, and counts how often it is asked.
+struct Quick {
+    Sphere ball{};
+    int* asked = nullptr;
+};
+inline std::optional<float> intersect(const Ray& ray, const Quick& s) {
+    return ljus::intersect(ray, s.ball);
+}
+template <typename Compute>
+bool meets(const Ray& ray, const Quick& s) {
+    ++*s.asked;
+    return ljus::intersect(ray, s.ball).has_value();
+}
+inline SurfacePoint surface_point(const Quick& s, const Ray& ray,
+                                  const FlatHitT<float>& hit) {
+    return ljus::surface_point(s.ball, ray, hit);
+}
+inline Sphere bounding_sphere(const Quick& s) {
+    return s.ball;
+}
+inline void check(const Quick&) {}
+
+} // namespace reader
+
+TEST_CASE("indexed scene: a shape that is quick to say so is asked whether it is met") {
+    for (const int count : {1, 2, 3, 40}) {
+        int asked = 0;
+        Scene<Shapes<reader::Quick>, Materials<Lambertian>> scene;
+        const auto grey = scene.add(Lambertian{});
+        for (int i = 0; i < count; ++i)
+            scene.add(reader::Quick{{{5.0f * float(i), 0, -5}, 1}, &asked}, grey);
+        const auto indexed = index_scene(scene);
+        CHECK(occluded(indexed, Ray{}));
+        CHECK(asked == 1);
+        CHECK(closest_hit(indexed, Ray{})->at.t == 4);
+        CHECK(asked == 1);
+        CHECK_FALSE(occluded(indexed, Ray{.direction{0, 1, 0}}));
+        CHECK(asked <= 1 + (count < 3 ? count : 0)); // in a tree nobody is
+    }
 }

@@ -65,3 +65,13 @@ TEST_CASE("lambertian: an albedo outside [0, 1] is refused by name and value") {
     CHECK_FALSE(refusal(Lambertian{.albedo = {0, NAN, 1}}).empty());
     CHECK_FALSE(refusal(Lambertian{.albedo = {-0.1f, 0, 1}}).empty());
 }
+
+TEST_CASE(
+    "lambertian: only what is asked for is drawn, and half of the light is grey") {
+    const ljus::Vec3 up{0, 0, 1}, u{0.5f, 0.5f, 0.5f};
+    CHECK(sample(ljus::Lambertian{}, up, u, ljus::Transport::flux, Lobes::diffuse));
+    CHECK_FALSE(
+        sample(ljus::Lambertian{}, up, u, ljus::Transport::flux, Lobes::glossy));
+    CHECK(pdf(ljus::Lambertian{}, up, up, Lobes::glossy) == 0);
+    CHECK(ljus::Lambertian{}.albedo == ljus::Rgb{0.5f});
+}

@@ -76,8 +76,12 @@ TEST_CASE("lanes: those that say yes are taken one by one, the first one first")
         for (std::size_t i = 0; i < 8; ++i)
             mask.lane[i] = (wanted & lane_bit[i]) != 0 ? -1 : 0;
         std::uint64_t yes = yes_lanes(mask);
-        std::uint32_t taken = 0;
-        while (yes != 0) taken |= lane_bit[take_lane(yes)];
+        std::uint32_t taken = 0, last = 0;
+        while (yes != 0) {
+            const std::uint32_t bit = lane_bit[take_lane(yes)];
+            REQUIRE(bit > last); // each of them once
+            taken |= last = bit;
+        }
         REQUIRE(taken == wanted);
     }
 }
@@ -87,4 +91,20 @@ TEST_CASE("lanes: a point goes in and comes out") {
     for (std::size_t i = 0; i < 8; ++i) block.set(i, Vec3{float(i), 10.0f, -float(i)});
     for (std::size_t i = 0; i < 8; ++i)
         CHECK(block[i] == Vec3{float(i), 10.0f, -float(i)});
+}
+
+TEST_CASE_TEMPLATE("lanes: a bound that is met counts, in either precision", T, float,
+                   double) {
+    LanesT<T> a{};
+    for (std::size_t i = 0; i < 8; ++i) a.lane[i] = T(8 - i); // 8 to 1
+    CHECK(smallest_lane(a, 255u, T(9)) == 7);
+    CHECK(smallest_lane(a, 127u, T(9)) == 6);
+    CHECK(smallest_lane(a, 1u, T(8)) == 0);
+    CHECK(smallest_lane(a, 1u, std::nextafter(T(8), T(0))) == 8);
+    CHECK(smallest_lane(a, 0u, T(9)) == 8);
+    CHECK(smallest_lane(a, 256u, T(9)) == 8); // no lane of these
+    CHECK(lanes_up_to(a, T(3)) == (32u | 64u | 128u));
+    for (T& x : a.lane) x = std::numeric_limits<T>::infinity();
+    CHECK(smallest_lane(a, 255u, std::numeric_limits<T>::infinity()) < 8);
+    CHECK(smallest_lane(a, 255u, std::numeric_limits<T>::max()) == 8);
 }

@@ -277,3 +277,73 @@ TEST_CASE("stratified stream: by chance alone, if the picture asks for that") {
         CHECK(next_3d<double>(stream) == next_3d<double>(plain));
     }
 }
+
+TEST_CASE("stratified stream: of which seed, pixel and path its numbers are") {
+    const Pattern pattern = make_pattern(Sampling::multi_jittered, 16);
+    StratifiedStream stream;
+    start_ray(stream, 4, 11, 3, pattern);
+    CHECK(stream.ray == 3);
+    CHECK(stream.pattern.points == 16);
+    CHECK(stream.dimension == 0);
+    // Where in its cell a ray stands, no other ray of the picture has from the same.
+    CHECK(stream.rest.key == random_stream(4, Pass::camera, 0, 11 * 16 + 3).key);
+    CHECK(stream.key != random_stream(4, Pass::camera, 0, 11).key);
+    StratifiedStream neighbour;
+    start_ray(neighbour, 4, 11, 4, pattern);
+    CHECK(neighbour.key == stream.key); // of the pixel
+    CHECK(neighbour.rest.key != stream.rest.key);
+    // A bounce begins at a place of its own, whatever was drawn before.
+    StratifiedStream more = stream;
+    (void)next_3d<double>(more);
+    CHECK(more.dimension == 2);
+    start_bounce(more, 5);
+    CHECK(more.dimension == std::uint64_t(5) << 16);
+    CHECK(more.rest.counter == std::uint64_t(5) << 16);
+    // A cube's point is a square's, and then a number.
+    StratifiedStream a = stream, b = stream;
+    const auto xyz = next_3d<double>(a);
+    CHECK(next_2d<double>(b) == Vec2T<double>{xyz.x, xyz.y});
+    CHECK(next_1d<double>(b) == xyz.z);
+}
+
+TEST_CASE_TEMPLATE("stratified stream: within its part of the interval a number is as "
+                   "random as the rest",
+                   T, float, double) {
+    for (const int rays : {1, 4, 7}) {
+        const Pattern pattern = make_pattern(Sampling::multi_jittered, rays);
+        for (int ray = 0; ray < rays; ++ray) {
+            StratifiedStream stream;
+            start_ray(stream, 4, 9, ray, pattern);
+            RandomStream rest = stream.rest;
+            const double u = double(next_1d<T>(stream)) * rays;
+            const double within = double(next_1d<T>(rest));
+            CHECK(u - std::floor(u) == doctest::Approx(within).epsilon(1e-5));
+        }
+    }
+    const T last = T(1) - std::numeric_limits<T>::epsilon() / T(2);
+    CHECK(detail::below_one(T(1)) == last);
+    CHECK(detail::below_one(last) == last);
+    CHECK(detail::below_one(T(0.25)) == T(0.25));
+    CHECK(last < T(1));
+}
+
+TEST_CASE("lens: without an opening it is a pinhole; it draws two numbers") {
+    const LensCamera lens;
+    CHECK(lens.radius == 0);
+    CHECK(lens.focus == 1);
+    const auto wide = camera<double>(0.3, 4.0);
+    auto numbers = random_stream(5, Pass::user, 0, 0), same = numbers;
+    const auto ray = camera_ray(wide, Vec2T<double>{30, 10}, 60, 40, numbers);
+    CHECK(numbers.counter == 2);
+    const auto by_hand =
+        primary_ray(wide, Vec2T<double>{30, 10}, 60, 40, next_2d<double>(same));
+    CHECK(ray.origin == by_hand.origin);
+    CHECK(ray.direction == by_hand.direction);
+    // u runs along the picture's own axes: its corner is the opening's lower left.
+    const auto corner =
+        primary_ray(wide, Vec2T<double>{30, 10}, 60, 40, {0, 0}).origin -
+        wide.pinhole.position;
+    const double s = 0.3 * std::sqrt(0.5);
+    CHECK(glm::dot(corner, wide.pinhole.right) == doctest::Approx(-s));
+    CHECK(glm::dot(corner, wide.pinhole.up) == doctest::Approx(-s));
+}

@@ -478,3 +478,43 @@ TEST_CASE("light: a sample says its density, and 0 where there is none") {
     REQUIRE(sample(3));
     CHECK(sample(3)->pdf == 0);
 }
+
+TEST_CASE("light: without more said, each of the three") {
+    CHECK(PointLight{}.position == Vec3{0});
+    CHECK(PointLight{}.intensity == Rgb{1});
+    CHECK(SpotLight{}.position == Vec3{0});
+    CHECK(SpotLight{}.direction == Vec3{0, -1, 0});
+    CHECK(SpotLight{}.intensity == Rgb{1});
+    CHECK(SpotLight{}.inner_degrees == 20);
+    CHECK(SpotLight{}.outer_degrees == 30);
+    CHECK(SunLight{}.direction == Vec3{0, -1, 0});
+    CHECK(SunLight{}.irradiance == Rgb{1});
+    CHECK(make_light(PointLight{}).kind == LightKind::point);
+    CHECK(make_light(SpotLight{}).kind == LightKind::spot);
+    CHECK(make_light(SunLight{}).kind == LightKind::sun);
+    const Light none;
+    CHECK_FALSE(none.object);
+    CHECK((none.area == 0 && none.radius == 0 && none.inner == 0 && none.outer == 0));
+    CHECK((is_black(none.emission) && is_black(none.flux)));
+    const LightSampleT<float> nothing;
+    CHECK((nothing.pdf == 0 && is_black(nothing.weight)));
+    // A sun has no flux until there is something that it shines on.
+    CHECK(is_black(make_light(SunLight{.irradiance{1, 2, 3}}).flux));
+    CHECK(make_light(SunLight{.irradiance{1, 2, 3}}).emission == Rgb{1, 2, 3});
+}
+
+TEST_CASE("light: a spot of a hundredth of a degree keeps its digits in float") {
+    // 1 - cos is 1.5e-8 there, of which float's cosine knows nothing.
+    const double angle = 0.01 * pi / 180, w = 2 * std::pow(std::sin(angle / 2), 2);
+    const SpotLight spot{
+        .intensity = Rgb{1}, .inner_degrees = 0, .outer_degrees = 0.01f};
+    const Light made = make_light(spot);
+    CHECK(double(made.outer) / w == doctest::Approx(1).epsilon(1e-5));
+    CHECK(double(made.flux.x) / (pi * w) == doctest::Approx(1).epsilon(1e-5));
+    for (const double part : {0.0, 0.25, 0.5, 0.75, 1.5}) {
+        const Vec3 way{float(std::sin(part * angle)), -float(std::cos(part * angle)),
+                       0};
+        const double share = part < 1 ? 1 - part * part : 0;
+        CHECK(std::abs(double(detail::spot_share(made, way)) - share) < 1e-3);
+    }
+}

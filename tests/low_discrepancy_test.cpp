@@ -295,3 +295,58 @@ TEST_CASE("low_discrepancy: after its dimensions a stream goes on at random; nev
     CHECK(u != first(sobol_stream(1, Pass::user, 1, 5)));
     CHECK(u != first(sobol_stream(1, Pass::user, 0, 5 + (1ull << 32))));
 }
+
+TEST_CASE("low_discrepancy: the scrambling stays what it is, so that pictures do") {
+    // By another program in another language, from the steps of Burley's paper.
+    struct Known {
+        std::uint32_t bits;
+        std::uint64_t seed;
+        std::uint32_t scrambled;
+    };
+    for (const auto& [bits, seed, scrambled] :
+         {Known{0u, 1u, 0xdd7cb651u}, Known{0x80000000u, 2u, 0xa62516a0u},
+          Known{0x12345678u, 77u, 0x0838cfb9u}, Known{~0u, 123456789u, 0xf7b9aa2bu}})
+        CHECK(detail::owen_scrambled(bits, seed) == scrambled);
+}
+
+TEST_CASE(
+    "low_discrepancy: what a stream draws, in which order, and of how many bits") {
+    const auto start = sobol_stream(3, Pass::user, 1, 77);
+    CHECK(start.index == 77);
+    CHECK(start.dimension == 0);
+    // The scrambling knows nothing of the rest, that of the first path neither.
+    for (const std::uint64_t path : {0u, 77u}) {
+        const auto stream = sobol_stream(3, Pass::user, 1, path);
+        CHECK(stream.seed != stream.rest.key);
+        CHECK(stream.seed == start.seed);
+    }
+    SobolStream a = start, b = start, c = start;
+    const double x = next_1d<double>(a), y = next_1d<double>(a), z = next_1d<double>(a);
+    CHECK(next_2d<double>(b) == Vec2T<double>{x, y});
+    CHECK(next_3d<double>(c) == Vec3T<double>{x, y, z});
+    CHECK(b.dimension == 2);
+    CHECK(c.dimension == 3);
+    // Each is a multiple of 2^-32, and of 2^-24 in float; dimensions differ.
+    int odd = 0;
+    for (std::uint64_t path = 0; path < 64; ++path) {
+        SobolStream in_double = sobol_stream(3, Pass::user, 1, path),
+                    in_float = in_double;
+        const double u = next_1d<double>(in_double) * 0x1p32;
+        CHECK(u == std::floor(u));
+        odd += static_cast<std::uint64_t>(u) % 2 != 0;
+        CHECK(double(next_1d<float>(in_float)) == std::floor(u * 0x1p-8) * 0x1p-24);
+        SobolStream zero{.seed = path};
+        CHECK(next_1d<double>(zero) != next_1d<double>(zero));
+    }
+    CHECK(odd > 16);
+    CHECK(odd < 48);
+    // Without points it is the random stream, from the first number on.
+    RandomStream random = random_stream(3, Pass::user, 1, 77);
+    SobolStream without = detail::without_points(random);
+    for (int i = 0; i < 20; ++i)
+        CHECK(next_1d<double>(without) == next_1d<double>(random));
+    start_bounce(without, 2);
+    start_bounce(random, 2);
+    CHECK(next_3d<float>(without) == next_3d<float>(random));
+    CHECK(next_2d<double>(without) == next_2d<double>(random));
+}

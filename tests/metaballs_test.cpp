@@ -579,3 +579,104 @@ TEST_CASE("solvers: a field that is no number is met nowhere") {
     CHECK_FALSE(detail::first_meeting(SphereTracing{}, line, 0.0, 9.0));
     CHECK_FALSE(detail::first_meeting(Bisection{}, line, 0.0, 9.0));
 }
+
+namespace {
+
+/// A ball's own distance from its border, with a bound that a test may spoil.
+struct Linear {
+    double value(Point x) const { return 1 - glm::length(x); }
+    Point gradient(Point x) const { return -glm::normalize(x); }
+    double lipschitz() const { return bound; }
+    double bound = 1;
+};
+
+} // namespace
+
+TEST_CASE("isosurface: what it refuses, and where it ends") {
+    using Ball = IsosurfaceT<double, Linear>;
+    const auto refused = [](const Ball& ball) {
+        try {
+            check(ball);
+        } catch (const std::invalid_argument& error) {
+            return std::string(error.what());
+        }
+        return std::string("accepted");
+    };
+    const Ball good{.field{}, .bounds{.center{0, 0, 0}, .radius = 2}};
+    CHECK(refused(good) == "accepted");
+    for (const double bad : {0.0, -1.0, not_a_number, infinity}) {
+        Ball ball = good;
+        ball.bounds.radius = bad;
+        CHECK(refused(ball).find("isosurface.bounds.radius is ") == 0);
+        ball = good;
+        ball.field.bound = bad;
+        CHECK(refused(ball).find("isosurface.field.lipschitz() is ") == 0);
+        ball = good;
+        ball.bounds.center.y = bad;
+        const bool finite = std::isfinite(bad);
+        CHECK((refused(ball).find("isosurface.bounds.center is ") == 0) == !finite);
+    }
+    CHECK(bounding_sphere(good).radius == 2);
+    // Its roots are 4 and 6 along z, in lengths of the direction; the range decides.
+    for (const double length : {1.0, 0.25, 8.0}) {
+        const auto hit = [&](double z, double t_min, double t_max) {
+            const RayT<double> ray{.origin{0, 0, z},
+                                   .direction{0, 0, -length},
+                                   .t_min = t_min / length,
+                                   .t_max = t_max / length};
+            const auto by_steps = intersect(ray, good);
+            const auto by_parts = intersect(ray, good, Bisection{});
+            CHECK(by_steps.has_value() == by_parts.has_value());
+            if (by_steps) CHECK(std::abs(*by_steps - *by_parts) * length < 2e-9);
+            return by_parts ? *by_parts * length : -1.0;
+        };
+        CHECK(hit(5, 0, infinity) == doctest::Approx(4));
+        CHECK(hit(5, 4.5, infinity) == doctest::Approx(6)); // from within
+        CHECK(hit(0.5, 0, infinity) == doctest::Approx(1.5));
+        CHECK(hit(5, 0, 3.9) == -1);
+        CHECK(hit(5, 6.1, infinity) == -1);
+        CHECK(hit(-5, 0, infinity) == -1);
+    }
+    CHECK_FALSE(intersect(RayT<double>{.origin{0, 1.5, 5}}, good)); // within the bounds
+    CHECK_FALSE(intersect(RayT<double>{.origin{0, 3, 5}}, good));
+    // A hit is put back, and within its error's box the field changes its sign.
+    Numbers n{17};
+    for (int i = 0; i < 200; ++i) {
+        const Point from = 3.0 * n.direction();
+        const RayT<double> ray{.origin = from, .direction = 0.6 * n.point(1) - from};
+        const auto t = intersect(ray, good);
+        if (!t) continue;
+        const auto p = surface_point(good, ray, as_hit(*t));
+        CHECK(glm::distance(p.normal, glm::normalize(p.position)) < 1e-8);
+        const double reach = glm::dot(glm::abs(p.normal), p.error);
+        CHECK(std::abs(glm::length(p.position) - 1) <= reach);
+        CHECK(reach < 1e-7);
+        // What leaves it does not meet it again, what enters comes out elsewhere.
+        const auto aside = glm::normalize(p.normal + 0.9 * n.direction());
+        CHECK_FALSE(intersect(spawn_ray(p, aside), good));
+        const auto across = intersect(spawn_ray(p, -p.normal), good);
+        REQUIRE(across);
+        CHECK(*across == doctest::Approx(2));
+    }
+    CHECK(SphereTracing{}.tolerance == 1e-9);
+    CHECK(SphereTracing{}.max_steps == 2000);
+    CHECK(Bisection{}.max_parts == 4096);
+    CHECK(Metaballs{}.level == 0.25f);
+    CHECK((Blob{}.radius == 1 && Blob{}.weight == 1 && Blob{}.center == Vec3{0}));
+}
+
+TEST_CASE("metaballs: the sphere around one blob is rounded up, never down") {
+    Numbers n{23};
+    for (int i = 0; i < 500; ++i) {
+        const Metaballs one{.blobs{
+            {Vec3(n.point(9)), float(n.power(-3, 3)), float(n.between(0.3, 5))}}};
+        const Blob& blob = one.blobs[0];
+        const long double right =
+            (long double)(blob.radius) *
+            std::sqrt(1 - std::sqrt(0.25L / (long double)(blob.weight)));
+        const Sphere ball = bounding_sphere(one);
+        CHECK((long double)(ball.radius) >= right);
+        CHECK((long double)(ball.radius) <= right * (1 + 1e-6L));
+        CHECK(glm::distance(ball.center, blob.center) <= 1e-6f * ball.radius);
+    }
+}

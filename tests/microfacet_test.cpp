@@ -217,3 +217,17 @@ TEST_CASE("microfacet: no direction along the surface is better than another") {
         CHECK(glm::length(facet) == doctest::Approx(1));
     }
 }
+
+TEST_CASE("microfacet: facets that hardly look up keep their digits") {
+    using L = long double;
+    const float low = 1e-3f;
+    const ljus::Vec3 wo{std::sqrt((1 - low) * (1 + low)), 0, low};
+    for (int k = 1; k < 20; ++k) {
+        const float u = 1 - float(k) * 0x1p-20f;
+        const auto h = ljus::detail::sample_visible_normal(1.0f, wo, {0.25f, u});
+        // A quarter turn of the cap's ring beside wo, and its height over the ground.
+        const L t = L(u) * (1 + L(low)), z = (1 - L(u)) * (1 + L(low));
+        const L length = std::sqrt(L(wo.x) * L(wo.x) + t * (2 - t) + z * z);
+        CHECK(std::abs(L(h.z) * length / z - 1) < 1e-5L);
+    }
+}

@@ -59,3 +59,12 @@ TEST_CASE("mirror: a reflectance outside [0, 1] is refused by name and value") {
     CHECK(refusal(Mirror{.reflectance = {1, 1, 1.5f}}).find("mirror.reflectance") == 0);
     CHECK_FALSE(refusal(Mirror{.reflectance = {1, NAN, 1}}).empty());
 }
+
+TEST_CASE("mirror: without more said it reflects all, and a metal is gold") {
+    CHECK(Mirror{}.reflectance == ljus::Rgb{1});
+    CHECK(ljus::Metal{}.index.n == ljus::gold<float>.n);
+    CHECK(ljus::Metal{}.index.k == ljus::gold<float>.k);
+    const ljus::ConductorIndex none;
+    CHECK(none.n == ljus::Rgb{1});
+    CHECK(none.k == ljus::Rgb{0});
+}

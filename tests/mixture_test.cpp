@@ -294,3 +294,14 @@ TEST_CASE_TEMPLATE("mixture: what is sampled and no delta has a density above 0"
     CHECK(matt > 10000);
     CHECK(without == 0);
 }
+
+TEST_CASE("mixture: without more said it is grey and matt") {
+    const Mixture m;
+    CHECK(m.color == Rgb{0.5f});
+    CHECK(m.index == 1.5f);
+    for (const float slider :
+         {m.reflectivity, m.transparency, m.specularity, m.emissivity, m.sigma})
+        CHECK(slider == 0);
+    CHECK(m.absorption == Rgb{0});
+    CHECK(lobes(m) == Lobes::diffuse);
+}

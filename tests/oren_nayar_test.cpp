@@ -208,3 +208,14 @@ TEST_CASE_TEMPLATE("oren_nayar: finite where both directions are on the horizon"
             CHECK(std::isfinite(evaluate(m, wo, back).x));
         }
 }
+
+TEST_CASE(
+    "oren_nayar: only what is asked for is drawn; what it is if nothing is said") {
+    const ljus::Vec3 up{0, 0, 1}, u{0.5f, 0.5f, 0.5f};
+    const auto flux = ljus::Transport::flux;
+    CHECK(sample(OrenNayar{}, up, u, flux, ljus::Lobes::diffuse));
+    CHECK_FALSE(sample(OrenNayar{}, up, u, flux, ljus::Lobes::glossy));
+    CHECK(pdf(OrenNayar{}, up, up, ljus::Lobes::glossy) == 0);
+    CHECK(OrenNayar{}.albedo == ljus::Rgb{0.5f});
+    CHECK(OrenNayar{}.sigma == 0.3f);
+}

@@ -147,3 +147,20 @@ TEST_CASE("pair_triangles: one that has its partner does not stand in another's 
     CHECK(found.quads.size() == 2);
     CHECK(found.triangles.empty());
 }
+
+TEST_CASE("pair_triangles: how far a corner may be off grows with the coordinates") {
+    // Sums of decimals, far from 0: off by a unit in the last place of 1e6.
+    const std::vector<glm::dvec3> far{
+        {1e6 + 0.1, 7, 0}, {1e6 + 0.4, 7, 0}, {1e6 + 0.6, 9, 0}, {1e6 + 0.3, 9, 0}};
+    const glm::dvec3 gap = (far[0] - far[1]) + (far[2] - far[3]);
+    REQUIRE(gap.x != 0); // so that it says something
+    CHECK(shapes(far, {{0, 1, 2}, {0, 2, 3}}).quads.size() == 1);
+    // A kite as small as a roundoff is a kite.
+    const double small = 1e-15;
+    CHECK(shapes({{0, 0, 0}, {small, 0, 0}, {1.1 * small, small, 0}, {0, small, 0}},
+                 {{0, 1, 2}, {0, 2, 3}})
+              .quads.empty());
+    CHECK(shapes({{0, 0, 0}, {small, 0, 0}, {small, small, 0}, {0, small, 0}},
+                 {{0, 1, 2}, {0, 2, 3}})
+              .quads.size() == 1);
+}

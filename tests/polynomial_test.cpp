@@ -361,3 +361,23 @@ TEST_CASE("polynomial: the formula finds what is well apart: four roots, two or 
     const auto none = roots_of({0, 0, 0, 0, 2});
     CHECK(none == std::vector<double>(4, 0.0));
 }
+
+TEST_CASE(
+    "polynomial: a root at an end of its interval is found there, rising or not") {
+    using Line = detail::BernsteinT<double, 1>;
+    CHECK(detail::root_between(Line{{0, 1}}, 0.0, 1.0) < 1e-15);
+    CHECK(detail::root_between(Line{{0, -1}}, 0.0, 1.0) < 1e-15);
+    CHECK(detail::root_between(Line{{-1, 0}}, 0.0, 1.0) == doctest::Approx(1));
+    CHECK(detail::root_between(Line{{1, 0}}, 0.0, 1.0) == doctest::Approx(1));
+    CHECK(detail::root_between(Line{{-1, 3}}, 0.0, 1.0) == 0.25);
+    CHECK(detail::root_between(Line{{1, -3}}, 0.0, 1.0) == 0.25);
+    // Within a part: 1/4 is the only one of three roots.
+    const auto three = detail::on_interval(
+        std::array{-3.0 / 32, 11.0 / 16, -3.0 / 2, 1.0}, 0.0, 1.0); // 1/4, 1/2, 3/4
+    CHECK(detail::root_between(three, 0.0, 0.375) == doctest::Approx(0.25));
+    CHECK(detail::root_between(three, 0.375, 0.625) == doctest::Approx(0.5));
+    CHECK(detail::root_between(three, 0.625, 1.0) == doctest::Approx(0.75));
+    const auto all = detail::roots(three, 1e-15);
+    REQUIRE(all.count == 3);
+    CHECK(all.at[1] == doctest::Approx(0.5).epsilon(1e-14));
+}

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "ljus/materials/lambertian.hpp"
@@ -138,4 +139,50 @@ TEST_CASE("query: in the precision that is asked for, whether the first or any")
         REQUIRE(occluded<double>(scene, ray) == in_double);
     }
     CHECK(differ > 100);
+}
+
+namespace reader {
+
+/// A ball that is quick to say whether it is met, and counts how often it is asked.
+struct Quick {
+    Sphere ball{};
+    int* asked = nullptr;
+};
+inline std::optional<float> intersect(const Ray& ray, const Quick& s) {
+    return ljus::intersect(ray, s.ball);
+}
+template <typename Compute>
+bool meets(const Ray& ray, const Quick& s) {
+    ++*s.asked;
+    return ljus::intersect(ray, s.ball).has_value();
+}
+inline SurfacePoint surface_point(const Quick& s, const Ray& ray,
+                                  const FlatHitT<float>& hit) {
+    return ljus::surface_point(s.ball, ray, hit);
+}
+inline Sphere bounding_sphere(const Quick& s) {
+    return s.ball;
+}
+inline void check(const Quick&) {}
+
+} // namespace reader
+
+TEST_CASE("query: a shape that is quick to say so is asked whether it is met") {
+    int asked = 0;
+    Scene<Shapes<Sphere, reader::Quick>, Materials<Lambertian>> scene;
+    const auto grey = scene.add(Lambertian{});
+    scene.add(reader::Quick{{{0, 0, -5}, 1}, &asked}, grey);
+    scene.add(reader::Quick{{{0, 0, -9}, 1}, &asked}, grey);
+    CHECK(occluded(scene, Ray{}));
+    CHECK(asked == 1); // the first that is met will do
+    CHECK_FALSE(occluded(scene, Ray{.direction{0, 0, 1}}));
+    CHECK(asked == 3);
+    const auto hit = closest_hit(scene, Ray{});
+    REQUIRE(hit);
+    CHECK(hit->object == ObjectId{1, 0});
+    CHECK(hit->at.t == 4);
+    CHECK(asked == 3);                         // where it is met it cannot say
+    scene.add(Sphere{{0, 0, -2}, 0.5f}, grey); // asked before, as its type is
+    CHECK(occluded(scene, Ray{}));
+    CHECK(asked == 3);
 }

@@ -151,3 +151,22 @@ TEST_CASE("refraction: an index that no substance has is refused by name and val
     CHECK(message(0.0005f) ==
           "glass.index is 0.0005; it must be within [0.001, 1000].");
 }
+
+TEST_CASE_TEMPLATE("refraction: what comes out is of unit length, whatever goes in", T,
+                   float, double) {
+    Draws draws{13};
+    const T u = std::numeric_limits<T>::epsilon() / 2;
+    int found = 0;
+    for (int i = 0; i < 20000; ++i) {
+        // A little too long or too short, as a sum of rounded parts may be.
+        const T stretch = i % 2 ? T(1) : draws.between(T(0.999), T(1.001));
+        const Vec3T<T> d = stretch * draws.direction<T>(), n = draws.direction<T>();
+        const T eta = static_cast<T>(std::pow(10.0, draws.between(-2.0, 2.0)));
+        for (const auto& t : {ljus::refract(d, eta), ljus::refract(d, n, eta)}) {
+            if (!t) continue;
+            ++found;
+            REQUIRE(std::abs(glm::length(*t) - 1) <= 6 * u);
+        }
+    }
+    CHECK(found > 20000);
+}

@@ -135,3 +135,12 @@ TEST_CASE_TEMPLATE("require: what is shown is the value itself", T, float, doubl
         REQUIRE(static_cast<T>(std::strtod(to_text(value).c_str(), nullptr)) == value);
     }
 }
+
+TEST_CASE("require: several numbers are a vector, one is not") {
+    CHECK(detail::numbers_to_text({0.5}, false) == "0.5");
+    CHECK(detail::numbers_to_text({0.5, -1}, false) == "(0.5, -1)");
+    CHECK(detail::numbers_to_text({1, 2, 1e-7, 4}, true) == "(1, 2, 1e-7, 4)");
+    // As many digits as the precision has: of a float that is a double, more.
+    CHECK(detail::numbers_to_text({double(0.1f)}, true) == "0.1");
+    CHECK(detail::numbers_to_text({double(0.1f)}, false) == "0.10000000149011612");
+}

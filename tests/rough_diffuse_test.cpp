@@ -225,3 +225,21 @@ TEST_CASE("rough diffuse: the same from all around, and from both sides") {
             check_symmetry(
                 RoughDiffuseT<double>{ljus::RgbT<double>{0.9, 0.5, 0.1}, sigma, model});
 }
+
+TEST_CASE("rough_diffuse: black has no sample, but a lobe; other lobes are not drawn") {
+    const ljus::Vec3 up{0, 0, 1}, u{0.5f, 0.5f, 0.5f};
+    const auto flux = ljus::Transport::flux;
+    for (const RoughModel model : models) {
+        const RoughDiffuse black{.albedo = ljus::Rgb{0}, .model = model};
+        CHECK_FALSE(sample(black, up, u, flux));
+        CHECK(lobes(black) == ljus::Lobes::diffuse);
+        const RoughDiffuse grey{.model = model};
+        CHECK(sample(grey, up, u, flux, ljus::Lobes::diffuse));
+        CHECK_FALSE(sample(grey, up, u, flux, ljus::Lobes::specular));
+        CHECK_FALSE(sample(grey, up, u, flux, ljus::Lobes::glossy));
+        CHECK(pdf(grey, up, up, ljus::Lobes::glossy) == 0);
+    }
+    CHECK(RoughDiffuse{}.albedo == ljus::Rgb{0.5f});
+    CHECK(RoughDiffuse{}.sigma == 0.3f);
+    CHECK(RoughDiffuse{}.model == RoughModel::fon);
+}

@@ -289,8 +289,9 @@ TEST_CASE_TEMPLATE("sampling: a point of the disc has a density, on its border t
     int outside = 0;
     for (int i = 0; i < 400000; ++i) {
         auto u = draws.square<T>();
-        const T edge = std::array<T, 4>{T(0), last, draws.unit<T>() * T(1e-6),
-                                        T(1) - draws.unit<T>() * T(1e-6)}[unsigned(i) % 4u];
+        const T edge =
+            std::array<T, 4>{T(0), last, draws.unit<T>() * T(1e-6),
+                             T(1) - draws.unit<T>() * T(1e-6)}[unsigned(i) % 4u];
         (i % 3 ? u.x : u.y) = std::min(edge, last);
         const auto p = ljus::sample_concentric_disc(u);
         outside += !(ljus::pdf_concentric_disc(p) > 0);
@@ -299,4 +300,47 @@ TEST_CASE_TEMPLATE("sampling: a point of the disc has a density, on its border t
     // Found from outside.
     CHECK(ljus::pdf_concentric_disc(
               ljus::sample_concentric_disc(Vec2T<T>{T(0.40372324), T(0)})) > 0);
+}
+
+TEST_CASE_TEMPLATE("sampling: near the horizon the height of a direction keeps its "
+                   "digits",
+                   T, float, double) {
+    // The larger of |2 u - 1| is the radius: for these u it is not rounded, and the
+    // height is sqrt((1 - r) (1 + r)) but for three roundings.
+    const long double u2 = 2 * std::numeric_limits<T>::epsilon();
+    for (int k = 2; k < 30; ++k)
+        for (const T other : {T(0.5), T(0.625), T(0.25)}) {
+            const T u = T(1) - std::ldexp(T(1), k > 20 && sizeof(T) == 4 ? -20 : -k);
+            const long double r =
+                std::max(2 * (long double)(u)-1, std::abs(2 * (long double)(other)-1));
+            const long double z = std::sqrt((1 - r) * (1 + r));
+            for (const auto& d : {ljus::sample_cosine_hemisphere(Vec2T<T>{u, other}),
+                                  ljus::sample_cosine_hemisphere(Vec2T<T>{other, u})})
+                CHECK(std::abs((long double)(d.z) - z) <= u2 * z);
+        }
+}
+
+TEST_CASE("sampling: where the square's corners, sides and middle go") {
+    using U = Vec2T<double>;
+    const double s = std::sqrt(0.5);
+    const auto at = [](double x, double y) {
+        return ljus::sample_concentric_disc(U{x, y});
+    };
+    CHECK(at(0.5, 0.5) == U{0, 0});
+    CHECK(glm::distance(at(0.75, 0.5), U{0.5, 0}) < 1e-15);
+    CHECK(glm::distance(at(0.25, 0.5), U{-0.5, 0}) < 1e-15);
+    CHECK(glm::distance(at(0.5, 0.75), U{0, 0.5}) < 1e-15);
+    CHECK(glm::distance(at(0.5, 0.25), U{0, -0.5}) < 1e-15);
+    CHECK(glm::distance(at(0, 0), U{-s, -s}) < 1e-15);
+    CHECK(glm::distance(at(0.75, 0.25), U{s / 2, -s / 2}) < 1e-15);
+    // What lies within stays where it is, to the last place.
+    const auto inner = at(0.875, 0.625);
+    const auto map = ljus::detail::concentric_map(U{0.875, 0.625});
+    CHECK(inner == map);
+    CHECK(glm::length(inner) == doctest::Approx(0.75).epsilon(1e-15));
+    // A cone's azimuth grows with u.y, from x to y; u.x is the height.
+    const auto quarter = ljus::sample_uniform_cone(U{0.5, 0.25}, 1.0);
+    CHECK(quarter.z == 0.5);
+    CHECK(quarter.y == doctest::Approx(std::sqrt(0.75)));
+    CHECK(ljus::sample_uniform_sphere(U{0.75, 0}).z == -0.5);
 }

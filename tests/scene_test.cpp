@@ -9,6 +9,8 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
+#include <vector>
 
 #include "ljus/geometry/metaballs.hpp"
 #include "ljus/materials/glass.hpp"
@@ -285,4 +287,37 @@ TEST_CASE("scene: an object knows its light, a flat light its normal and area") 
     CHECK(room.lights[2].direction == Vec3{0, 0, 1});
     CHECK(room.lights[2].area == 4);
     CHECK(room.lights[3].area == 0); // asked for its solid angle
+}
+
+TEST_CASE("scene: which types it lists, asked one by one") {
+    const auto is = []<typename Wanted>(Wanted) {
+        return []<typename G>() { return std::is_same_v<G, Wanted>; };
+    };
+    CHECK(Room::any_shape(is(Sphere{})));
+    CHECK(Room::any_shape(is(Quad{})));
+    CHECK(Room::any_shape(is(Triangle{})));
+    CHECK_FALSE(Room::any_shape(is(Lambertian{})));
+    CHECK(Room::any_material(is(Lambertian{})));
+    CHECK(Room::any_material(is(Mirror{})));
+    CHECK_FALSE(Room::any_material(is(Sphere{})));
+    // A box around all shapes, from the first on; lights have no place in it.
+    Room room;
+    const auto grey = room.add(Lambertian{});
+    room.add(PointLight{.position{99, 99, 99}});
+    CHECK((room.low == Vec3{0} && room.high == Vec3{0}));
+    room.add(Sphere{{5, 6, 7}, 1}, grey);
+    CHECK((room.low == Vec3{4, 5, 6} && room.high == Vec3{6, 7, 8}));
+    room.add(Sphere{{5, 5, 9}, 2}, grey);
+    CHECK((room.low == Vec3{3, 3, 6} && room.high == Vec3{7, 7, 11}));
+    CHECK(room.suns.empty());
+    room.add(SunLight{});
+    CHECK(room.suns == std::vector<std::uint32_t>{1});
+    CHECK(room.lights[1].position == Vec3{5, 5, 8.5f});
+    room.add(SunLight{.irradiance = Rgb{0}}); // dark: none
+    CHECK(room.suns.size() == 1);
+    // A refused shape leaves the box and the suns as they were.
+    CHECK_THROWS_AS(room.add(Sphere{{50, 0, 0}, 1}, grey, Rgb{-1}),
+                    std::invalid_argument);
+    CHECK(room.high == Vec3{7, 7, 11});
+    CHECK(room.lights[1].position == Vec3{5, 5, 8.5f});
 }

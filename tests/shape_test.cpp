@@ -9,7 +9,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -365,4 +367,110 @@ TEST_CASE("shape: a table of hooks in one line") {
     CHECK(detail::is_stand_in<detail::Own<Open>>);
     CHECK_FALSE(detail::is_stand_in<Open>);
     CHECK(std::is_same_v<Final, detail::Own<Final>>);
+}
+
+TEST_CASE("shape: what there is without more said") {
+    CHECK(Sphere{}.center == Vec3{0});
+    CHECK(Sphere{}.radius == 1);
+    CHECK(Quad{}.corner == Vec3{0});
+    CHECK(Quad{}.edge_u == Vec3{1, 0, 0});
+    CHECK(Quad{}.edge_v == Vec3{0, 1, 0});
+    CHECK(Triangle{}.v1 == Vec3{0});
+    CHECK(Triangle{}.v2 == Vec3{0});
+    CHECK(Triangle{}.v3 == Vec3{0});
+    CHECK(Moving<Sphere>{}.way == Vec3{0});
+    CHECK(Ray{}.time == 0);
+    const FlatHitT<float> hit;
+    CHECK((hit.t == 0 && hit.u == 0 && hit.v == 0 && hit.part == 0));
+    const SurfacePoint point;
+    CHECK((point.position == Vec3{0} && point.error == Vec3{0}));
+    CHECK((point.normal == Vec3{0, 0, 1} && point.tilt == 0));
+    CHECK(as_hit(1.0f).part == 0);
+}
+
+namespace reader {
+
+/// A ball of a reader that has all that a shape may have, and one that has nothing.
+struct Rich {
+    Sphere ball{};
+};
+struct Poor {
+    Sphere ball{};
+};
+template <typename S>
+concept Reader = std::is_same_v<S, Rich> || std::is_same_v<S, Poor>;
+template <Reader S>
+std::optional<float> intersect(const Ray& ray, const S& s) {
+    return ljus::intersect(ray, s.ball);
+}
+template <Reader S>
+SurfacePoint surface_point(const S& s, const Ray& ray, const FlatHitT<float>& hit) {
+    return ljus::surface_point(s.ball, ray, hit);
+}
+template <Reader S>
+Sphere bounding_sphere(const S& s) {
+    return s.ball;
+}
+template <Reader S>
+void check(const S&) {}
+inline Box bounds(const Rich& s) {
+    return ljus::bounds(s.ball);
+}
+template <typename Compute>
+bool meets(const Ray&, const Rich&) {
+    return false;
+}
+inline Vec3 shading_normal(const Rich&, const FlatHitT<float>&, const Vec3& n) {
+    return n;
+}
+inline float area(const Rich& s) {
+    return ljus::area(s.ball);
+}
+inline SurfacePoint sample_area(const Rich& s, const Vec2& u) {
+    return ljus::sample_area(s.ball, u);
+}
+inline int sample_towards(const Rich&, const Vec3&, const Vec2&) {
+    return 0;
+}
+inline int pdf_towards(const Rich&, const Vec3&, const SurfacePoint&) {
+    return 0;
+}
+inline Vec2 center_sample(const Rich&) {
+    return Vec2{0};
+}
+inline Vec2 texture_coordinates(const Rich&, const FlatHitT<float>&,
+                                const SurfacePoint&) {
+    return Vec2{0};
+}
+inline Rich translated(const Rich& s, const Vec3&) {
+    return s;
+}
+
+} // namespace reader
+
+TEST_CASE("shape: which hooks a shape has, by name") {
+    const auto names = [](const auto& hooks) {
+        std::string all;
+        for (const auto& hook : hooks)
+            if (hook.provided) all.append(hook.name).append(" ");
+        return all;
+    };
+    static_assert(Shape<reader::Poor> && Samplable<reader::Rich>);
+    static_assert(!HasArea<reader::Poor> && HasArea<reader::Rich>);
+    CHECK(names(detail::shape_hooks<reader::Poor>()).empty());
+    CHECK(names(detail::shape_hooks<reader::Rich>()) ==
+          "bounds meets shading_normal area sample_area sample_towards pdf_towards "
+          "center_sample texture_coordinates translated ");
+    CHECK(names(detail::shape_hooks<Sphere>()) ==
+          "bounds area sample_area translated ");
+    CHECK(names(detail::shape_hooks<Triangle>()) ==
+          "bounds area sample_area translated is_flat ");
+    CHECK(names(detail::shape_hooks<Moving<Quad>>()) == "bounds area sample_area ");
+    // A shape without an area has no points to choose; the one there is is of no use.
+    const SurfacePoint none = sample_area(reader::Poor{}, Vec2{0.5f});
+    CHECK(none.position == Vec3{0});
+    CHECK(none.error == Vec3{0});
+    // What has one normal is told it; a sphere and what moves work theirs out.
+    CHECK((detail::is_plane<Quad> && detail::is_plane<Triangle>));
+    CHECK_FALSE((detail::is_plane<Sphere> || detail::is_plane<Moving<Quad>>));
 }

@@ -376,3 +376,50 @@ TEST_CASE("solid angle: form factors of lamps, cut by the horizon or not") {
         if (found && height < 0) CHECK(*found == 0);
     }
 }
+
+namespace reader {
+
+/// A ball that does not know its area: it can be lit, but is no lamp.
+struct Blind {
+    Sphere ball{};
+};
+inline std::optional<float> intersect(const Ray& ray, const Blind& s) {
+    return ljus::intersect(ray, s.ball);
+}
+inline SurfacePoint surface_point(const Blind& s, const Ray& ray,
+                                  const FlatHitT<float>& hit) {
+    return ljus::surface_point(s.ball, ray, hit);
+}
+inline Sphere bounding_sphere(const Blind& s) {
+    return s.ball;
+}
+inline void check(const Blind&) {}
+
+} // namespace reader
+
+TEST_CASE("solid angle: of a shape without an area no point is chosen") {
+    const reader::Blind blind;
+    static_assert(Shape<reader::Blind> && !HasArea<reader::Blind>);
+    const auto seen = sample_towards(blind, Vec3{0, 0, 5}, Vec2{0.5f});
+    CHECK(seen.pdf == 0);
+    CHECK(pdf_towards(blind, Vec3{0, 0, 5}, seen.point) == 0);
+    CHECK(center_sample(blind) == Vec2{0.5f});
+    CHECK(center_sample(Quad{}) == Vec2{0.5f});
+    CHECK(center_sample(Triangle{}) == Vec2{0.5f});
+    CHECK(center_sample(Sphere{}) == Vec2{0});
+    CHECK(SeenPointT<float>{}.pdf == 0);
+    CHECK(detail::ConeT<float>{}.one_minus_cos == 2);
+}
+
+TEST_CASE("solid angle: a density by area is d^2 over cosine and area, and no less") {
+    // A point 3 above, 4 aside: d = 5, cos = 3/5; of area 2 that is 25 * 5/3 / 2.
+    const SurfacePointT<double> point{.position{4, 0, 0}, .normal{0, 0, 1}};
+    const Vec3T<double> from{0, 0, 3};
+    const double right = 25.0 * 5 / 3 / 2;
+    CHECK(detail::pdf_from_area(from, point, 2.0) == doctest::Approx(right));
+    auto turned = point;
+    turned.normal = -turned.normal;
+    CHECK(detail::pdf_from_area(from, turned, 2.0) == doctest::Approx(right));
+    CHECK(detail::pdf_from_area(point.position, point, 2.0) == 0);
+    CHECK(std::isinf(detail::pdf_from_area(Vec3T<double>{0}, point, 2.0)));
+}

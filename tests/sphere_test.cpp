@@ -303,3 +303,23 @@ TEST_CASE_TEMPLATE(
                 CHECK((std::isfinite(c->enter) && std::isfinite(c->leave)));
         }
 }
+
+TEST_CASE("sphere: the printed formula has the range of the ray, and no hit for NaN") {
+    const Sphere ball{.center = {0, 0, -5}, .radius = 1}; // roots at 4 and 6
+    const auto hit = [&](float t_min, float t_max) {
+        return ljus::intersect_as_printed(Ray{.t_min = t_min, .t_max = t_max}, ball);
+    };
+    CHECK(*hit(0, infinity) == 4.0f);
+    CHECK(*hit(4, 4) == 4.0f);
+    CHECK(*hit(6, 6) == 6.0f);
+    CHECK(*hit(4.5f, infinity) == 6.0f);
+    CHECK_FALSE(hit(0, 3.999f));
+    CHECK_FALSE(hit(4.5f, 5.5f));
+    CHECK_FALSE(hit(6.001f, infinity));
+    CHECK_FALSE(hit(0, not_a_number));
+    CHECK(*ljus::intersect_as_printed(Ray{.origin = {0, 1, 0}}, ball) == 5.0f);
+    CHECK(*ljus::intersect_as_printed(Ray{.origin = {0, 0, -5}}, ball) == 1.0f);
+    CHECK_FALSE(ljus::intersect_as_printed(Ray{.origin = {0, 1.5f, 0}}, ball));
+    CHECK_FALSE(ljus::intersect_as_printed(Ray{.origin = {0, 0, -7}}, ball));
+    CHECK_FALSE(ljus::intersect_as_printed(Ray{.origin = {not_a_number, 0, 0}}, ball));
+}

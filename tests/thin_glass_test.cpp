@@ -140,3 +140,19 @@ TEST_CASE("thin glass: an index or a tint that there is not is refused by name")
     CHECK(refusal(ThinGlass{.tint{1, 1.1f, 1}}).find("thin_glass.tint") == 0);
     CHECK(refusal(ThinGlass{.tint{1, NAN, 1}}).find("thin_glass.tint") == 0);
 }
+
+TEST_CASE("thin glass: a cosine that rounding has put above 1 is straight on") {
+    const ThinGlassT<double> pane{1.5, {0.9, 0.7, 0.3}};
+    const auto shares = ljus::detail::pane_shares(pane, 1.0);
+    for (const double z : {1.5, -1.5}) {
+        const Vec3T<double> wo{0, 0, z};
+        CHECK(pass_through(pane, Vec3T<double>{0}, wo) == shares.transmitted);
+        CHECK(sample(pane, wo, Vec3T<double>{0}, Transport::flux)->weight ==
+              shares.reflected);
+    }
+    CHECK(ThinGlass{}.index == 1.5f);
+    CHECK(ThinGlass{}.tint == ljus::Rgb{1});
+    CHECK(ljus::Glass{}.index == 1.5f);
+    CHECK(ljus::Glass{}.absorption == ljus::Rgb{0});
+    CHECK(ljus::Glass{}.fresnel == ljus::FresnelModel::exact);
+}

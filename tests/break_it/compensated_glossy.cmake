@@ -41,3 +41,10 @@ ljus_break_it(NAME energy_loss-cell HEADER optics/energy_loss.hpp
     FROM "low * low + share * (high - low) * (high + low)"
     TO   "(low + share * (high - low)) * (low + share * (high - low))"
     CASES "facet loss: a cosine is drawn*")
+
+# The two lobes are taken as if nothing were lost: right, but noisier.
+ljus_break_it(NAME compensated_glossy-chance HEADER materials/compensated_glossy.hpp
+    TEST compensated_glossy
+    FROM "const T first = (T(1) - lost) * max_component(gloss.mean);"
+    TO   "const T first = max_component(gloss.mean);"
+    CASES "full glossy: the first reflection*")

@@ -99,3 +99,17 @@ ljus_break_it(NAME distributed-rays-black HEADER render/distributed.hpp TEST dis
     FROM "if (is_black(path.throughput)) break;"
     TO   "(void)0;"
     CASES "distributed rays: max_depth*")
+
+# Bounces whose draws overlap.
+ljus_break_it(NAME stratified-stream-bounce HEADER math/stratified_stream.hpp
+    TEST lens_camera
+    FROM "stream.dimension = bounce << 16;"
+    TO   "stream.dimension = bounce;"
+    CASES "stratified stream: of which*")
+
+# Rays of neighbouring pixels that stand alike in their cells.
+ljus_break_it(NAME stratified-stream-path HEADER math/stratified_stream.hpp
+    TEST lens_camera
+    FROM "pixel * static_cast<std::uint64_t>(pattern.points) +"
+    TO   "pixel +"
+    CASES "stratified stream: of which*")

@@ -51,3 +51,15 @@ ljus_break_it(NAME glossy-side HEADER materials/glossy.hpp TEST glossy
     FROM "in.z = std::copysign(in.z, wo.z);"
     TO   ""
     CASES "glossy: samples*")
+
+# A mirror that is darker from below.
+ljus_break_it(NAME glossy-below HEADER materials/glossy.hpp TEST glossy
+    FROM "detail::facet_reflectance(gloss.reflectance, std::min(out.z, T(1)))"
+    TO   "detail::facet_reflectance(gloss.reflectance, wo.z)"
+    CASES "glossy: a mirror from below*")
+
+# Facets that reflect nothing make a sample of nothing.
+ljus_break_it(NAME glossy-black HEADER materials/glossy.hpp TEST glossy
+    FROM "if (is_black(weight)) return std::nullopt;"
+    TO   ""
+    CASES "glossy: black facets*")

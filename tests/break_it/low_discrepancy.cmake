@@ -25,3 +25,17 @@ ljus_break_it(NAME owen-seed HEADER math/low_discrepancy.hpp TEST low_discrepanc
     FROM "const std::uint64_t key = mix_bits(seed);"
     TO   "const std::uint64_t key = mix_bits(seed & ~std::uint64_t(1));"
     CASES "low_discrepancy: one point is uniform*")
+
+# A stream without points that begins with points.
+ljus_break_it(NAME low_discrepancy-without HEADER math/low_discrepancy.hpp
+    TEST low_discrepancy
+    FROM "return {.dimension = sobol_dimensions, .rest = rest};"
+    TO   "return {.rest = rest};"
+    CASES "low_discrepancy: what a stream draws*")
+
+# A scrambling, too, but another one: all pictures would change.
+ljus_break_it(NAME low_discrepancy-other HEADER math/low_discrepancy.hpp
+    TEST low_discrepancy
+    FROM "x += static_cast<std::uint32_t>(key);"
+    TO   "x ^= static_cast<std::uint32_t>(key);"
+    CASES "low_discrepancy: the scrambling stays*")

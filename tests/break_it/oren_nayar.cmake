@@ -72,3 +72,15 @@ ljus_break_it(NAME rough_diffuse-fon-border HEADER materials/rough_diffuse.hpp
     FROM "std::max(s, T(-1));"
     TO   "s;"
     CASES "rough_diffuse: light is never*")
+
+# Black is sampled, and its path goes on with nothing.
+ljus_break_it(NAME eon-black HEADER materials/eon.hpp TEST eon
+    FROM "|| is_black(surface.albedo)) return std::nullopt;"
+    TO   ") return std::nullopt;"
+    CASES "eon: black has no sample*")
+
+# The fit of the lobe leans to the wrong side, straight on.
+ljus_break_it(NAME eon-pole HEADER materials/detail/eon_lobe.hpp TEST eon
+    FROM "lobe.d = std::min(lobe.d, T(0));"
+    TO   ";"
+    CASES "eon: what is lost*")

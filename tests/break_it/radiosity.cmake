@@ -129,3 +129,15 @@ ljus_break_it(NAME radiosity-grey HEADER radiosity/radiosity_lu.hpp TEST radiosi
     FROM "patch.albedo == RgbT<double>(patch.albedo.x)"
     TO   "patch.albedo.x == patch.albedo.y"
     CASES "radiosity: patches of different areas*")
+
+# What only touches a plane is left as a facet of two corners.
+ljus_break_it(NAME facet-touch HEADER math/facet.hpp TEST form_factor
+    FROM "return part.count < 3 ? Facet{} : part;"
+    TO   "return part;"
+    CASES "facet: what only touches*")
+
+# The width of the plane forgotten.
+ljus_break_it(NAME facet-width HEADER math/facet.hpp TEST form_factor
+    FROM "std::abs(h) <= width ? 0.0 : h"
+    TO   "h"
+    CASES "facet: what only touches*")

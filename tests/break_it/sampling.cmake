@@ -39,3 +39,9 @@ ljus_break_it(NAME sampling-disc-border HEADER math/sampling.hpp TEST sampling
     FROM "< T(1) - two ? p : (T(1) - two) * p;"
     TO   "< T(1) - two ? p : p;"
     CASES "sampling: a point of the disc has*")
+
+# The height from the rounded place on the disc: near the horizon no digit is right.
+ljus_break_it(NAME sampling-height HEADER math/sampling.hpp TEST sampling
+    FROM "glm::max((T(1) - r) * (T(1) + r), least)"
+    TO   "glm::max(T(1) - p.x * p.x - p.y * p.y, least)"
+    CASES "sampling: near the horizon*")

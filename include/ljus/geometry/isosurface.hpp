@@ -3,6 +3,7 @@
 /// \file ljus/geometry/isosurface.hpp
 /// \brief Surfaces f(X) = 0 of any field that has a Lipschitz bound.
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <limits>
@@ -86,8 +87,8 @@ template <typename Solver = SphereTracing, std::floating_point T, LipschitzField
 namespace detail {
 
 /// A hit of a field, put back onto the surface: one Newton step along the gradient, no
-/// longer than the rounding of t can have been. Where the gradient vanishes there is no
-/// normal, and the point faces the ray.
+/// longer than t can have been wrong: by its rounding, or by what the solver leaves of
+/// f. Where the gradient vanishes there is no normal, and the point faces the ray.
 /// \param value     f, in double.
 /// \param gradient  Its gradient, in double.
 /// \param ray       The ray.
@@ -101,8 +102,11 @@ template <std::floating_point T, typename Value, typename Gradient>
     const Wide o(ray.origin), d(ray.direction);
     Wide x = o + double(t) * d;
     const double unit = double(std::numeric_limits<T>::epsilon()) / 2;
-    const double doubt = 8 * unit * (glm::length(o) + double(t) * glm::length(d));
     Wide g = gradient(x);
+    // Of a value's doubt over the slope; without a slope f is a square, of its root.
+    const double doubt =
+        std::max(8 * unit * (glm::length(o) + double(t) * glm::length(d)),
+                 std::min(rounding / glm::length(g), std::sqrt(rounding)));
     const double step = value(x) / glm::dot(g, g);
     if (!(glm::dot(g, g) > 0))
         g = d;

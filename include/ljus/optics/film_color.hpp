@@ -61,7 +61,7 @@ template <std::floating_point T>
     const T path = thickness * std::sqrt(film_cosine2(cos_theta, index));
     // At the shortest wavelength the phase 4 pi path / lambda moves by 1/2 a sample.
     const T finest = detail::visible<T>[0] * detail::visible<T>[0] /
-                     (T(8) * std::numbers::pi_v<T> * std::max(path, T(1)));
+                     (T(8) * std::numbers::pi_v<T> * path); // infinite for no film
     return detail::seen<T>(
         [&](T wavelength) {
             return thin_film(cos_theta, index, thickness, wavelength).reflected;

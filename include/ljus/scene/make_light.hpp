@@ -64,7 +64,7 @@ template <std::floating_point T>
 /// \throws std::invalid_argument  if the flux is beyond the range of T.
 template <std::floating_point T>
 void widen(LightT<T>& sun, const Vec3T<T>& low, const Vec3T<T>& high) {
-    const Vec3T<T> half = high / T(2) - low / T(2);
+    const Vec3T<T> half = (high - low) / T(2);
     sun.position = low + half;
     sun.radius = T(1.001) * glm::length(half);
     sun.flux = std::numbers::pi_v<T> * sun.radius * sun.radius * sun.emission;
