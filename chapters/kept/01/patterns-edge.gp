@@ -14,7 +14,7 @@ set linetype 4 lc rgb '#a06cd5'
 set linetype 5 lc rgb '#d64550'
 set linetype 6 lc rgb '#8c8c3a'
 set xlabel 'rays per pixel' noenhanced
-set ylabel 'rms error of a pixel' noenhanced
+set ylabel 'rms error per pixel' noenhanced
 set logscale x
 set format x '10^{%L}'
 set logscale y
