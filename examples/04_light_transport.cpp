@@ -280,9 +280,8 @@ int main(int argc, char** argv) {
         long long photons = 0;
         int truth = 0;
         line.about("Chapter 4, light transport: figure 2, paths by class, and FLIP.");
-        line.add("--photons", photons, "Photons per map; 0: by the quality", 0,
-                 100000000);
-        line.add("--truth", truth, "Rays per pixel of the truth; 0: by the quality", 0,
+        line.add("--photons", photons, "Of each map; 0: by the quality", 0, 100000000);
+        line.add("--truth", truth, "Rays a pixel of the truth; 0: by the quality", 0,
                  1000000);
         const examples::Options options =
             line.parse({.draft{.width = 96, .height = 96, .samples = 9},

@@ -210,12 +210,11 @@ std::vector<Case> made(int count, Make make) {
 
 /// Plot: wrong decisions against how deep the ray dips in.
 void plot_grazing(const examples::Options& options, int count) {
-    examples::Plot plot{
-        .name = "metaballs-grazing",
-        .columns = {"depth of the ray inside, or distance outside, in radii"},
-        .y_label = "wrong hits and misses, %",
-        .rows = {},
-        .log_x = true};
+    examples::Plot plot{.name = "metaballs-grazing",
+                        .columns = {"how deep a ray dips in, or passes by, in radii"},
+                        .y_label = "wrong hits and misses, %",
+                        .rows = {},
+                        .log_x = true};
     for (const char* name : way_names) plot.columns.emplace_back(name);
     Numbers n{3};
     for (int exponent = -30; exponent <= -2; ++exponent) {
@@ -232,7 +231,7 @@ void plot_grazing(const examples::Options& options, int count) {
 void plot_time(const examples::Options& options, int count) {
     examples::Plot plot{.name = "metaballs-time",
                         .columns = {"blobs"},
-                        .y_label = "ns per ray",
+                        .y_label = "ns a ray",
                         .rows = {},
                         .log_x = true,
                         .log_y = true};
@@ -287,7 +286,8 @@ int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         line.about("Chapter 9: metaballs, and four solvers for the same rays.");
         int cases = 0;
-        line.add("--cases", cases, "Rays per family; 0: by the quality", 0, 10000000);
+        line.add("--cases", cases, "Rays a family; 0: as the quality says", 0,
+                 10000000);
         const examples::Options options =
             line.parse({.draft{.width = 320, .height = 200, .samples = 12},
                         .report{.width = 480, .height = 300, .samples = 256},
