@@ -76,8 +76,8 @@ ljus_break_it(NAME wide-kd-tree-thin HEADER accel/detail/kd_tree8_search.hpp TES
     TO   "kept += x < least;"
     CASES "kd_tree8: every search*")
 
-# Many balls at once: the leaves of those that were asked before.
+# Many balls at once: the blocks of those that were searched before.
 ljus_break_it(NAME wide-kd-tree-balls HEADER accel/detail/kd_tree8_traverse.hpp TEST kd_tree8
-    FROM "found.leaves.clear();"
+    FROM "found.blocks.clear();"
     TO   "(void)0;"
     CASES "kd_tree8: many balls*")
