@@ -398,20 +398,24 @@ struct Poor {
     Sphere ball{};
 };
 template <typename S>
-concept Reader = std::is_same_v<S, Rich> || std::is_same_v<S, Poor>;
-template <Reader S>
+inline constexpr bool is_shape = std::is_same_v<S, Rich> || std::is_same_v<S, Poor>;
+template <typename S>
+    requires is_shape<S>
 std::optional<float> intersect(const Ray& ray, const S& s) {
     return ljus::intersect(ray, s.ball);
 }
-template <Reader S>
+template <typename S>
+    requires is_shape<S>
 SurfacePoint surface_point(const S& s, const Ray& ray, const FlatHitT<float>& hit) {
     return ljus::surface_point(s.ball, ray, hit);
 }
-template <Reader S>
+template <typename S>
+    requires is_shape<S>
 Sphere bounding_sphere(const S& s) {
     return s.ball;
 }
-template <Reader S>
+template <typename S>
+    requires is_shape<S>
 void check(const S&) {}
 inline Box bounds(const Rich& s) {
     return ljus::bounds(s.ball);
