@@ -400,22 +400,20 @@ struct Poor {
 template <typename S>
 inline constexpr bool is_shape = std::is_same_v<S, Rich> || std::is_same_v<S, Poor>;
 template <typename S>
-    requires is_shape<S>
-std::optional<float> intersect(const Ray& ray, const S& s) {
+requires is_shape<S> std::optional<float> intersect(const Ray& ray, const S& s) {
     return ljus::intersect(ray, s.ball);
 }
 template <typename S>
-    requires is_shape<S>
-SurfacePoint surface_point(const S& s, const Ray& ray, const FlatHitT<float>& hit) {
+requires is_shape<S> SurfacePoint surface_point(const S& s, const Ray& ray,
+                                                const FlatHitT<float>& hit) {
     return ljus::surface_point(s.ball, ray, hit);
 }
 template <typename S>
-    requires is_shape<S>
-Sphere bounding_sphere(const S& s) {
+requires is_shape<S> Sphere bounding_sphere(const S& s) {
     return s.ball;
 }
 template <typename S>
-    requires is_shape<S>
+requires is_shape<S>
 void check(const S&) {}
 inline Box bounds(const Rich& s) {
     return ljus::bounds(s.ball);
