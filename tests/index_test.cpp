@@ -16,6 +16,7 @@
 #include "ljus/render/render.hpp"
 #include "ljus/scenes/report_rooms.hpp"
 #include "support/numbers.hpp"
+#include "support/quick_ball.hpp"
 
 using namespace ljus;
 using ljus_test::Numbers;
@@ -452,32 +453,6 @@ TEST_CASE("indexed scene: the frames of its flat shapes face as the objects do")
     CHECK_FALSE(Indexed::any_shape(is_int));
     CHECK_FALSE(Indexed::any_material(is_quad));
 }
-
-namespace reader {
-
-/// A ball that is quick to say whether it is met, and counts how often it is asked.
-struct Quick {
-    Sphere ball{};
-    int* asked = nullptr;
-};
-inline std::optional<float> intersect(const Ray& ray, const Quick& s) {
-    return ljus::intersect(ray, s.ball);
-}
-template <typename Compute>
-bool meets(const Ray& ray, const Quick& s) {
-    ++*s.asked;
-    return ljus::intersect(ray, s.ball).has_value();
-}
-inline SurfacePoint surface_point(const Quick& s, const Ray& ray,
-                                  const FlatHitT<float>& hit) {
-    return ljus::surface_point(s.ball, ray, hit);
-}
-inline Sphere bounding_sphere(const Quick& s) {
-    return s.ball;
-}
-inline void check(const Quick&) {}
-
-} // namespace reader
 
 TEST_CASE("indexed scene: a shape that is quick to say so is asked whether it is met") {
     for (const int count : {1, 2, 3, 40}) {

@@ -14,6 +14,7 @@
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/scene/make_scene.hpp"
 #include "support/numbers.hpp"
+#include "support/quick_ball.hpp"
 
 using namespace ljus;
 using ljus_test::Numbers;
@@ -140,32 +141,6 @@ TEST_CASE("query: in the precision that is asked for, whether the first or any")
     }
     CHECK(differ > 100);
 }
-
-namespace reader {
-
-/// A ball that is quick to say whether it is met, and counts how often it is asked.
-struct Quick {
-    Sphere ball{};
-    int* asked = nullptr;
-};
-inline std::optional<float> intersect(const Ray& ray, const Quick& s) {
-    return ljus::intersect(ray, s.ball);
-}
-template <typename Compute>
-bool meets(const Ray& ray, const Quick& s) {
-    ++*s.asked;
-    return ljus::intersect(ray, s.ball).has_value();
-}
-inline SurfacePoint surface_point(const Quick& s, const Ray& ray,
-                                  const FlatHitT<float>& hit) {
-    return ljus::surface_point(s.ball, ray, hit);
-}
-inline Sphere bounding_sphere(const Quick& s) {
-    return s.ball;
-}
-inline void check(const Quick&) {}
-
-} // namespace reader
 
 TEST_CASE("query: a shape that is quick to say so is asked whether it is met") {
     int asked = 0;

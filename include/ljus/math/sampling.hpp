@@ -73,7 +73,7 @@ template <std::floating_point T>
 // [cosine hemisphere]
 template <std::floating_point T>
 [[nodiscard]] inline Vec3T<T> sample_cosine_hemisphere(const Vec2T<T>& u) noexcept {
-    // A hint that g++ takes, and a path tracer is the faster for it: `inline`.
+    // `inline` is a hint that g++ takes; a path tracer is faster with it.
     const Vec2T<T> p = detail::concentric_map(u);
     // The map keeps the larger of |a| and |b| as the radius of p.
     const T a = std::abs(T(2) * u.x - T(1));

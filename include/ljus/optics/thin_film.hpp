@@ -111,11 +111,12 @@ template <std::floating_point T>
 [[nodiscard]] T thick_film(T cos_theta, T index) noexcept {
     const T c = cos_theta;
     const T contrast = (index - T(1)) * (index + T(1));
+    if (contrast == T(0)) return T(0);
     const T q = contrast / std::sqrt(film_cosine2(c, index));
     const T sin2 = (T(1) - c) * (T(1) + c);
     const auto mean = [&](T q_of_wave) {
         const T root = std::hypot(T(2) * c, q_of_wave);
-        // 1 - 2c/root, without the difference; 0 of nothing, where q is 0/0.
+        // 1 - 2c/root, without the difference.
         return root > T(0) ? q_of_wave * q_of_wave / (root * (root + T(2) * c)) : T(0);
     };
     return (mean(q) + mean(q * (c * c - sin2 / (index * index)))) / T(2);
