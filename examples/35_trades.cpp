@@ -475,10 +475,12 @@ int main(int argc, char** argv) {
         const examples::Options options = line.parse();
         if (!line.given("--seeds")) request.seeds = options.pick(3, 5, 16);
         if (!line.given("--truth")) request.truth = options.pick(4096, 262144, 262144);
+        const std::string side = std::to_string(request.size);
+        const std::string seeds =
+            request.references ? "parts with seeds of their own"
+                               : std::to_string(request.seeds) + " seeds from 1 on";
         const std::string conditions = examples::conditions(
-            options, std::to_string(request.seeds) + " seeds from 1 on, pictures of " +
-                         std::to_string(request.size) + " x " +
-                         std::to_string(request.size));
+            options, seeds + ", pictures of " + side + " x " + side);
         Sweep sweep{
             options, request,
             examples::open_notebook(options.path("trades-notebook.json"), conditions)};
