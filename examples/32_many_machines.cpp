@@ -6,8 +6,10 @@
 ///     mpirun -n 8 many_machines --scene scene.json --out picture.png
 ///
 /// Each rank traces its part of the photons; one exchange gives all of them to all, in
-/// the order of emission; each rank renders its rows, and rank 0 puts them together.
+/// the order of emission; each rank renders strips of rows, and rank 0 puts them together.
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <limits>
@@ -94,6 +96,33 @@ std::vector<Photon> photons_of(const S& scene, const PhotonPassSettings& pass,
 }
 // [photons]
 
+/// The strips of rows that a rank renders. The ranks take turns: each has its share of the
+/// slow parts of a picture.
+// [strips]
+std::vector<RowRange> strips_of(int number, const Rank& rank, int height) {
+    constexpr int strip = 8; // rows
+    std::vector<RowRange> strips;
+    for (int first = number * strip; first < height; first += rank.count * strip)
+        strips.push_back({first, std::min(first + strip, height)});
+    return strips;
+}
+// [strips]
+
+/// The picture, of the strips of rank 0, of rank 1, and so on.
+Image put_together(const std::vector<Rgb>& all, const RenderSettings& picture,
+                   const Rank& rank) {
+    Image image = make_image(picture.width, picture.height);
+    const auto width = static_cast<std::ptrdiff_t>(picture.width);
+    auto next = all.begin();
+    for (int number = 0; number < rank.count; ++number)
+        for (const auto& [first, last] : strips_of(number, rank, picture.height)) {
+            const auto end = next + width * (last - first);
+            std::copy(next, end, image.pixels.begin() + width * first);
+            next = end;
+        }
+    return image;
+}
+
 void save(const Image& image, const std::string& path) {
     const std::string kind = std::filesystem::path(path).extension().string();
     if (kind == ".pfm")
@@ -116,21 +145,23 @@ void render_room(const S& scene, const Camera& camera, const RenderSettings& pic
     const auto mapper = make_photon_mapper<StratifiedStream>(scene, maps, settings);
 
     // [rows]
-    const auto rows = rank.part(picture.height, rank.number);
     std::vector<Rgb> mine;
-    if (rows.first < rows.last) // there may be more ranks than rows
-        mine = render_rows(mapper, camera, picture, {int(rows.first), int(rows.last)})
-                   .image.pixels;
+    for (const auto& rows : strips_of(rank.number, rank, picture.height)) {
+        const auto strip = render_rows(mapper, camera, picture, rows).image;
+        mine.insert(mine.end(), strip.pixels.begin(), strip.pixels.end());
+    }
     const double view = watch.seconds() - first;
     const std::vector<Rgb> all = all_of(mine, rank);
     // [rows]
     if (rank.number != 0) return;
-    save({picture.width, picture.height, all}, path);
+    const Image image = put_together(all, picture, rank);
+    save(image, path);
     if (!quiet)
         std::printf("%d ranks: photons and map %.3f s, rank 0's rows %.3f s, in all "
                     "%.3f s; picture %s\n  %s\n",
                     rank.count, first, view, watch.seconds(),
-                    examples::hex_text(examples::hash_of(all)).c_str(), path.c_str());
+                    examples::hex_text(examples::hash_of(image.pixels)).c_str(),
+                    path.c_str());
 }
 
 void body(examples::CommandLine& line) {
