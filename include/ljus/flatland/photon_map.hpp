@@ -90,8 +90,7 @@ inline void store_photon(const PathState& path, const Vertex& vertex, PhotonMap&
 [[nodiscard]] inline PhotonMap trace_photons(const Scene& scene,
                                              const PhotonPassSettings& pass) {
     check(scene);
-    require(pass.photons >= 0, "pass.photons", static_cast<long long>(pass.photons),
-            "at least 0");
+    require_at_least("pass.photons", pass.photons, 0);
     require_positive("the flux of the scene", flux(scene));
     const double each = flux(scene) / pass.photons;
     PhotonMap map;
