@@ -434,9 +434,9 @@ TEST_CASE("distributed rays: every path is L D? (S|G)* E") {
     for (int y = 0; y < 20; ++y)
         for (int x = 0; x < 20; ++x)
             for (int i = 0; i < 4; ++i)
-                (void)detail::sample_pixel(tracer, lens, picture,
-                                           ljus::make_pattern(picture.sampling, 4), x,
-                                           y, i, counts, log);
+                (void)detail::trace_pixel(tracer, lens, picture,
+                                          ljus::make_pattern(picture.sampling, 4), x, y,
+                                          i, counts, log);
     std::set<std::string> kinds;
     std::size_t longest = 0;
     for (const PathLogLine& line : log.lines) {
