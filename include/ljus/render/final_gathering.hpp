@@ -107,7 +107,8 @@ struct GatheredT {
     RgbT<T> irradiance{T(0)};          ///< Indirect light alone; W/m^2.
     Vec3T<T> normal{T(0), T(0), T(1)}; ///< Unit, on the side that is seen.
     T distance = T(0); ///< Harmonic mean of the gather rays' lengths, in scene units.
-    T spacing = T(0);  ///< How far the farthest of its nearest points lies.
+    T spacing = T(0);  ///< How far the farthest of its nearest points lies; set when a
+                       ///< cache is made.
 };
 
 /// Gathers the indirect irradiance at a vertex, by rays spread evenly over the cosine.
