@@ -14,7 +14,7 @@ namespace ljus {
 /// partition". Chapter: \ref ch_bvh.
 /// \{
 
-/// What a search tells of its way, if nobody listens.
+/// Is told of each node that a search visits, and does nothing.
 struct NoTrace {
     /// A node was visited: its number.
     constexpr void operator()(std::uint32_t) const noexcept {}
