@@ -153,7 +153,8 @@ TEST_CASE("render: caustics that are asked for together are those asked one by o
 }
 
 TEST_CASE("render: no ray of a picture has the numbers of another one") {
-    // Of 24 bits each: that two of 3200 triples agree by chance is as good as impossible.
+    // Of 24 bits each: that two of 3200 triples agree by chance
+    // is as good as impossible.
     std::set<std::array<double, 3>> seen;
     for (const std::uint64_t seed : {1u, 2u}) {
         const RenderSettings picture{.width = seed == 1 ? 25 : 16,
