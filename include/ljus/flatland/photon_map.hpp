@@ -46,7 +46,7 @@ struct PhotonPassSettings {
 /// \param scene        The scene.
 /// \param path         The photon as it left its lamp.
 /// \param stream       Its numbers.
-/// \param max_bounces  Surfaces on its path, at most.
+/// \param max_bounces  The most surfaces on its path.
 /// \param visit        Called with the path and the vertex wherever it arrives.
 // [trace_photon]
 template <typename Visit>

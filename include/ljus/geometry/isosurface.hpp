@@ -146,7 +146,7 @@ bounding_sphere(const IsosurfaceT<T, Field>& surface) noexcept {
     return surface.bounds;
 }
 
-/// Refuses bounds that are none, and a Lipschitz bound that is none.
+/// Refuses bounds without a size, and a Lipschitz bound that is not above 0.
 /// \throws std::invalid_argument  naming what is wrong and its value.
 template <std::floating_point T, LipschitzField Field>
 void check(const IsosurfaceT<T, Field>& surface) {

@@ -80,7 +80,7 @@ template <std::floating_point T>
 /// \param vertex    Where.
 /// \param normal    Unit, on the side that is asked about.
 /// \param settings  How many photons, and whether edges are made up for.
-/// \param radius    Within which they lie, at most; in scene units.
+/// \param radius    The largest distance at which they count, in scene units.
 /// \param wanted    Says of the index of a record whether that photon counts.
 /// \return W/m^2.
 template <SceneLike S, std::floating_point T, typename Wanted>

@@ -65,7 +65,7 @@ struct GatherRayT {
 /// \param scene      The scene.
 /// \param points     Where the irradiance is known.
 /// \param path       The ray, as it leaves a diffuse surface.
-/// \param max_depth  Surfaces on a path, at most.
+/// \param max_depth  The most surfaces on a path.
 /// \param stream     The numbers of the ray.
 /// \param counts     Counts rays and lookups.
 /// \return Radiance and distance.

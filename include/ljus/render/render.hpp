@@ -56,7 +56,7 @@ constexpr void start_ray(RandomStream& stream, std::uint64_t seed, std::uint64_t
 
 namespace detail {
 
-/// So many pixels beside each other are rendered at a time.
+/// How many pixels beside each other are rendered at a time.
 inline constexpr int strip_width = 16;
 
 /// Where one ray of a pixel goes through the picture, and what it counts there.

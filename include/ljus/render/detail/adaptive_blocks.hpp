@@ -33,7 +33,7 @@ namespace detail {
 
 /// Refuses a rule that gives no picture.
 /// \param rule     The rule.
-/// \param samples  Rays a pixel in the mean, at most.
+/// \param samples  The most rays per pixel, in the mean.
 /// \throws std::invalid_argument  with name and value.
 inline void check(const AdaptiveSettings& rule, int samples) {
     require_at_least("first", rule.first, 2);
