@@ -18,7 +18,7 @@ using ljus::Vec3;
 
 namespace {
 
-/// Either tree of the house; the triangles' own test is in double.
+/// Either tree of the library; the triangles' own test is in double.
 template <typename Tree>
 struct House {
     const rays::Mesh& mesh;

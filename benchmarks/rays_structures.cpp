@@ -34,7 +34,7 @@ struct Loop {
     }
 };
 
-/// The trees of the house.
+/// The trees of the library.
 template <typename Made>
 struct House {
     const rays::Mesh& mesh;

@@ -25,7 +25,7 @@ struct NoTrace {
 // [nearest]
 template <std::floating_point T>
 struct NearestHitT {
-    FlatHitT<T> at{};                                                 ///< Where.
+    FlatHitT<T> at{};                                                 ///< Where it is.
     std::uint32_t number = std::numeric_limits<std::uint32_t>::max(); ///< Of what.
     bool found = false; ///< Whether there is one.
 

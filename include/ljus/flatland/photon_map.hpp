@@ -17,7 +17,7 @@ namespace ljus::flatland {
 /// A photon where it met a diffuse surface.
 /// \report{Section 2.3}
 struct Photon {
-    Vec2 position{0};                     ///< Where.
+    Vec2 position{0};                     ///< In metres.
     Vec2 direction{0};                    ///< Unit vector, the way it travels.
     Vec2 normal{0, 1};                    ///< Of the surface.
     double flux = 0;                      ///< In W.

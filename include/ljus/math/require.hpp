@@ -100,7 +100,7 @@ template <std::floating_point T>
 
 namespace detail {
 
-// Apart from the check, which is everywhere and has nothing to say.
+// Apart from the check, so that what is inlined everywhere stays small.
 template <typename Value>
 [[noreturn]] void refuse(std::string_view what, const Value& value,
                          std::string_view right) {

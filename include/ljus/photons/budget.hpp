@@ -47,7 +47,7 @@ namespace ljus {
 
 /// What a pilot pass found out about one object. Scatters are the a_k of share_out().
 struct CausticPilot {
-    ObjectId object{};      ///< Which.
+    ObjectId object{};      ///< Which object.
     std::size_t stored = 0; ///< Photons of the pilot that came to a diffuse surface.
     double flux = 0;        ///< Luminous part of the flux that it throws, W.
     double area = 0;        ///< Flux over its mean irradiance: on how much it lies.

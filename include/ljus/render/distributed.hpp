@@ -30,7 +30,7 @@ template <SceneLike S>
 struct DistributedTracer {
     using Stream = StratifiedStream; ///< What render() gives it to draw from.
     detail::IndexedT<S> scene;       ///< What is rendered.
-    DistributedSettings settings;    ///< How.
+    DistributedSettings settings;    ///< How rays are distributed.
 };
 
 /// Makes a tracer. RenderSettings::sampling says how its rays are spread, over the

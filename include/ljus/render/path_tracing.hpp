@@ -39,7 +39,7 @@ template <SceneLike S>
 struct PathTracer {
     using Stream = RandomStream;  ///< What render() gives it to draw from.
     detail::IndexedT<S> scene;    ///< What is rendered.
-    PathTracingSettings settings; ///< How.
+    PathTracingSettings settings; ///< How paths are traced.
     LightChoice lights;           ///< Its lights, by power.
 };
 

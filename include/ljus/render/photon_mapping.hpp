@@ -36,7 +36,7 @@ struct PhotonMapper {
     using Later = detail::LaterCaustics<typename S::Scalar>;
     detail::IndexedT<S> scene;                   ///< What is rendered.
     const PhotonMapsT<typename S::Scalar>& maps; ///< Of the first pass.
-    PhotonMappingSettings settings;              ///< How.
+    PhotonMappingSettings settings;              ///< Depths, radii, passes.
     Lobes bounces; ///< By which lobes a path goes on until its light is gathered.
 };
 

@@ -36,7 +36,7 @@ template <SceneLike S>
 struct WhittedTracer {
     using Stream = RandomStream; ///< What render() gives it to draw from.
     detail::IndexedT<S> scene;   ///< What is rendered.
-    WhittedSettings settings;    ///< How.
+    WhittedSettings settings;    ///< How a tree is traced.
 };
 
 /// Makes a tracer.

@@ -104,7 +104,7 @@ void walk_nearest(const Bvh8Nodes& wide, const Ray& ray, Leaf&& leaf, Watch&& wa
                 };
                 std::uint64_t nearest = key(take_lane(entered));
                 // Of three the order is right, of more it nearly is: without a branch
-                // that a processor would have to guess.
+                // that a processor would have to predict.
                 if (entered != 0) {
                     const std::uint64_t other = key(take_lane(entered));
                     std::uint64_t second = glm::max(nearest, other);
