@@ -121,8 +121,8 @@ PhotonRoom photon_room() {
     return room;
 }
 
-/// Both estimates of the radiance, by one kernel.
-/// \param within  How many photons lie within the radius, in the mean.
+/// Both estimates of the radiance, by one kernel, with a radius within which so many
+/// photons lie in the mean.
 void estimates(const PhotonRoom& room, const char* name, Kernel kernel, int within) {
     const Lambertian matt{};
     const Vec3 wo{0.6f, 0, 0.8f};

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/detail/aim_steps.hpp
-/// \brief The steps of aiming a photon: which object, which direction, for how much flux.
+/// \brief The steps of aiming a photon: which object, which direction, how much flux.
 
 #include <cmath>
 #include <cstdint>
