@@ -466,6 +466,19 @@ struct Book {
     std::size_t peer; ///< The one that stops at the first point follows.
 };
 
+/// The centres of 10 000 searches, one behind the other in memory: fetching them from
+/// afar is no part of a search.
+std::vector<Vec3> centers_of(const std::vector<Vec3>& points) {
+    std::vector<Vec3> centers;
+    for (std::size_t i = 1; i <= 10000; ++i)
+        centers.push_back(points[i * 102947 % points.size()]);
+    return centers;
+}
+
+/// Prints the times of all peers over some points, and adds a row to each table.
+/// \param kind   Of the points: 0 on walls, 1 in caustics.
+/// \param count  How many points.
+/// \param books  The tables.
 template <typename... Peers>
 void measure(int kind, std::size_t count, std::vector<Book>& books) {
     const auto points = points_of(kind, count);
@@ -494,10 +507,7 @@ void measure(int kind, std::size_t count, std::vector<Book>& books) {
     note(print_line("build", all, 5, built.template operator()<Peers>()...).first, 0);
     const std::tuple<std::unique_ptr<Peers>...> peers{
         std::make_unique<Peers>(points)...};
-    // Side by side: to fetch a centre from afar is nobody's search.
-    std::vector<Vec3> centers;
-    for (std::size_t i = 1; i <= 10000; ++i)
-        centers.push_back(points[i * 102947 % count]);
+    const std::vector<Vec3> centers = centers_of(points);
     const auto line = [&]<Query query>() {
         const auto time = [&](const auto& peer) {
             return [&] {

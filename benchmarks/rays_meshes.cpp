@@ -18,7 +18,7 @@ using ljus::Vec3;
 
 namespace {
 
-/// Either tree of the house; the triangles' own test is in double.
+/// Either tree of the library; the triangles' own test is in double.
 template <typename Tree>
 struct House {
     const rays::Mesh& mesh;
@@ -44,6 +44,63 @@ struct House {
     }
 };
 
+/// What a row of the book's tables holds of one mesh: times over those of a peer, ray set
+/// by ray set.
+struct Ratios {
+    std::vector<std::string> wide, plain; ///< Embree's over ours.
+    std::vector<std::string> tiny;        ///< tinybvh's over ours.
+};
+
+/// Asks all rays of a set, prints the row of the terminal and keeps the ratios.
+template <typename Embree, typename Tiny>
+void row(const char* name, const std::vector<Ray>& set, bool any,
+         const House<ljus::Bvh>& plain, const House<ljus::TriangleBvh>& wide,
+         const Embree& embree, const Tiny& tiny, Ratios& ratios) {
+    const auto t = rays::compare(set, any, plain, wide, embree, tiny);
+    std::printf("%-10s %-8s %9.1f %9.1f %9.1f %9.1f   %15.2f %5.2f   %s\n", "", name,
+                t.nanoseconds[0], t.nanoseconds[1], t.nanoseconds[2], t.nanoseconds[3],
+                t.nanoseconds[2] / t.nanoseconds[0],
+                t.nanoseconds[2] / t.nanoseconds[1],
+                t.sums[0] == t.sums[1] ? "same" : "DIFFERENT");
+    const auto over = [&](std::size_t peer, std::size_t k) {
+        return examples::text(t.nanoseconds[peer] / t.nanoseconds[k], "%.2f");
+    };
+    ratios.plain.push_back(over(2, 0));
+    ratios.wide.push_back(over(2, 1));
+    ratios.tiny.push_back(over(3, 1));
+}
+
+/// Rays from the camera of a mesh, from what they meet, and to a lamp.
+rays::RaySets sets_of(const rays::Named& named, const House<ljus::TriangleBvh>& wide) {
+    const auto first_hit = [&](const Ray& ray) -> std::optional<ljus::SurfacePoint> {
+        const NearestHit found = wide.nearest(ray);
+        if (!found.found) return std::nullopt;
+        return ljus::surface_point(named.mesh[found.number], ray, found.at);
+    };
+    const bool hills = named.name[0] == 'h';
+    return rays::ray_sets(first_hit,
+                          hills ? Vec3{1.6f, 1.2f, 1.9f} : Vec3{0, 0.6f, 2.6f}, Vec3{0},
+                          {0, 1, 0}, {-0.5f, 2.5f, -0.5f}, {1, 0, 0}, {0, 0, 1});
+}
+
+/// The corners of a mesh, as the peers take them.
+std::vector<float> corners_of(const rays::Mesh& mesh) {
+    std::vector<float> vertices;
+    for (const Triangle& t : mesh)
+        for (const Vec3& v : {t.v1, t.v2, t.v3})
+            vertices.insert(vertices.end(), {v.x, v.y, v.z});
+    return vertices;
+}
+
+/// Adds a row for a mesh: its name and size, and then these cells.
+void add_row(examples::Table& table, const rays::Named& named,
+             std::initializer_list<std::vector<std::string>> cells) {
+    table.rows.push_back({named.name.substr(0, named.name.find(' ')),
+                          std::to_string(named.mesh.size())});
+    for (const std::vector<std::string>& some : cells)
+        table.rows.back().insert(table.rows.back().end(), some.begin(), some.end());
+}
+
 } // namespace
 
 /// Prints a row for each mesh and set of rays.
@@ -65,23 +122,11 @@ int main(int argc, char** argv) {
         const double start = rays::seconds();
         const House<ljus::TriangleBvh> wide{mesh, rays::wide_tree(mesh)};
         const double build = rays::seconds() - start;
-        const auto first_hit =
-            [&](const Ray& ray) -> std::optional<ljus::SurfacePoint> {
-            const NearestHit found = wide.nearest(ray);
-            if (!found.found) return std::nullopt;
-            return ljus::surface_point(mesh[found.number], ray, found.at);
-        };
-        const bool hills = named.name[0] == 'h';
-        const rays::RaySets sets = rays::ray_sets(
-            first_hit, hills ? Vec3{1.6f, 1.2f, 1.9f} : Vec3{0, 0.6f, 2.6f}, Vec3{0},
-            {0, 1, 0}, {-0.5f, 2.5f, -0.5f}, {1, 0, 0}, {0, 0, 1});
+        const rays::RaySets sets = sets_of(named, wide);
         std::printf("%s: %zu triangles, %.1f bytes each, built in %.1f ms",
                     named.name.c_str(), mesh.size(),
                     double(wide.tree.bytes()) / double(mesh.size()), 1e3 * build);
-        std::vector<float> vertices;
-        for (const Triangle& t : mesh)
-            for (const Vec3& v : {t.v1, t.v2, t.v3})
-                vertices.insert(vertices.end(), {v.x, v.y, v.z});
+        const std::vector<float> vertices = corners_of(mesh);
 #ifdef LJUS_BENCH_EMBREE
         rays::Embree embree;
         embree.add(RTC_GEOMETRY_TYPE_TRIANGLE, vertices, 3, 3);
@@ -103,37 +148,14 @@ int main(int argc, char** argv) {
         const std::string tiny_ratio, tiny_bytes;
 #endif
         std::printf("\n");
-        std::vector<std::string> wide_ratios, plain_ratios, tiny_ratios;
-        const auto row = [&](const char* name, const std::vector<Ray>& set, bool any) {
-            const auto t = rays::compare(set, any, plain, wide, embree, tiny);
-            std::printf("%-10s %-8s %9.1f %9.1f %9.1f %9.1f   %15.2f %5.2f   %s\n", "",
-                        name, t.nanoseconds[0], t.nanoseconds[1], t.nanoseconds[2],
-                        t.nanoseconds[3], t.nanoseconds[2] / t.nanoseconds[0],
-                        t.nanoseconds[2] / t.nanoseconds[1],
-                        t.sums[0] == t.sums[1] ? "same" : "DIFFERENT");
-            const auto over = [&](std::size_t peer, std::size_t k) {
-                return examples::text(t.nanoseconds[peer] / t.nanoseconds[k], "%.2f");
-            };
-            plain_ratios.push_back(over(2, 0));
-            wide_ratios.push_back(over(2, 1));
-            tiny_ratios.push_back(over(3, 1));
-        };
-        row("primary", sets.primary, false);
-        row("diffuse", sets.diffuse, false);
-        row("shadow", sets.shadow, true);
-        table.rows.push_back(
-            {named.name.substr(0, named.name.find(' ')), std::to_string(mesh.size())});
-        std::vector<std::string>& cells = table.rows.back();
-        cells.insert(cells.end(), wide_ratios.begin(), wide_ratios.end());
-        cells.insert(cells.end(), plain_ratios.begin(), plain_ratios.end());
-        cells.push_back(ratio);
-        cells.push_back(
-            examples::text(double(wide.tree.bytes()) / double(mesh.size()), "%.0f"));
-        tiny_table.rows.push_back({table.rows.back()[0], table.rows.back()[1]});
-        tiny_table.rows.back().insert(tiny_table.rows.back().end(), tiny_ratios.begin(),
-                                      tiny_ratios.end());
-        tiny_table.rows.back().push_back(tiny_ratio);
-        tiny_table.rows.back().push_back(tiny_bytes);
+        Ratios ratios;
+        row("primary", sets.primary, false, plain, wide, embree, tiny, ratios);
+        row("diffuse", sets.diffuse, false, plain, wide, embree, tiny, ratios);
+        row("shadow", sets.shadow, true, plain, wide, embree, tiny, ratios);
+        const std::string bytes =
+            examples::text(double(wide.tree.bytes()) / double(mesh.size()), "%.0f");
+        add_row(table, named, {ratios.wide, ratios.plain, {ratio, bytes}});
+        add_row(tiny_table, named, {ratios.tiny, {tiny_ratio, tiny_bytes}});
     }
     save_csv(folder, table);
 #ifdef LJUS_BENCH_TINYBVH

@@ -1,5 +1,5 @@
 /// \file rays_room.cpp
-/// \brief The report's room: its own style of loop, the house's loop and index, and
+/// \brief The report's room: its own style of loop, the library's loop and index, and
 /// Embree.
 
 #include <cstdio>
@@ -112,7 +112,7 @@ struct Loop {
 
 } // namespace report
 
-/// The same idea at its best: the house's own tests and its 22 shapes behind a virtual
+/// The same idea at its best: the library's tests and its 22 shapes behind a virtual
 /// function, and a shadow ray that stops at the first hit.
 struct Object {
     virtual ~Object() = default;

@@ -149,7 +149,7 @@ RaySets ray_sets(FirstHit first_hit, Vec3 eye, Vec3 target, Vec3 up, Vec3 lamp,
     return sets;
 }
 
-/// The trees of the house over a mesh, built by one thread.
+/// The trees of the library over a mesh, built by one thread.
 inline ljus::Bvh plain_tree(const Mesh& mesh) {
     std::vector<ljus::Box> boxes;
     for (const ljus::Triangle& triangle : mesh) boxes.push_back(ljus::bounds(triangle));

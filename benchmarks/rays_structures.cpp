@@ -1,6 +1,6 @@
 /// \file rays_structures.cpp
-/// \brief Grid, octree, k-d tree and the house's two trees over the same triangles: time to
-/// build, time of a ray, memory; and whether all find the same hits.
+/// \brief Grid, octree, k-d tree and the library's two trees over the same triangles:
+/// time to build, time of a ray, memory; and whether all find the same hits.
 
 #include <cstdio>
 
@@ -34,7 +34,7 @@ struct Loop {
     }
 };
 
-/// The trees of the house.
+/// The trees of the library.
 template <typename Made>
 struct House {
     const rays::Mesh& mesh;

@@ -81,7 +81,13 @@ void row(const char* name, std::size_t queries, double tolerance, Plain plain,
 }
 
 /// Photons on the walls of a room of side 1, and places to gather at.
-void photons() {
+struct PhotonRoom {
+    static constexpr int count = 200000;
+    PhotonMap map;
+    std::vector<VertexT<float>> at;
+};
+
+PhotonRoom photon_room() {
     RandomStream stream = random_stream(7, Pass::user, 0, 0);
     const auto on_a_wall = [&](Vec3& normal) {
         Vec3 p = next_3d<float>(stream);
@@ -95,7 +101,7 @@ void photons() {
         return to_world(frame_around(normal),
                         sample_cosine_hemisphere(next_2d<float>(stream)));
     };
-    const int count = 200000;
+    constexpr int count = PhotonRoom::count;
     std::vector<Photon> photons;
     for (int i = 0; i < count; ++i) {
         Vec3 normal;
@@ -107,46 +113,50 @@ void photons() {
              .kind = i % 8 == 0 ? PhotonKind::direct : PhotonKind::indirect,
              .normal = small_normal(normal)});
     }
-    const PhotonMap map = make_photon_map(photons, 1);
-    std::vector<VertexT<float>> at(20000);
-    for (auto& surface : at) {
+    PhotonRoom room{make_photon_map(photons, 1), std::vector<VertexT<float>>(20000)};
+    for (auto& surface : room.at) {
         surface.point.position = on_a_wall(surface.point.normal);
         surface.frame = frame_around(surface.point.normal);
     }
+    return room;
+}
+
+/// Both estimates of the radiance, by one kernel, with a radius within which so many
+/// photons lie in the mean.
+void estimates(const PhotonRoom& room, const char* name, Kernel kernel, int within) {
     const Lambertian matt{};
     const Vec3 wo{0.6f, 0, 0.8f};
+    const float radius =
+        std::sqrt(6 * float(within) / (float(PhotonRoom::count) * 3.14159f));
+    const DensityEstimateSettings gather{.radius = radius, .kernel = kernel};
+    const auto by = [&](auto estimate) {
+        return [&, estimate](std::size_t first, std::size_t last) {
+            std::uint64_t gathered = 0;
+            double sum = 0;
+            for (std::size_t i = first; i < last; ++i)
+                sum += double(estimate(room.at[i], gathered).x);
+            return Sums{double(gathered), sum};
+        };
+    };
+    const auto plain = [&](const auto& at, std::uint64_t& gathered) {
+        return estimate_radiance_plain(room.map, at, matt, wo, gather,
+                                       one_kind(PhotonKind::indirect), gathered);
+    };
+    const auto fast = [&](const auto& at, std::uint64_t& gathered) {
+        return estimate_radiance(room.map, at, matt, wo, gather,
+                                 one_kind(PhotonKind::indirect), gathered);
+    };
+    char title[64];
+    std::snprintf(title, sizeof title, "estimate, %s, %d", name, within);
+    row(title, within == 500 ? 4000 : 20000, 1e-5, by(plain), by(fast));
+}
+
+void photons() {
+    const PhotonRoom room = photon_room();
     for (const auto& [name, kernel] : {std::pair{"box", Kernel::box},
                                        {"cone", Kernel::cone},
                                        {"epanechnikov", Kernel::epanechnikov}})
-        for (const int within : {10, 50, 500}) {
-            const float radius =
-                std::sqrt(6 * float(within) / (float(count) * 3.14159f));
-            const DensityEstimateSettings gather{.radius = radius, .kernel = kernel};
-            const std::size_t queries = within == 500 ? 4000 : 20000;
-            const auto plain = [&](std::size_t first, std::size_t last) {
-                std::uint64_t gathered = 0;
-                double sum = 0;
-                for (std::size_t i = first; i < last; ++i)
-                    sum += double(estimate_radiance_plain(
-                                      map, at[i], matt, wo, gather,
-                                      one_kind(PhotonKind::indirect), gathered)
-                                      .x);
-                return Sums{double(gathered), sum};
-            };
-            const auto fast = [&](std::size_t first, std::size_t last) {
-                std::uint64_t gathered = 0;
-                double sum = 0;
-                for (std::size_t i = first; i < last; ++i)
-                    sum += double(estimate_radiance(map, at[i], matt, wo, gather,
-                                                    one_kind(PhotonKind::indirect),
-                                                    gathered)
-                                      .x);
-                return Sums{double(gathered), sum};
-            };
-            char title[64];
-            std::snprintf(title, sizeof title, "estimate, %s, %d", name, within);
-            row(title, queries, 1e-5, plain, fast);
-        }
+        for (const int within : {10, 50, 500}) estimates(room, name, kernel, within);
 }
 
 /// The k-d trees: points on the walls of a room, and in it.

@@ -78,16 +78,13 @@ std::vector<double> values_of_pixel(const Room3& room,
                                  .sampling = Sampling::random};
     const Pattern pattern = make_pattern(picture.sampling, rays);
     std::vector<double> values(static_cast<std::size_t>(rays));
-    constexpr long long size = 4096;
-    const auto body = [&](long long block) {
+    const auto value = [&](std::size_t ray) {
         Counts counts;
-        const auto range = detail::block_range(block, size, rays);
-        for (long long i = range.first; i < range.last; ++i)
-            values[static_cast<std::size_t>(i)] = double(luminance(detail::sample_pixel(
-                mapper, room.camera, picture, pattern, 200, 330, int(i), counts)));
+        const auto found = detail::trace_pixel(mapper, room.camera, picture, pattern,
+                                               200, 330, int(ray), counts);
+        values[ray] = double(luminance(found.weight * found.radiance));
     };
-    parallel_blocks(detail::block_count(rays, size), body,
-                    {.threads = options.threads});
+    detail::parallel_each(values.size(), 4096, value, {.threads = options.threads});
     return values;
 }
 

@@ -65,8 +65,8 @@ Lit lit_floor(bool screen) {
     return scene;
 }
 
-/// The form factor from the floor at x to the lamp, of the strip from x0 to x1 of it, by
-/// the midpoint rule.
+/// The form factor from the floor at x to the lamp, of the strip from x0 to x1 of
+/// it, by the midpoint rule.
 double strip(double x, double x0, double x1) {
     constexpr int n = 400;
     double sum = 0;
@@ -344,7 +344,8 @@ TEST_CASE("form_factor_from: a sphere, by the horizon") {
     const auto factor = [&](const Sphere& ball, bool inside_out = false) {
         return form_factor_from(Vec3{0}, up, ball, inside_out);
     };
-    // Wholly above: (r/d)^2 cos. Below: nothing arrives. Cut, inside, or turned: not known.
+    // Wholly above: (r/d)^2 cos. Below: nothing arrives. Cut,
+    // inside, or turned: not known.
     CHECK(*factor({.center{0, 2, 0}, .radius = 1}) == doctest::Approx(0.25));
     CHECK(*factor({.center{3, 4, 0}, .radius = 2}) ==
           doctest::Approx(0.16 * 0.8).epsilon(1e-6));

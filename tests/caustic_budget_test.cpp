@@ -401,8 +401,8 @@ TEST_CASE("caustic_budget: the pilot's numbers, one photon after the other") {
 }
 
 TEST_CASE("caustic_budget: how many paths a pilot has, and that it does not give up") {
-    // A mirror throws all of its light at the sky, but for a little square. The light of
-    // 1 W/sr in front of it and its image at height 4 see the same cone.
+    // A mirror throws all of its light at the sky, but for a little square. The light
+    // of 1 W/sr in front of it and its image at height 4 see the same cone.
     Room room;
     room.add(Quad{.corner{-0.5f, 0, -0.5f}, .edge_u{0, 0, 1}, .edge_v{1, 0, 0}},
              room.add(Mirror{.reflectance = Rgb{1}}));

@@ -47,8 +47,8 @@ void add_floor(Room& room, float height, float half) {
              room.add(white));
 }
 
-/// The scene of a closed form. A floor of a ten thousand radii catches all but what leaves
-/// almost level, and rounds positions to a thousandth of the ball.
+/// The scene of a closed form. A floor of a ten thousand radii catches all but what
+/// leaves almost level, and rounds positions to a thousandth of the ball.
 Room room_of(const BallCaustic& ball, bool mirror = false, double half = 1e4) {
     Room room;
     add_floor(room, float(-ball.floor), float(half * ball.radius));
@@ -102,8 +102,8 @@ double irradiance(const PhotonMap& map, Vec3 at,
 } // namespace
 
 TEST_CASE("caustics: the light of a point light through a glass ball, ring by ring") {
-    // In focus, before it, behind it, and through a heavy glass. Of up to 40 rings each,
-    // 6 standard errors of 16 seeds are exceeded once in 1000 runs of all.
+    // In focus, before it, behind it, and through a heavy glass. Of up to 40 rings
+    // each, 6 standard errors of 16 seeds are exceeded once in 1000 runs of all.
     for (const BallCaustic& ball :
          {BallCaustic{}, BallCaustic{.floor = 0.6}, BallCaustic{.floor = 3},
           BallCaustic{.light = 1, .floor = 0.8, .radius = 0.7, .index = 1.9}}) {

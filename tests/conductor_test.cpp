@@ -23,7 +23,8 @@ namespace {
 using Complex = boost::multiprecision::cpp_complex_50;
 using Real = Complex::value_type;
 
-/// Fresnel's equations as they are printed, with the transmitted angle's complex cosine.
+/// Fresnel's equations as they are printed, with the
+/// transmitted angle's complex cosine.
 Real exact(const Real& cos_theta, const Real& n, const Real& k) {
     const Complex index(n, k);
     const Complex c(cos_theta, 0);

@@ -351,8 +351,8 @@ TEST_CASE("direct light: what is known is taken, and one side by both normals") 
 
 TEST_CASE("direct light: a lamp, and what stands before it, at the time of the path") {
     // A ball of light of radius 1 goes from (0, 5, 0) to (4, 5, 0), and a wall from
-    // above the point to far away. Above the horizon a ball gives pi L (r/d)^2 cos; mean
-    // of 32^2 points of the unit square. With and without a pane somewhere else.
+    // above the point to far away. Above the horizon a ball gives pi L (r/d)^2 cos;
+    // mean of 32^2 points of the unit square. With and without a pane somewhere else.
     using D3 = glm::dvec3;
     using Ball = SphereT<double>;
     using Wall = QuadT<double>;

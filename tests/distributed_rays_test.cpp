@@ -1,5 +1,5 @@
-// Distributed rays against areas, quadrature and other scenes. The statistics have fixed
-// seeds: "within 4 standard errors" would fail once in 15 000 new ones.
+// Distributed rays against areas, quadrature and other scenes. The statistics have
+// fixed seeds: "within 4 standard errors" would fail once in 15 000 new ones.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -89,7 +89,7 @@ double slope(const Error& error) {
     return sxy / sxx;
 }
 
-// --- A square lamp behind a straight edge ------------------------------------------------
+// --- A square lamp behind a straight edge --------------------------------------------
 const D2 edge_normal = glm::normalize(D2{1, 0.4}); // in the plane of the edge, y = 2
 constexpr double lamp_radiance = 5, lamp_height = 4, edge_height = 2;
 
@@ -299,7 +299,7 @@ TEST_CASE("distributed rays: with point lights and mirrors it is WhittedSettings
     CHECK(sharp.counts.bounce_rays > 20);
 }
 
-// --- Motion ------------------------------------------------------------------------------
+// --- Motion --------------------------------------------------------------------------
 TEST_CASE("distributed rays: a moving strip covers a ray as long as it takes to pass") {
     // A strip of width 0.6 that moves by 2 to the right, seen at different x.
     using Strip = Moving<Quad>;
@@ -434,9 +434,9 @@ TEST_CASE("distributed rays: every path is L D? (S|G)* E") {
     for (int y = 0; y < 20; ++y)
         for (int x = 0; x < 20; ++x)
             for (int i = 0; i < 4; ++i)
-                (void)detail::sample_pixel(tracer, lens, picture,
-                                           ljus::make_pattern(picture.sampling, 4), x,
-                                           y, i, counts, log);
+                (void)detail::trace_pixel(tracer, lens, picture,
+                                          ljus::make_pattern(picture.sampling, 4), x, y,
+                                          i, counts, log);
     std::set<std::string> kinds;
     std::size_t longest = 0;
     for (const PathLogLine& line : log.lines) {

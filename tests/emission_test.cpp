@@ -2,10 +2,10 @@
 /// \brief Photons that leave lights against irradiance and form factors worked out on
 /// paper.
 ///
-/// Counts are held against chi-square, which gives a false alarm once in a million; means
-/// within 4.5 standard errors, once in 150 000. All statistical cases but one, whose
-/// seeds are fixed, were run with 20 further seeds (`./scripts/test --seeds 20`): none
-/// failed.
+/// Counts are held against chi-square, which gives a false alarm once in a million;
+/// means within 4.5 standard errors, once in 150 000. All statistical cases but one,
+/// whose seeds are fixed, were run with 20 further seeds: none failed. For others:
+/// `./scripts/test --seeds 20`.
 
 #include "ljus/photons/aiming.hpp"
 
@@ -162,8 +162,8 @@ std::vector<Mean> emit_to(const TestScene& scene, const std::vector<ObjectId>& t
     return means;
 }
 
-/// The flux from a lamp with a normal to a sphere, by quadrature over the lamp's area and
-/// the cone in which each of its points sees the sphere.
+/// The flux from a lamp with a normal to a sphere, by quadrature over the lamp's area
+/// and the cone in which each of its points sees the sphere.
 double quad_to_sphere(const Quad& quad, const Sphere& ball, double radiance,
                       int pieces = 4) {
     const D3 normal = glm::normalize(glm::cross(D3(quad.edge_u), D3(quad.edge_v)));
@@ -1008,7 +1008,8 @@ TEST_CASE("emission: from within a bound a lamp aims at all that it can shine on
     stage.scene.add(PointLight{.position{0, 0, 0.5f}});
     const SurfacePoint from{.position{0, 0, 0.5f}, .normal{0, 0, 1}};
     for (const ObjectId target : {ball, wall}) {
-        // Its hemisphere, and a point light the whole sphere: in solid angles over 2 pi.
+        // Its hemisphere, and a point light the whole sphere:
+        // in solid angles over 2 pi.
         const auto lamp_at = aim_at(stage.scene, stage.scene.lights[0], from, target);
         CHECK(lamp_at.cone.axis == from.normal);
         CHECK(lamp_at.cone.one_minus_cos == 1);
@@ -1048,8 +1049,8 @@ TEST_CASE("emission: a spot that is wider than its target aims at nothing else")
 }
 
 TEST_CASE("emission: each light's aimed photons pay for how often it is chosen") {
-    // A sun beside a point light, which is chosen nine times in ten though it is weak: a
-    // photon carries what its light sends to the ball, over the light's probability.
+    // A sun beside a point light, which is chosen nine times in ten though it is weak:
+    // a photon carries what its light sends to the ball, over the light's probability.
     Stage stage;
     stage.scene.add(Sphere{.radius = 0.5f}, stage.glass);
     stage.scene.add(PointLight{.position{0, 3, 0}, .intensity = Rgb{0.2f}});

@@ -132,7 +132,8 @@ TEST_CASE("eon: the density integrates to 1, at any roughness and angle") {
         }
 }
 
-// False alarms: 100 seeds at 1 in 1000 each; more than 3 come by chance once in 250 000.
+// False alarms: 100 seeds at 1 in 1000 each; more than 3 come
+// by chance once in 250 000.
 TEST_CASE("eon: directions agree with their density over 100 seeds") {
     int failed = 0;
     for (std::uint64_t seed = 0; seed < 100; ++seed) {

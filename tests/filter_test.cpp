@@ -161,9 +161,9 @@ TEST_CASE_TEMPLATE("filter: no u leaves the radius or has a weight that is no nu
     }
 }
 
-// Along an axis: a place that is drawn in proportion to the filter counts 1, or with its
-// sign what the filter has on both sides of 0 in all; cells of constant density are off
-// by the filter's slope, less than a fiftieth in the mean.
+// Along an axis: a place that is drawn in proportion to the filter counts 1, or with
+// its sign what the filter has on both sides of 0 in all; cells of constant density are
+// off by the filter's slope, less than a fiftieth in the mean.
 TEST_CASE("filter: places are drawn as often as they count") {
     constexpr int n = 4000;
     for (const Filter filter : {Filter::tent, Filter::gaussian, Filter::mitchell}) {

@@ -118,7 +118,7 @@ TEST_CASE("final gathering: what lies on the surface near its edges") {
                 CHECK(of(0.98f, 0.6f) == doctest::Approx(detail::kernel_part(0.2f)));
                 CHECK(of(0.5f, 0.45f) == 1);
             }
-        if (!triangles) // where triangles meet a corner each edge is seen by one of them
+        if (!triangles) // at a corner of two triangles each edge is seen by one of them
             CHECK(
                 part(0.05f, 0.02f, 0.1f) ==
                 doctest::Approx(detail::kernel_part(0.5f) * detail::kernel_part(0.2f)));
@@ -189,8 +189,8 @@ TEST_CASE("final gathering: an even light is found in the middle and at the edge
 }
 
 TEST_CASE("final gathering: fewer photons than asked for are spread over the disc") {
-    // 100 photons of 0.01 W on a unit square, 28 in the disc in the mean, k of 64: all of
-    // them count. 400 maps, 4 standard errors.
+    // 100 photons of 0.01 W on a unit square, 28 in the disc in the mean, k of 64: all
+    // of them count. 400 maps, 4 standard errors.
     const Flat scene = square(false);
     Mean few;
     for (std::uint64_t seed = 1; seed <= 400; ++seed)
@@ -203,9 +203,9 @@ TEST_CASE("final gathering: fewer photons than asked for are spread over the dis
 
 TEST_CASE("final gathering: what is looked up is right in the mean over a surface") {
     // Where there are too many photons by chance there must not be more points as well,
-    // or their numbers, too large, would each stand for less of the surface. With points
-    // in the tree's order and 16 photons an estimate is 4 % too dark. Over 64 maps; three
-    // comparisons of 4 standard errors.
+    // or their numbers, too large, would each stand for less of the surface. With
+    // points in the tree's order and 16 photons an estimate is 4 % too dark. Over 64
+    // maps; three comparisons of 4 standard errors.
     const Flat scene = square(false);
     for (const int every : {2, 8, 32}) {
         Mean mean;
@@ -397,8 +397,8 @@ TEST_CASE("final gathering: points at photons, with all the light that is there"
                           ljus_test::within(right[c], 1e-4));
             }
         }
-    // Each twice, 0.05 apart, and seven numbers: of two one is a point and the other one
-    // counts, for both of them.
+    // Each twice, 0.05 apart, and seven numbers: of two one is a point and the other
+    // one counts, for both of them.
     for (int i = 0; i < 7; ++i) {
         photons.push_back(photons[std::size_t(i)]);
         photons.back().position.y += 0.05f;
@@ -930,8 +930,8 @@ TEST_CASE("final gathering: five rays stand elsewhere at each place: no bias") {
 
 TEST_CASE(
     "final gathering: what n^2 takes from a ray in glass is no reason to end it") {
-    // A slab of clear glass before a wall: each ray that comes to the wall brings all of
-    // what the wall sends, and the others are mirrored away.
+    // A slab of clear glass before a wall: each ray that comes to the wall brings all
+    // of what the wall sends, and the others are mirrored away.
     Scene<Shapes<Quad>, Materials<Lambertian, Glass>> hall;
     const auto glass = hall.add(Glass{.index = 2.4f});
     hall.add(Quad{.corner{-9, -9, 1}, .edge_u{0, 18, 0}, .edge_v{18, 0, 0}}, glass);

@@ -1,9 +1,9 @@
 // The general map against oracles of its own: form factors, a radiosity solution, and
 // quadrature with visibility, all in double. A mean of 64 seeds lies more than 3 of its
 // standard errors off in 0.4 % of all cases (Student's t, 63 degrees of freedom). Of a
-// family of such means, each of one cell, one and 5 % may lie beyond 3 and none beyond 5,
-// and the mean square, 1.03 if all is right, must be below 2.5. The cells share the photons
-// of their lamps: of 54 families with other seeds two failed.
+// family of such means, each of one cell, one and 5 % may lie beyond 3 and none beyond
+// 5, and the mean square, 1.03 if all is right, must be below 2.5. The cells share the
+// photons of their lamps: of 54 families with other seeds two failed.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -50,7 +50,7 @@ struct Family {
     }
 };
 
-// --- A box and its radiosity ----------------------------------------------------------
+// --- A box and its radiosity ---------------------------------------------------------
 
 /// A rectangle of the box, its normal along the cross product of its edges, inwards.
 struct Rectangle {
@@ -213,7 +213,7 @@ TEST_CASE("general map: direct and indirect photons of a box are its radiosity")
     }
 }
 
-// --- Shadows, light by light, side by side --------------------------------------------
+// --- Shadows, light by light, side by side -------------------------------------------
 
 namespace {
 
@@ -360,7 +360,7 @@ TEST_CASE("general map: direct + shadow = the light that nothing hides, for each
     }
 }
 
-// --- Whose photon, and how much of the flux -------------------------------------------
+// --- Whose photon, and how much of the flux ------------------------------------------
 
 TEST_CASE("general map: photons lie on matt surfaces only, and each knows its light") {
     // One lamp is red and the other green, and walls keep channels apart: a photon's
@@ -421,8 +421,8 @@ TEST_CASE("general map: photons lie on matt surfaces only, and each knows its li
 
 TEST_CASE(
     "general map: what the walls absorb is 1 - albedo of what the photons bring") {
-    // In a matt scene each photon that is stored has been absorbed by that share: path by
-    // path the sums are those of the flux audit.
+    // In a matt scene each photon that is stored has been absorbed by that share: path
+    // by path the sums are those of the flux audit.
     const RoomT<float> scene = box_scene(false);
     const auto walls = box_walls();
     for (const int bounces : {1, 2, 1000}) {
@@ -446,7 +446,7 @@ TEST_CASE(
     }
 }
 
-// --- The estimate: variance, bias, edges ----------------------------------------------
+// --- The estimate: variance, bias, edges ---------------------------------------------
 
 namespace {
 
@@ -591,7 +591,7 @@ TEST_CASE(
     }
 }
 
-// --- At the extremes ------------------------------------------------------------------
+// --- At the extremes -----------------------------------------------------------------
 
 TEST_CASE("general map: no light, no photons, one photon, a scene of glass") {
     Room dark;
@@ -722,7 +722,8 @@ TEST_CASE("general map: what the presets ask for") {
         CHECK(preset_settings(preset, 10, 10).general.photons == 10000);
         CHECK(preset_settings(preset, 20000, 20000).general.photons == 1000000);
     }
-    // Beyond 2^31 pixels, too; seven tenths of them lie between the limits at 300 x 300.
+    // Beyond 2^31 pixels, too; seven tenths of them lie
+    // between the limits at 300 x 300.
     CHECK(preset_settings(Preset::fast, 50000, 50000).general.photons == 1000000);
     CHECK(preset_settings(Preset::fast, 300, 300).general.photons == 63000);
     CHECK(exact.general.photons == 100000);
@@ -935,8 +936,8 @@ TEST_CASE("general map: who is asked of what, with the seed of which pass") {
 }
 
 TEST_CASE("general map: for shadow rays alone each lamp sends as many photons") {
-    // A lamp and a candle of a millionth of its power: by power it would send none of 3000
-    // photons, and no verdict would know it.
+    // A lamp and a candle of a millionth of its power: by power it would send none of
+    // 3000 photons, and no verdict would know it.
     Room room;
     add_walls(room);
     add_ball(room, Ball::lambertian);
@@ -1000,7 +1001,8 @@ TEST_CASE("general map: how caustic photons are shared out, by which light") {
     REQUIRE(shares.size() == 2);
     CHECK(shares[0] + shares[1] == doctest::Approx(1));
     CHECK(shares[0] != in_the_dark[0]); // the light of the room counts
-    // The pilot tells nobody of itself: neither of its passes is the one that is watched.
+    // The pilot tells nobody of itself: neither of its passes
+    // is the one that is watched.
     int told = 0;
     const auto tell = [&](long long, long long) { return ++told < 0; };
     PhotonMappingSettings watched = settings;

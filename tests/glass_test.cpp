@@ -1,5 +1,6 @@
 /// \file glass_test.cpp
-/// \brief Nothing is lost at a boundary, and the known optics of slabs and balls come out.
+/// \brief Nothing is lost at a boundary, and the known optics of
+/// slabs and balls come out.
 
 #include "ljus/materials/glass.hpp"
 

@@ -316,8 +316,8 @@ TEST_CASE("few shapes: who is asked, in which order, and who is not") {
     });
     CHECK(count == 1);
     CHECK(few.any(along, [](std::uint32_t i) { return i == 4; }));
-    // Beside all of them nobody is asked; beside a triangle, within the parallelogram of
-    // its edges, it is not.
+    // Beside all of them nobody is asked; beside a triangle, within the
+    // parallelogram of its edges, it is not.
     CHECK(asked(few, {.origin{9, 0, 0}, .direction{0, 0, 1}}).empty());
     FewShapes one;
     CHECK(one.add(Triangle{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, 7));

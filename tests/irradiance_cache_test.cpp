@@ -275,8 +275,8 @@ TEST_CASE("irradiance cache: each square has numbers of its own, with each seed"
 }
 
 TEST_CASE("irradiance cache: each point has what was gathered there") {
-    // A floor and a wall that stand in view: the normal tells which, and 1 / distance is
-    // the mean of those of all rays, which are longer the farther the ceiling is.
+    // A floor and a wall that stand in view: the normal tells which, and 1 / distance
+    // is the mean of those of all rays, which are longer the farther the ceiling is.
     Hall scene = hall();
     scene.add(Quad{.corner{1, -50, 0}, .edge_u{0, 0, 4}, .edge_v{0, 100, 0}},
               scene.add(Lambertian{}));
@@ -299,9 +299,9 @@ TEST_CASE("irradiance cache: each point has what was gathered there") {
 }
 
 TEST_CASE("irradiance cache: it equals path tracing, block by block") {
-    // Balls of each kind under a lamp. Blocks of 10 x 10 pixels, 6 seeds against 6 of the
-    // path tracer; what is allowed beside 4 standard errors is the bias of radius and
-    // interpolation: 4 % of a block and 1 % of the picture.
+    // Balls of each kind under a lamp. Blocks of 10 x 10 pixels, 6 seeds against 6 of
+    // the path tracer; what is allowed beside 4 standard errors is the bias of radius
+    // and interpolation: 4 % of a block and 1 % of the picture.
     constexpr int size = 60, blocks = 36, seeds = 6;
     const Camera camera = room_camera<float>();
     for (const Ball ball :

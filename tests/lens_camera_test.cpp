@@ -75,8 +75,8 @@ TEST_CASE("lens: the opening is covered evenly") {
 }
 
 TEST_CASE("lens: the circle of confusion is the thin lens' 1/F = 1/s + 1/d") {
-    // A real lens of focal length F stands d before the film, focused at s; a point at z
-    // is sharp at d' and leaves a cone of the opening's width that the film cuts.
+    // A real lens of focal length F stands d before the film, focused at s; a point at
+    // z is sharp at d' and leaves a cone of the opening's width that the film cuts.
     for (const double focal : {0.01, 0.05, 0.3})
         for (const double s : {1.0, 5.0, 40.0})
             for (const double z : {0.6, 1.0, 4.0, 5.0, 7.0, 1000.0}) {
@@ -146,7 +146,7 @@ TEST_CASE("lens: what it refuses") {
     CHECK_NOTHROW((void)with_lens(pinhole, 0.0f, 5.0f));
 }
 
-// --- The streams -------------------------------------------------------------------------
+// --- The streams ---------------------------------------------------------------------
 TEST_CASE_TEMPLATE("stratified stream: in each draw each ray of a pixel has a cell of "
                    "its own",
                    T, float, double) {

@@ -601,9 +601,10 @@ TEST_CASE("load_obj: which words of a material file make a mirror or glass") {
 }
 
 TEST_CASE("load_obj: a path-traced wall shows the four colours") {
-    // Under a white sky, in orthographic view nearly: of each quarter the mean is known.
-    // A pixel's weight falls off in a tent; of its own quarter it fills 3/4 in u and in
-    // v, its neighbour, which is on both sides because the picture repeats, the rest.
+    // Under a white sky, in orthographic view nearly: of each quarter the mean is
+    // known. A pixel's weight falls off in a tent; of its own quarter it fills
+    // 3/4 in u and in v, its neighbour, which is on both sides because the
+    // picture repeats, the rest.
     const WallFolder folder;
     Scene<Shapes<Sphere, Mesh>, Materials<Lambertian, ObjPicture>> scene;
     scene.add(Sphere{.radius = 1000}, scene.add(Lambertian{.albedo = Rgb{0}}), Rgb{1},
@@ -660,7 +661,8 @@ TEST_CASE("load_obj: a pipe in the place of a material file is not waited for") 
 #endif
 
 TEST_CASE("load_obj: no file crashes it") {
-    // Bytes changed, cut out, doubled and swapped in; each mesh that comes out is asked.
+    // Bytes changed, cut out, doubled and swapped in; each
+    // mesh that comes out is asked.
     const std::string extra = "vt 0.5 1 0\nf 1/-1/1 2/-1/1 3/1/1\nusemtl a\ng b\no "
                               "c\ns off\nvt 0 1\nf 1/1 2/1 3/1\n"
                               "f 1/1/1 2/1/1 3/1/1\nl 1 2\nv 1e30 -1e-30 5\n";

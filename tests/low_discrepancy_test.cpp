@@ -237,7 +237,8 @@ TEST_CASE("low_discrepancy: the error of a mean falls faster than that of chance
         return u.x * u.x + u.y * u.y < 1 ? 1.0 : 0.0;
     };
     const double exact = (std::exp(1.0) - 1) / 2, quarter = std::atan(1.0);
-    // Owen: 3/2 for what is smooth; 3/4 for an edge that follows no axis; 1/2 by chance.
+    // Owen: 3/2 for what is smooth; 3/4 for an edge that
+    // follows no axis; 1/2 by chance.
     CHECK(error_slope(smooth, exact, true) < -1.35);
     CHECK(error_slope(edge, quarter, true) == doctest::Approx(-0.75).epsilon(0.15));
     CHECK(error_slope(smooth, exact, false) == doctest::Approx(-0.5).epsilon(0.15));

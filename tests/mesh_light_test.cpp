@@ -26,9 +26,9 @@ MeshRoom room_with(bool furnace, bool glass, bool triangles) {
     const auto grey = room.add(Lambertian{.albedo = Rgb{0.5f}});
     const Rgb glow{furnace ? 0.5f : 0.0f};
     const Vec3 x{2, 0, 0}, y{0, 2, 0}, z{0, 0, 2}, corner{-1, -1, -1};
-    // The furnace is a sphere: in a box's corners the photon mapper's shadow rays, which
-    // have no multiple importance sampling, have tails that 16 pictures do not show; a
-    // mean is then 0.3 % low, with the sphere and with its triangles alike.
+    // The furnace is a sphere: in a box's corners the photon mapper's shadow rays,
+    // which have no multiple importance sampling, have tails that 16 pictures do not
+    // show; a mean is then 0.3 % low, with the sphere and with its triangles alike.
     if (furnace) room.add(Sphere{.center{0, 0, 0}, .radius = 1.8f}, grey, glow, true);
     for (const Quad& wall :
          {Quad{corner, z, x}, Quad{corner + y, x, z}, Quad{corner, x, y},
@@ -101,8 +101,8 @@ Blocks mapped(const MeshRoom& room, std::uint64_t first, int count) {
 } // namespace
 
 // 4 rooms of 36 blocks, each compared twice: of 288 distances chance puts 2 beyond 3
-// standard errors (Student's t, 30 to 45 degrees of freedom) and one beyond 5 in one run
-// of 300. SHOW in the environment prints them.
+// standard errors (Student's t, 30 to 45 degrees of freedom) and one beyond 5 in one
+// run of 300. SHOW in the environment prints them.
 TEST_CASE("mesh: a ball of 20480 smooth triangles is a sphere, in both renderers") {
     int beyond3 = 0, beyond5 = 0;
     std::uint64_t first = 100;

@@ -340,7 +340,8 @@ TEST_CASE("mesh: mirrors, glass and matt meshes in a furnace are as bright as it
             } else {
                 // Matt meshes lose what the case above says; glass what total
                 // reflection catches for ever within coarse smooth triangles: in these
-                // pictures, background included, 0.8 % with 20 triangles, 0.1 % with 320.
+                // pictures, background included, 0.8 % with 20
+                // triangles, 0.1 % with 320.
                 CHECK(least > 0.4);
                 CHECK(sum / double(image.pixels.size()) > (kind == 1 ? 0.985 : 0.9));
             }

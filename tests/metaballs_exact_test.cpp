@@ -3,13 +3,13 @@
 /// \file metaballs_exact_test.cpp
 /// \brief Rays and metaballs against arithmetic of 34 digits, family by family.
 ///
-/// The oracle takes another way than the library: in each span the field is a quartic in
-/// powers of t, exact to 34 digits; its extrema, the roots of a cubic, say all that is to
-/// be decided. It is itself asked about single blobs, which are spheres.
+/// The oracle takes another way than the library: in each span the field is a quartic
+/// in powers of t, exact to 34 digits; its extrema, the roots of a cubic, say all that
+/// is to be decided. It is itself asked about single blobs, which are spheres.
 ///
-/// A case is *firm* when the field moves less, under 8 units of roundoff in every input,
-/// than its largest value on the ray is away from 0 (and its value at the ray's origin).
-/// There a solver must be right: hit or miss, and no firm crossing skipped.
+/// A case is *firm* when the field moves less, under 8 units of roundoff in every
+/// input, than its largest value on the ray is away from 0 (and its value at the ray's
+/// origin). There a solver must be right: hit or miss, and no firm crossing skipped.
 
 #include <doctest/doctest.h>
 
@@ -143,7 +143,8 @@ Truth exact(const RayT<T>& ray, const MetaballsT<T>& balls) {
         if (q.enter > 0) borders.push_back(q.enter);
         if (q.leave > 0) borders.push_back(q.leave);
         truth.blobs.push_back(q);
-        // |grad| of (1 - r^2/R^2)^2 is at most 1.54 / R; its own terms move by 2 R-errors.
+        // |grad| of (1 - r^2/R^2)^2 is at most 1.54 / R; its own
+        // terms move by 2 R-errors.
         const Real far = std::max(Real(0), q.leave);
         for (std::size_t k = 0; k < 3; ++k) size[k] = o[k] + far * abs(d[k]);
         const Real shift = eight_u * sqrt(dot3(size, size)) / Real(blob.radius);

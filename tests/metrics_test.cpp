@@ -144,7 +144,8 @@ TEST_CASE("metrics: NaN is shown, not hidden") {
     CHECK(std::isnan(ljus::rmse(x, r)));
     CHECK(std::isnan(ljus::rel_mse(x, r)));
     CHECK(std::isnan(ljus::trimmed_rel_mse(x, r)));
-    // Not among the worst that are left out, wherever it stands and however many they are.
+    // Not among the worst that are left out, wherever it stands
+    // and however many they are.
     for (const std::size_t place : {0u, 17u, 200u, 399u})
         for (const double dropped : {0.01, 0.3, 0.9, 0.999}) {
             ImageD odd = r;

@@ -22,8 +22,8 @@ namespace {
 using D = MixtureT<double>;
 const RgbT<double> white{1.0};
 
-/// All light that a material sends to wo out of a uniform surrounding, as flux: matt part
-/// by quadrature, deltas by their weights.
+/// All light that a material sends to wo out of a uniform surrounding, as flux: matt
+/// part by quadrature, deltas by their weights.
 double total_albedo(const D& m, const Vec3T<double>& wo) {
     return albedo_by_quadrature(m, wo, 300).x +
            specular_albedo(m, wo, Transport::flux, 2000).x;
@@ -90,7 +90,8 @@ TEST_CASE("mixture: the report's thin glass returns 1, and not 1.6 times the lig
 }
 
 TEST_CASE("mixture: coated matt loses on the way in and on the way out") {
-    // (1 - F) of the light enters, the mean of 1 - F leaves: by a quadrature of its own.
+    // (1 - F) of the light enters, the mean of 1 - F leaves:
+    // by a quadrature of its own.
     const D coated{.color = white, .index = 1.5, .specularity = 1};
     double leaves = 0;
     const int n = 20000;

@@ -85,8 +85,8 @@ TEST_CASE("monte carlo: the integral itself, by the midpoint rule") {
     CHECK(cosine == within(by_cosine, 1e-8));
 }
 
-// False alarms: 4.5 standard errors, 7 in a million each. The variance of 200 000 samples
-// is known to 0.5 % or so; 4 % is eight times that.
+// False alarms: 4.5 standard errors, 7 in a million each. The variance of 200 000
+// samples is known to 0.5 % or so; 4 % is eight times that.
 TEST_CASE(
     "monte carlo: the mean of f/p is the integral, and its variance is as foretold") {
     const Estimate uniform =
@@ -119,8 +119,8 @@ TEST_CASE("monte carlo: inversion draws with the density that it should") {
     }
 }
 
-// The rms error of many runs is known within 1/sqrt(2 runs): 5 % of 200, so that a slope
-// over a factor of 256 is known within 0.02; 0.15 off does not come by chance.
+// The rms error of many runs is known within 1/sqrt(2 runs): 5 % of 200, so that a
+// slope over a factor of 256 is known within 0.02; 0.15 off does not come by chance.
 TEST_CASE("monte carlo: errors fall by chance, by strata and by Owen as theory says") {
     constexpr int runs = 200;
     const auto rms = [](int n, auto number) {
@@ -215,8 +215,8 @@ TEST_CASE(
     CHECK(standard_error(cosine) < 1e-12);
 }
 
-// 4000 runs: the share that two standard errors cover is known within 0.4 %; 2 % is five
-// times that. For a normal distribution it is 95.0 %.
+// 4000 runs: the share that two standard errors cover is known within 0.4 %; 2 % is
+// five times that. For a normal distribution it is 95.0 %.
 TEST_CASE("monte carlo: 1.96 standard errors cover the truth 95 times of 100") {
     const auto covered = [](double (*to)(double), double (*pdf)(double)) {
         int inside = 0;

@@ -1,5 +1,6 @@
 /// \file oren_nayar_test.cpp
-/// \brief The model of 1994 against its own angles, and the albedo against a closed form.
+/// \brief The model of 1994 against its own angles, and the
+/// albedo against a closed form.
 
 #include "ljus/materials/oren_nayar.hpp"
 

@@ -138,8 +138,8 @@ TEST_CASE("pair_triangles: points that differ in one coordinate are two") {
 }
 
 TEST_CASE("pair_triangles: one that has its partner does not stand in another's way") {
-    // At the edge from a to b stand two triangles; the second of them is half of a square
-    // already when the partner of the first one comes.
+    // At the edge from a to b stand two triangles; the second of them is half of a
+    // square already when the partner of the first one comes.
     const glm::dvec3 a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0}, d{0, 0, 1}, e{1, 0, 1},
         f{1, -1, 0};
     const auto found =

@@ -1,6 +1,7 @@
 // concept: radiosity
 /// \file patches_test.cpp
-/// \brief Patches cover each surface once; form factors by rays agree with closed forms.
+/// \brief Patches cover each surface once; form factors by rays
+/// agree with closed forms.
 
 #include <doctest/doctest.h>
 
@@ -192,7 +193,8 @@ TEST_CASE("form_factors: rays agree with the closed form") {
                 continue;
             }
             CHECK(found->row(i)[j] == found->row(j)[i]);
-            // Rays from both sides; spread evenly, they scatter a little less than this.
+            // Rays from both sides; spread evenly, they
+            // scatter a little less than this.
             const double sigma = std::sqrt(f * (1 - f) / (2 * rays));
             squares += std::pow(((*found)(i, j) - f) / sigma, 2);
             pairs += 1;
@@ -383,8 +385,8 @@ TEST_CASE("form_factors: the visible share has the weights of the form factor") 
 }
 
 TEST_CASE("form_factors: what lies behind a patch has no part in what is visible") {
-    // A wall of side 1 stands on a floor at x = 1.5 and faces the larger part of it. From
-    // the rest a screen hides the wall's back, which nothing sees anyway.
+    // A wall of side 1 stands on a floor at x = 1.5 and faces the larger part of it.
+    // From the rest a screen hides the wall's back, which nothing sees anyway.
     Stage<double> stage;
     const auto white = stage.add(LambertianT<double>{});
     stage.add(QuadT<double>{{0, 0, 0}, {2, 0, 0}, {0, 1, 0}}, white);
@@ -458,7 +460,8 @@ TEST_CASE("patches: what stands between, and what only seems to stand before") {
     CHECK(make_patches(within, {.size = 9}).convex);
     CHECK(make_patches(within, {.size = 9}).patches.size() > 0);
 
-    // Pieces of one plane, whichever way it lies: rounding puts no piece before another.
+    // Pieces of one plane, whichever way it lies: rounding
+    // puts no piece before another.
     const V u = glm::normalize(V{1, 2, 3}),
             v = glm::normalize(glm::cross(u, V{5, 1, 2}));
     Stage<float> plane;

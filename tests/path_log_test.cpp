@@ -188,8 +188,8 @@ TEST_CASE(
 }
 
 TEST_CASE("path log: the two renderers bring the same light, class of paths by class") {
-    // No class is missing, none is counted twice: E L, E S+ L, E D L, E D S+ L, E D D L,
-    // E S+ D L, E D D S+ L, ... in one room with both maps' photons.
+    // No class is missing, none is counted twice: E L, E S+ L, E D L, E D S+ L, E D D
+    // L, E S+ D L, E D D S+ L, ... in one room with both maps' photons.
     const Room room = mixed_room();
     PhotonMappingSettings settings;
     settings.caustics_estimate.radius = 0.04f;

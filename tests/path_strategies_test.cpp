@@ -1,7 +1,7 @@
 // concept: path_tracing
-// Who may bring a lamp's light, and when a path ends by chance: the mean knows nothing of
-// it. Means are asked for within 3.5 standard errors (13 of them: fresh seeds would fail
-// once in 165 runs), chi-squares within 3.09 (3 of them, once in 300).
+// Who may bring a lamp's light, and when a path ends by chance: the mean knows nothing
+// of it. Means are asked for within 3.5 standard errors (13 of them: fresh seeds would
+// fail once in 165 runs), chi-squares within 3.09 (3 of them, once in 300).
 #include <doctest/doctest.h>
 
 #include <algorithm>

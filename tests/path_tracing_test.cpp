@@ -194,9 +194,9 @@ TEST_CASE_TEMPLATE("path tracing: a matt ball embedded in glass in a furnace", T
 
 TEST_CASE_TEMPLATE("path tracing: a lamp embedded in glass looks n^2 times darker", T,
                    float, double) {
-    // What is lit from outside enters and leaves, and n^2 cancels on the way; light that
-    // starts within the glass only leaves it: L = (1 - F) Le / n^2. What the surface
-    // throws back meets the black lamp again.
+    // What is lit from outside enters and leaves, and n^2 cancels on the way; light
+    // that starts within the glass only leaves it: L = (1 - F) Le / n^2. What the
+    // surface throws back meets the black lamp again.
     const double n = 1.5, a = 0.55;
     for (const double impact : {0.0, 0.5, 0.8, 0.9}) {
         Furnace<T> scene;
@@ -445,9 +445,9 @@ TEST_CASE("path tracing: the plain one, path by path, in closed form") {
             CHECK(glm::distance(mirrored, depth == 1 ? D3{0} : D3{2.7, 2, 1}) < 1e-12);
             CHECK(counts.bounce_rays == 1);
         }
-    // Between plates that reflect all and emit all: one more L from each bounce, half of
-    // it by a shadow ray. A lamp of its own is met only where no shadow ray could go, so
-    // from outside, on the back of the ceiling, nothing is seen.
+    // Between plates that reflect all and emit all: one more L from each bounce, half
+    // of it by a shadow ray. A lamp of its own is met only where no shadow ray could
+    // go, so from outside, on the back of the ceiling, nothing is seen.
     Counts counts;
     CHECK(seen(lit, {.origin{0, 5, 0}, .direction{0, -1, 0}}, 5, 1, counts) == D3{0});
     CHECK(seen(lit, {.origin{0, 2, 0}, .direction{1, 0, 0}}, 5, 1, counts) == D3{0});
@@ -567,7 +567,8 @@ TEST_CASE("path tracing: each heuristic has the weight that its formula says") {
 
 TEST_CASE("path tracing: the plain one finds the same light") {
     // Every pixel of a picture of 8 x 8: the means of both, within 4 standard errors of
-    // their difference; of 576 comparisons, none is that far apart in 96 % of such tests.
+    // their difference; of 576 comparisons, none is that far
+    // apart in 96 % of such tests.
     using namespace ljus_test;
     for (const Ball ball : {Ball::lambertian, Ball::oren_nayar, Ball::mirror})
         for (const Lamp lamp : {Lamp::quad, Lamp::sphere, Lamp::point}) {
@@ -699,8 +700,8 @@ TEST_CASE(
 }
 
 TEST_CASE("path tracing: what n^2 takes from a path in glass is no reason to end it") {
-    // Glass that absorbs nothing, in light of radiance 1 that is black: each path brings
-    // all of it, if roulette does not touch it.
+    // Glass that absorbs nothing, in light of radiance 1 that is black: each path
+    // brings all of it, if roulette does not touch it.
     Furnace<double> room;
     room.add(SphereT<double>{.radius = 2},
              room.add(LambertianT<double>{.albedo = RgbT<double>{0}}), RgbT<double>{1},

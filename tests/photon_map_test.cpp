@@ -1,8 +1,8 @@
 /// \file photon_map_test.cpp
 /// \brief The estimate from photons against the flux density that they were made with.
 ///
-/// Standard errors come from independent maps, one a seed. A mean is accepted within 4.5
-/// of them: each such check gives a false alarm once in 150 000 seeds.
+/// Standard errors come from independent maps, one a seed. A mean is accepted within
+/// 4.5 of them: each such check gives a false alarm once in 150 000 seeds.
 
 #include "ljus/photons/detail/estimates_together.hpp"
 
@@ -46,8 +46,8 @@ ljus::VertexT<T> floor_at(ljus::Vec3T<T> position) {
     return surface;
 }
 
-/// Photons that fall on the square [-1, 1]^2 at a height, uniformly: together they carry
-/// the flux density.
+/// Photons that fall on the square [-1, 1]^2 at a height, uniformly: together
+/// they carry the flux density.
 std::vector<Photon> rain(int count, Draws& numbers, float height = 0,
                          PhotonKind kind = PhotonKind::direct, float share = 1) {
     std::vector<Photon> photons;
@@ -98,7 +98,8 @@ std::vector<DensityEstimateSettings> each_kernel(float radius,
     return ways;
 }
 
-/// A matt surface that the estimate does not know for one: it is asked photon by photon.
+/// A matt surface that the estimate does not know for one: it
+/// is asked photon by photon.
 struct Unknown {
     using Scalar = float;
     Lambertian inner = matt;

@@ -1,6 +1,6 @@
 // concept: photon_mapping
-// Who answers at a vertex, by a plain twin that asks each of them itself; and what a path
-// does at mirrors and glass, where nothing is left to chance or chance shows.
+// Who answers at a vertex, by a plain twin that asks each of them itself; and what a
+// path does at mirrors and glass, where nothing is left to chance or chance shows.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -251,8 +251,8 @@ TEST_CASE("photon mapping: a path goes both ways eight times, and loses nothing"
 }
 
 TEST_CASE("photon mapping: where a path ends that has gathered, and who shows a lamp") {
-    // A matt room: an indirect ray that gathers where it ends goes no farther; a lamp is
-    // seen by the camera alone.
+    // A matt room: an indirect ray that gathers where it ends goes no farther; a lamp
+    // is seen by the camera alone.
     const Room room = make_room<float>(Ball::lambertian, Lamp::quad, 2);
     const Camera camera = look_at(View{.position{0, -0.9f, 0.9f}, .target{0, 1, 0}});
     for (const auto& [way, least, most] : {std::tuple{IndirectLight::rays, 2, 100},

@@ -90,16 +90,16 @@ const char* name(Lamp lamp) {
 
 } // namespace
 
-// Each ball under each kind of lamp, and three of them under two lamps. Of 1088 blocks, at
-// most 16 may lie beyond 3 standard errors, and none beyond 5. The errors come from 16
-// seeds of the photon mapper and 20 to 40 of the reference, so that a distance follows
-// Student's t. With equal variances it has some 40 degrees of freedom: chance then puts 5
-// blocks beyond 3, more than 16 in one run of 50 000, and one beyond 5 in one run of 75.
-// Were all the variance the mapper's, with 15 degrees, it would be 10 blocks, and more than
-// 16 in one run of 37. The seeds are fixed, each cell has its own, and 13 blocks were seen
-// beyond 3. Of the 54 means, the one that is known worst has a standard error of 0.36 %, so
-// that 1 % is 2.8 of them. The other cases below ask for 3 standard errors of 13 means: one
-// run of 28, were the seeds new.
+// Each ball under each kind of lamp, and three of them under two lamps. Of 1088 blocks,
+// at most 16 may lie beyond 3 standard errors, and none beyond 5. The errors come from
+// 16 seeds of the photon mapper and 20 to 40 of the reference, so that a distance
+// follows Student's t. With equal variances it has some 40 degrees of freedom: chance
+// then puts 5 blocks beyond 3, more than 16 in one run of 50 000, and one beyond 5 in
+// one run of 75. Were all the variance the mapper's, with 15 degrees, it would be 10
+// blocks, and more than 16 in one run of 37. The seeds are fixed, each cell has its
+// own, and 13 blocks were seen beyond 3. Of the 54 means, the one that is known worst
+// has a standard error of 0.36 %, so that 1 % is 2.8 of them. The other cases below ask
+// for 3 standard errors of 13 means: one run of 28, were the seeds new.
 //
 // With SHOW in the environment the numbers are printed.
 TEST_CASE("photon mapping: equals path tracing, material by material and light by "
@@ -322,8 +322,8 @@ TEST_CASE("photon mapping: a matt ball embedded in glass in a furnace") {
     const double ball = albedo * (1 - mean_share) * n * n / (1 - albedo * mean_share);
     const double right = 0.04 + 0.96 * ball / (n * n);
 
-    // The same ball for each way to evaluate a photon's BSDF: eight photons at a time, one
-    // by one (a rough ball without roughness), and by the k nearest.
+    // The same ball for each way to evaluate a photon's BSDF: eight photons at a time,
+    // one by one (a rough ball without roughness), and by the k nearest.
     struct Way {
         const char* name;
         bool rough;

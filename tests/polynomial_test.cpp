@@ -29,6 +29,27 @@ using ljus_test::Numbers;
 
 namespace {
 
+/// A polynomial in powers, c[0] + c[1] x + ... + c[N] x^N, on an interval: as Bernstein
+/// coefficients over it.
+/// \param p     The coefficients.
+/// \param low   The interval's lower end.
+/// \param high  Its upper end.
+/// \return The polynomial of u, where x = low + u (high - low).
+template <std::floating_point T, std::size_t M>
+[[nodiscard]] detail::BernsteinT<T, M - 1> on_interval(std::array<T, M> p, T low,
+                                                       T high) noexcept {
+    constexpr std::size_t N = M - 1;
+    // Horner's scheme, again and again: the powers of x - low.
+    for (std::size_t i = 0; i < N; ++i)
+        for (std::size_t j = N; j-- > i;) p[j] += low * p[j + 1];
+    constexpr auto of_n = detail::binomials<T, N>();
+    T length = T(1);
+    for (std::size_t i = 0; i <= N; ++i, length *= high - low) p[i] *= length / of_n[i];
+    for (std::size_t i = 0; i < N; ++i)
+        for (std::size_t j = N; j > i; --j) p[j] += p[j - 1];
+    return {p};
+}
+
 using Powers = std::array<double, 5>;
 
 Exact exact_value(const Powers& p, const Exact& x) {
@@ -46,7 +67,7 @@ detail::RootsT<T, M - 1> roots_in(const std::array<T, M>& p, T low, T high) noex
     T size = T(0);
     for (std::size_t i = M; i-- > 0;) size = size * m + std::abs(p[i]);
     const T tolerance = T(8 * M) * std::numeric_limits<T>::epsilon() * size;
-    auto result = detail::roots(detail::on_interval(p, low, high), tolerance);
+    auto result = detail::roots(on_interval(p, low, high), tolerance);
     for (std::size_t i = 0; i < result.count; ++i)
         result.at[i] = glm::min(high, low + result.at[i] * (high - low));
     return result;
@@ -270,28 +291,28 @@ TEST_CASE("polynomial: value and derivative on Bernstein coefficients") {
     const detail::BernsteinT<double, 4> p{{0, 0, 0, 1, 0}};
     CHECK(detail::value_at(p, 0.5) == 0.25);
     CHECK(detail::value_at(detail::derivative(p), 0.5) == 1.0);
-    CHECK(detail::value_at(detail::on_interval(std::array{1.0, 2.0, 3.0}, 2.0, 4.0),
-                           0.5) == 34.0);
+    CHECK(detail::value_at(on_interval(std::array{1.0, 2.0, 3.0}, 2.0, 4.0), 0.5) ==
+          34.0);
     CHECK(detail::sign_changes(detail::BernsteinT<double, 4>{{1, 0, -1, 0, 2}}) == 2);
     CHECK(detail::sign_changes(p) == 0);
 }
 
 TEST_CASE("polynomial: the first change of sign") {
     // (u - 1/4)(u - 3/4): below, between, and from an end to the other
-    const auto p = detail::on_interval(std::array{3.0 / 16, -1.0, 1.0}, 0.0, 1.0);
+    const auto p = on_interval(std::array{3.0 / 16, -1.0, 1.0}, 0.0, 1.0);
     REQUIRE(detail::first_change(p));
     CHECK(*detail::first_change(p) == doctest::Approx(0.25).epsilon(1e-14));
-    const auto late = detail::on_interval(std::array{3.0 / 16, -1.0, 1.0}, 0.5, 1.5);
+    const auto late = on_interval(std::array{3.0 / 16, -1.0, 1.0}, 0.5, 1.5);
     REQUIRE(detail::first_change(late));
     CHECK(*detail::first_change(late) == doctest::Approx(0.25).epsilon(1e-14));
     // A touch counts, a miss by a little does not.
-    const auto touch = detail::on_interval(std::array{0.25, -1.0, 1.0}, 0.0, 1.0);
+    const auto touch = on_interval(std::array{0.25, -1.0, 1.0}, 0.0, 1.0);
     REQUIRE(detail::first_change(touch));
     CHECK(*detail::first_change(touch) == doctest::Approx(0.5));
     CHECK_FALSE(detail::first_change(
-        detail::on_interval(std::array{0.25 + 1e-13, -1.0, 1.0}, 0.0, 1.0)));
+        on_interval(std::array{0.25 + 1e-13, -1.0, 1.0}, 0.0, 1.0)));
     // A quartic that changes three times: the first of them.
-    const auto three = detail::on_interval(
+    const auto three = on_interval(
         std::array{-0.1 * 0.5 * 0.8, 0.05 + 0.08 + 0.4, -1.4, 1.0}, 0.0, 1.0);
     CHECK(*detail::first_change(three) == doctest::Approx(0.1).epsilon(1e-12));
 }
@@ -372,8 +393,8 @@ TEST_CASE(
     CHECK(detail::root_between(Line{{-1, 3}}, 0.0, 1.0) == 0.25);
     CHECK(detail::root_between(Line{{1, -3}}, 0.0, 1.0) == 0.25);
     // Within a part: 1/4 is the only one of three roots.
-    const auto three = detail::on_interval(
-        std::array{-3.0 / 32, 11.0 / 16, -3.0 / 2, 1.0}, 0.0, 1.0); // 1/4, 1/2, 3/4
+    const auto three = on_interval(std::array{-3.0 / 32, 11.0 / 16, -3.0 / 2, 1.0}, 0.0,
+                                   1.0); // 1/4, 1/2, 3/4
     CHECK(detail::root_between(three, 0.0, 0.375) == doctest::Approx(0.25));
     CHECK(detail::root_between(three, 0.375, 0.625) == doctest::Approx(0.5));
     CHECK(detail::root_between(three, 0.625, 1.0) == doctest::Approx(0.75));

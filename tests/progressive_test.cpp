@@ -24,8 +24,8 @@
 #include "support/refusal.hpp"
 #include "support/rooms.hpp"
 
-// A child of a program with threads is more than the thread sanitizer can follow; g++ and
-// clang say by different names that it is there.
+// A child of a program with threads is more than the thread sanitizer can follow; g++
+// and clang say by different names that it is there.
 #ifdef __has_feature
 #if __has_feature(thread_sanitizer)
 #define LJUS_TEST_THREAD_SANITIZER

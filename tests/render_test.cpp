@@ -88,8 +88,9 @@ RenderedT<float> plain_picture(const R& renderer, const Camera& camera,
         for (int x = 0; x < picture.width; ++x) {
             RgbT<double> sum{0};
             for (int i = 0; i < picture.samples; ++i) {
-                const Rgb sample = detail::sample_pixel(renderer, camera, picture,
-                                                        pattern, x, y, i, plain.counts);
+                const auto found = detail::trace_pixel(renderer, camera, picture,
+                                                       pattern, x, y, i, plain.counts);
+                const Rgb sample = found.weight * found.radiance;
                 if (is_finite(sample))
                     sum += RgbT<double>(sample);
                 else
@@ -152,7 +153,8 @@ TEST_CASE("render: caustics that are asked for together are those asked one by o
 }
 
 TEST_CASE("render: no ray of a picture has the numbers of another one") {
-    // Of 24 bits each: that two of 3200 triples agree by chance is as good as impossible.
+    // Of 24 bits each: that two of 3200 triples agree by chance
+    // is as good as impossible.
     std::set<std::array<double, 3>> seen;
     for (const std::uint64_t seed : {1u, 2u}) {
         const RenderSettings picture{.width = seed == 1 ? 25 : 16,
@@ -164,8 +166,10 @@ TEST_CASE("render: no ray of a picture has the numbers of another one") {
             for (int x = 0; x < picture.width; ++x)
                 for (int i = 0; i < 4; ++i) {
                     Counts counts;
-                    const auto numbers = detail::sample_pixel(
-                        Echo{}, CameraT<double>{}, picture, pattern, x, y, i, counts);
+                    const auto numbers =
+                        detail::trace_pixel(Echo{}, CameraT<double>{}, picture, pattern,
+                                            x, y, i, counts)
+                            .radiance;
                     seen.insert({numbers.x, numbers.y, numbers.z});
                     CHECK(counts.camera_rays == 1);
                 }
@@ -484,9 +488,11 @@ TEST_CASE("render: one pixel's ray is the same alone as in the picture") {
         RgbT<double> sum{0}; // as the pixel loop adds
         Counts counts;
         PathLog log;
-        for (int i = 0; i < picture.samples; ++i)
-            sum += RgbT<double>(detail::sample_pixel(tracer, camera, picture, pattern,
-                                                     x, y, i, counts, log));
+        for (int i = 0; i < picture.samples; ++i) {
+            const auto found = detail::trace_pixel(tracer, camera, picture, pattern, x,
+                                                   y, i, counts, log);
+            sum += RgbT<double>(found.weight * found.radiance);
+        }
         CHECK(Rgb(sum / double(picture.samples)) == pixel(seen.image, x, y));
         CHECK(counts.camera_rays == 5);
         CHECK_FALSE(log.lines.empty());

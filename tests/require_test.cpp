@@ -25,6 +25,8 @@ TEST_CASE("require: the sentence says what, its value, and what would be right")
     CHECK_THROWS_WITH_AS(require_positive("sphere.radius", -1.0f),
                          "sphere.radius is -1; it must be finite and above 0.",
                          std::invalid_argument);
+    CHECK_THROWS_WITH_AS(require_at_least("samples", 0, 1),
+                         "samples is 0; it must be at least 1.", std::invalid_argument);
     CHECK_THROWS_WITH_AS(require(false, "camera.width", 0LL, "above 0"),
                          "camera.width is 0; it must be above 0.",
                          std::invalid_argument);
@@ -52,6 +54,7 @@ TEST_CASE("require: a number has a point in every country") {
 
 TEST_CASE("require: what holds passes in silence") {
     CHECK_NOTHROW(require(true, "anything", 1.0, "right"));
+    CHECK_NOTHROW(require_at_least("samples", 1, 1));
     CHECK_NOTHROW(require_finite("v", Vec3{0, -1, 1e30f}));
 }
 

@@ -1,5 +1,6 @@
 /// \file sampling_test.cpp
-/// \brief Every sampler against its own density, its moments, and the corners of [0,1)^2.
+/// \brief Every sampler against its own density, its moments,
+/// and the corners of [0,1)^2.
 ///
 /// Its statistical cases were run with 20 further seeds (`./scripts/test --seeds 20`):
 /// none failed.
@@ -52,8 +53,8 @@ std::vector<Vec2T<T>> extremes() {
 }
 
 /// How many of 100 seeds fail a chi-square test of directions against their density, at
-/// a false-alarm rate of 1 in 1000 for each. The cells are equal in z and azimuth; what a
-/// cell expects is the density's integral, by the midpoint rule.
+/// a false-alarm rate of 1 in 1000 for each. The cells are equal in z and azimuth; what
+/// a cell expects is the density's integral, by the midpoint rule.
 template <typename T, typename Sample, typename Pdf>
 int failures(double z_low, double z_high, Sample sample, Pdf pdf) {
     constexpr int rows = 12, columns = 10, fine = 20, count = 20000;
@@ -94,7 +95,8 @@ int failures(double z_low, double z_high, Sample sample, Pdf pdf) {
 } // namespace
 
 // False alarms: 100 seeds at 1 in 1000 each; more than 3 failures by chance alone come
-// once in 250 000 runs of a correct sampler. The seeds are fixed, so it is now or never.
+// once in 250 000 runs of a correct sampler. The seeds are
+// fixed, so it is now or never.
 TEST_CASE_TEMPLATE("sampling: directions agree with their densities over 100 seeds", T,
                    float, double) {
     using U = Vec2T<T>;

@@ -1,5 +1,6 @@
 /// \file schlick_test.cpp
-/// \brief How far Schlick's formula is from Fresnel's, and that it needs no other header.
+/// \brief How far Schlick's formula is from Fresnel's, and that
+/// it needs no other header.
 
 #include "ljus/optics/schlick.hpp" // first and alone: it must need nothing
 

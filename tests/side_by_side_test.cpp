@@ -1,6 +1,6 @@
-// All renderers on one scene: what they all carry is the same light. Comparisons of random
-// numbers are at 4 standard errors: about 60 of them, of which fresh seeds would fail one
-// in 250 runs. What is biased has its bias stated beside it.
+// All renderers on one scene: what they all carry is the same light. Comparisons of
+// random numbers are at 4 standard errors: about 60 of them, of which fresh seeds would
+// fail one in 250 runs. What is biased has its bias stated beside it.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -109,7 +109,8 @@ TEST_CASE("side_by_side: direct light of a small lamp, by all renderers") {
         CHECK(4 * error < 0.03 * truth.mean);
         CHECK(std::abs(mean.mean - truth.mean) < 4 * error + bias * truth.mean);
     };
-    // The middle of a lamp of size 0.04 at distance 1 or so: (0.04)^2 is what it misses.
+    // The middle of a lamp of size 0.04 at distance 1 or so:
+    // (0.04)^2 is what it misses.
     close("Whitted", mean_of(make_whitted(scene)), 0.002);
     close("distributed rays", mean_of(make_distributed(scene)), 0);
     for (const auto indirect :
@@ -118,7 +119,8 @@ TEST_CASE("side_by_side: direct light of a small lamp, by all renderers") {
         const auto maps = make_photon_maps(scene, settings);
         close("photon mapping", mean_of(make_photon_mapper(scene, maps, settings)), 0);
     }
-    // Radiosity: what the lamp's patches send, received by patches of 0.25, not blended.
+    // Radiosity: what the lamp's patches send, received by
+    // patches of 0.25, not blended.
     const Patches patches = make_patches(scene, {.size = 0.25});
     const auto factors = make_form_factors(scene, patches, {.threads = 1});
     std::vector<RgbT<double>> lamp;

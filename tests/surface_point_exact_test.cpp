@@ -132,7 +132,8 @@ void leave_it(Tally& tally, Numbers& n, const Made<T>& made, const Shape& shape,
                            glm::dot(glm::abs(up), err) * (1 + 1e-5);
 
     for (const double side : {1.0, -1.0}) {
-        // From upright to grazing; a rounded point of a small sphere has another normal.
+        // From upright to grazing; a rounded point of a small
+        // sphere has another normal.
         const double cosine = n.power(-4, 0);
         const double ulp = double(std::numeric_limits<T>::epsilon());
         if (cosine < 4 * ulp * extent(shape) / made.size) continue;

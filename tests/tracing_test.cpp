@@ -22,8 +22,8 @@ const double limit = ljus_test::limit_of(50); ///< In standard errors.
 
 constexpr double pi = std::numbers::pi;
 
-/// Where photons of a pass lie on one object's plane: sums of flux, over blocks of paths
-/// so that there is an error.
+/// Where photons of a pass lie on one object's plane: sums of flux, over blocks of
+/// paths so that there is an error.
 template <typename Scene, typename Where>
 Mean stored_flux(const Scene& scene, MapType law, const PhotonPassSettings& pass,
                  int seeds, Where where) {
@@ -183,8 +183,8 @@ TEST_CASE("tracing: the first hits of a lamp's photons share its flux by the for
 namespace {
 
 /// Of parallel light on a unit ball of glass: the share of what meets it that goes
-/// through it without a reflection inside, (1 - F)^2 at the angle of entry, and crosses a
-/// plane behind it, at a distance from its centre, within a radius of the axis.
+/// through it without a reflection inside, (1 - F)^2 at the angle of entry, and crosses
+/// a plane behind it, at a distance from its centre, within a radius of the axis.
 double straight_through(double index, double distance, double radius) {
     double sum = 0;
     const int steps = 100000;
@@ -353,8 +353,9 @@ TEST_CASE("tracing: aimed photons equal blind ones, whatever their targets") {
 }
 
 TEST_CASE("tracing: the kinds of photons are those of their paths") {
-    // The walk of a photon is done again beside trace_photon(), from the same random numbers,
-    // with its path spelt out; the photons must be those whose path the law owns.
+    // The walk of a photon is done again beside trace_photon(), from the
+    // same random numbers, with its path spelt out; the photons must be
+    // those whose path the law owns.
     const Room room = make_room<float>(Ball::mixture, Lamp::quad, 2);
     const LightChoice choice = light_choice(room.lights);
     int seen[3] = {};
@@ -562,7 +563,8 @@ TEST_CASE("tracing: spots and suns balance, and their photons are what paths fin
                     found[depth > 1] +=
                         weight * double(s->weight.y * glm::dot(s->wi, n));
                 }
-                // E of the next surface, cosine-weighted: what it sends back is 0.6 E/pi.
+                // E of the next surface, cosine-weighted: what
+                // it sends back is 0.6 E/pi.
                 weight *= 0.6;
                 const Vec3 way = to_world(
                     frame_around(n), sample_cosine_hemisphere(next_2d<float>(stream)));

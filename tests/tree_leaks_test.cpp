@@ -1,8 +1,8 @@
 // concept: bvh
 // native: fused multiply-adds must not open a leak
 /// \file tree_leaks_test.cpp
-/// \brief Half a million rays at edges, at vertices and along the axes of a closed mesh,
-/// through the whole tree: none slips through.
+/// \brief Half a million rays at edges, at vertices and along the axes of a closed
+/// mesh, through the whole tree: none slips through.
 
 #include "ljus/accel/mesh.hpp"
 
@@ -38,8 +38,8 @@ Triangles scene_of(const ClosedMesh& closed) {
 }
 
 /// What slipped through: through a mesh, whose tree looks at eight triangles together,
-/// and through a scene of triangles, whose tree asks them one by one; the first hit, and
-/// any hit.
+/// and through a scene of triangles, whose tree asks them one by one;
+/// the first hit, and any hit.
 struct Leaks {
     long mesh_first = 0, mesh_any = 0, scene_first = 0, scene_any = 0;
 };

@@ -4,9 +4,9 @@
 /// \brief The ray-triangle intersection against exact integers, family by family.
 ///
 /// By Cramer's rule u, v and t are quotients of volumes; with integers, the signs of
-/// the volumes decide without rounding. A case is *firm* when every input moved by up to
-/// 8 units of roundoff still gives the same decision, and a *tie* when the line meets an
-/// edge exactly; between (*hard*) only exact or wider arithmetic is right.
+/// the volumes decide without rounding. A case is *firm* when every input moved by up
+/// to 8 units of roundoff still gives the same decision, and a *tie* when the line
+/// meets an edge exactly; between (*hard*) only exact or wider arithmetic is right.
 
 #include <doctest/doctest.h>
 
@@ -42,7 +42,8 @@ struct Truth {
     Exact t = 0;
 };
 
-/// A vector on the grid, and how much larger than its own size what it was rounded from.
+/// A vector on the grid, and how much larger than its own size
+/// what it was rounded from.
 struct Known3 {
     Integer3 value, from;
 };
@@ -172,8 +173,8 @@ const std::array<const char*, family_count> family_names{
     "size 1e15",
     "no area"};
 
-/// Of the families up to `last_ordinary`, those whose triangles are neither thin as 1e-6
-/// nor 1e4 times as large as their distance: there all digits of t may cancel.
+/// Of the families up to `last_ordinary`, those whose triangles are neither thin as
+/// 1e-6 nor 1e4 times as large as their distance: there all digits of t may cancel.
 constexpr bool is_of_ordinary_size(std::size_t family) {
     return family <= last_ordinary && family != sliver && family != huge;
 }

@@ -30,7 +30,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 using D3 = glm::dvec3;
 
-// --- The scene -------------------------------------------------------------------------
+// --- The scene -----------------------------------------------------------------------
 template <typename T>
 using Floor = Textured<LambertianT<T>, CheckerT<T>>;
 
@@ -67,7 +67,7 @@ CameraT<T> camera() {
                        .vfov_degrees = T(40)});
 }
 
-// --- The paper -------------------------------------------------------------------------
+// --- The paper -----------------------------------------------------------------------
 // What decides on a pixel, as text; where it changes, there is an edge.
 struct Paper {
     double radiance = 0;

@@ -10,8 +10,8 @@
 
 namespace ljus::detail {
 
-// A row of a table of hooks. A hook that is misspelt is none, and nobody calls it; but
-// the survey prints the table, and there it is missing.
+// A row of a table of hooks. A function whose name is misspelt is never called; the
+// survey, which prints the table, shows that this hook is missing.
 struct Hook {
     const char* name;    // of the function, or of the constant
     const char* purpose; // what it is for

@@ -4,6 +4,7 @@
 /// \brief Loops over blocks by several threads: the one place that knows OpenMP.
 
 #include <concepts>
+#include <cstddef>
 #include <exception>
 #include <type_traits>
 
@@ -83,8 +84,8 @@ LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
 
 #ifndef LJUS_CORE // else it is there already
 
-// What several threads change, they change in turn. A lock of OpenMP's, which costs
-// no header, in place of atomics, whose header costs an eighth of one of ours.
+// What several threads change, they change in turn. OpenMP's lock comes without a
+// further header; <atomic> would make each header here an eighth longer to compile.
 #ifdef _OPENMP
 struct Mutex {
     omp_lock_t lock;
@@ -243,6 +244,28 @@ bool parallel_blocks(long long count, Body&& body,
     void* const any = const_cast<void*>(static_cast<const void*>(&body));
     return detail::run_blocks(count, {any, call}, options);
 }
+
+namespace detail {
+
+/// Calls `body(i)` once for each i in [0, total), in blocks, by several threads.
+/// \param total    How many calls.
+/// \param block    Calls in a block, at least 1.
+/// \param body     Called as body(std::size_t); what it writes, no other call writes.
+/// \param options  As for parallel_blocks().
+/// \return As parallel_blocks().
+template <std::invocable<std::size_t> Body>
+bool parallel_each(std::size_t total, long long block, Body&& body,
+                   const ParallelSettings& options = {}) {
+    const auto all = static_cast<long long>(total);
+    const auto run = [&](long long number) {
+        const BlockRange range = block_range(number, block, all);
+        for (auto i = std::size_t(range.first); i < std::size_t(range.last); ++i)
+            body(i);
+    };
+    return parallel_blocks(block_count(all, block), run, options);
+}
+
+} // namespace detail
 
 /// \}
 

@@ -32,7 +32,7 @@ ljus_break_it(NAME caustic_budget-count HEADER photons/budget.hpp TEST caustic_b
 
 # What else lights the scene is not asked.
 ljus_break_it(NAME caustic_budget-light HEADER photons/budget.hpp TEST caustic_budget
-    FROM "flux / (own + dark + detail::irradiance_around(rest, photon, wide))"
+    FROM "flux / (own + dark + irradiance_around(rest, photon, wide))"
     TO   "flux / (own + dark)"
     CASES "caustic_budget: the pilot*")
 

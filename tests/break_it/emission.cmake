@@ -36,7 +36,7 @@ ljus_break_it(NAME aim-choice HEADER photons/aiming.hpp TEST emission
     CASES "emission: where cones overlap*")
 
 # The cosine at the lamp, forgotten: right for a point light only.
-ljus_break_it(NAME aim-cosine HEADER photons/aiming.hpp TEST emission
+ljus_break_it(NAME aim-cosine HEADER photons/detail/aim_steps.hpp TEST emission
     FROM "cosine * std::numbers::inv_pi_v<T>"
     TO   "std::numbers::inv_pi_v<T>"
     CASES "emission: aimed at a sphere*")
@@ -49,7 +49,7 @@ ljus_break_it(NAME aim-inside HEADER photons/aiming.hpp TEST emission
 
 # A target takes the place of the one before with its share, but u is not stretched: the
 # first ones are chosen too often, and the others never.
-ljus_break_it(NAME aim-stretch HEADER photons/aiming.hpp TEST emission
+ljus_break_it(NAME aim-stretch HEADER photons/detail/aim_steps.hpp TEST emission
     FROM "u_target = (u_target - share) / (T(1) - share);"
     TO   ""
     CASES "emission: where cones overlap*")
@@ -67,7 +67,7 @@ ljus_break_it(NAME emission-spot-rim HEADER scene/light.hpp TEST emission
     CASES "emission: a spot light*")
 
 # Aimed at by a sun, a disc is paid for its own area only.
-ljus_break_it(NAME aim-sun HEADER photons/aiming.hpp TEST emission
+ljus_break_it(NAME aim-sun HEADER photons/detail/aim_steps.hpp TEST emission
     FROM "return std::numbers::pi_v<T> * radius * radius;"
     TO   "return radius * radius;"
     CASES "emission: aimed photons bring*")
@@ -85,7 +85,7 @@ ljus_break_it(NAME emission-sun-start HEADER path/emission.hpp TEST emission
     CASES "emission: a sun's photons start*")
 
 # A target without a size comes first: 0/0.
-ljus_break_it(NAME emission-no-size HEADER photons/aiming.hpp TEST emission
+ljus_break_it(NAME emission-no-size HEADER photons/detail/aim_steps.hpp TEST emission
     FROM "if (!(size > T(0))) continue;"
     TO   ""
     CASES "emission: what has no size*")

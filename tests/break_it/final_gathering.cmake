@@ -1,15 +1,15 @@
 # Points in the order of the tree: more of them where there are too many photons by chance.
 ljus_break_it(NAME final-gathering-order HEADER photons/irradiance_points.hpp
     TEST final_gathering
-    FROM "return general.tree.point_ids()[i] % every == 0;"
-    TO   "return i % every == 0;"
+    FROM "map.tree.point_ids()[index] % static_cast<std::size_t>(every) == 0;"
+    TO   "index % static_cast<std::size_t>(every) == 0;"
     CASES "final gathering: what is looked up*")
 
 # The photons that became points count, too, and the sum is too large by their part.
 ljus_break_it(NAME final-gathering-own-photon HEADER photons/irradiance_points.hpp
     TEST final_gathering
-    FROM "PhotonKind::indirect) && !is_point(k);"
-    TO   "PhotonKind::indirect);"
+    FROM "!is_point(general, k, settings.every)"
+    TO   "true"
     CASES "final gathering: what is looked up*")
 
 # Fewer photons than asked for, over a disc of the radius that the settings leave open.
@@ -36,8 +36,8 @@ ljus_break_it(NAME final-gathering-edge HEADER photons/detail/kernel_border.hpp
 # The diagonal of a wall of two triangles taken for an edge.
 ljus_break_it(NAME final-gathering-diagonal HEADER photons/detail/kernel_border.hpp
     TEST final_gathering
-    FROM "return std::abs(glm::dot(there, normal)) > T(0.99);"
-    TO   "return std::abs(glm::dot(there, normal)) > T(2);"
+    FROM "std::abs(glm::dot(there->point.normal, normal)) > T(0.99);"
+    TO   "std::abs(glm::dot(there->point.normal, normal)) > T(2);"
     CASES "final gathering: what lies on*")
 
 # A gather ray takes the light of whatever surface is near.

@@ -34,8 +34,8 @@ ljus_break_it(NAME path-tracing-medium HEADER path/next_vertex.hpp TEST path_tra
 # A lamp that the path meets is taken for the only one.
 ljus_break_it(NAME path-tracing-light-density HEADER render/path_tracing.hpp
     TEST path_strategies
-    FROM "return pdf * detail::probability_of<T>(tracer.lights, vertex.object.light);"
-    TO   "return pdf;"
+    FROM "detail::probability_of<T>(tracer.lights, vertex.object.light);"
+    TO   "T(1);"
     CASES "multiple importance: all ways*")
 
 # Shadow rays are believed, and the lamp that a path meets is counted as well.
@@ -67,9 +67,9 @@ ljus_break_it(NAME path-tracing-plain-twice HEADER render/plain_path_tracing.hpp
     CASES "path tracing: the plain one*")
 
 # The density of a moving lamp's point as if it had not moved.
-ljus_break_it(NAME path-tracing-lamp-time HEADER render/path_tracing.hpp
+ljus_break_it(NAME path-tracing-lamp-time HEADER path/direct_light.hpp
     TEST path_tracing
-    FROM "at_time(shape, vertex.time)"
+    FROM "at_time(shape, lamp.time)"
     TO   "at_time(shape, T(0))"
     CASES "path tracing: a lamp's share*")
 

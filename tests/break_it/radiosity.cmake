@@ -102,7 +102,7 @@ ljus_break_it(NAME light-map-pi HEADER radiosity/light_map.hpp TEST light_map
 
 # A wall shows its front's light on its back.
 ljus_break_it(NAME light-map-side HEADER radiosity/light_map.hpp TEST light_map
-    FROM "view.grid_of[hit->object.type][hit->object.index][back];"
+    FROM "view.grid_of[hit->object.type][hit->object.index][side.back];"
     TO   "view.grid_of[hit->object.type][hit->object.index][0];"
     CASES "light_map: what a ray finds")
 

@@ -1,6 +1,6 @@
 /// \file tests/checks/killed_saves.cpp
-/// \brief Kills at random while files are saved: the older file or the new one is there,
-/// whole, and what a kill leaves beside it does not hinder the next save.
+/// \brief Kills at random while files are saved: the older file or the new one is
+/// there, whole, and what a kill leaves beside it does not hinder the next save.
 ///
 ///     killed_saves FOLDER [KILLS]     kills of each kind of file; 20 if none are given
 

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file tests/fuzz/fuzz.hpp
-/// \brief What the fuzzers share: files of the bytes they are given, and what may happen.
+/// \brief What the fuzzers share: files of the bytes they are
+/// given, and what may happen.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,6 @@
 /// \file tests/fuzz/light_map.cpp
-/// \brief Light maps in files, drawn if a room takes them; with key and checksum put right.
+/// \brief Light maps in files, drawn if a room takes them; with
+/// key and checksum put right.
 
 #include <algorithm>
 

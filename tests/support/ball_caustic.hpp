@@ -13,9 +13,9 @@ namespace ljus_test {
 /// A point light above a ball above a floor, all on one axis.
 ///
 /// A ray leaves the light at an angle alpha and meets the ball under theta_i, with
-/// sin theta_i = (D/R) sin alpha, at the angle phi = theta_i - alpha from the top of the
-/// ball. Each way through the ball goes on by pi - 2 theta_t around its centre. After k
-/// inner reflections the ray leaves at
+/// sin theta_i = (D/R) sin alpha, at the angle phi = theta_i - alpha from the top of
+/// the ball. Each way through the ball goes on by pi - 2 theta_t around its centre.
+/// After k inner reflections the ray leaves at
 ///     phi_e = theta_i - alpha + (k + 1)(pi - 2 theta_t)
 /// in the direction phi_e + theta_i, with the share (1 - F)^2 F^k; k = -1 is the
 /// reflection at the first boundary, with the share F.

@@ -21,7 +21,8 @@
 
 namespace ljus_test {
 
-// For a material of another namespace that leaves them to the library; see OnlySpecular.
+// For a material of another namespace that leaves them to the
+// library; see OnlySpecular.
 using ljus::evaluate, ljus::lobes, ljus::pdf;
 
 /// The share of light from everywhere that the parts with an f send to `wo`, by the
@@ -47,8 +48,8 @@ ljus::RgbT<double> albedo_by_quadrature(const M& m,
     return sum * (std::numbers::pi / n / n); // d(omega) cos = d(sin^2) d(phi)/2
 }
 
-/// The share that the deltas send to `wo`: the mean of their weights over a grid of u.z,
-/// which alone decides. Within a few 1/steps.
+/// The share that the deltas send to `wo`: the mean of their weights over a grid of
+/// u.z, which alone decides. Within a few 1/steps.
 template <ljus::Material M>
 ljus::RgbT<double> specular_albedo(const M& m,
                                    const ljus::Vec3T<typename M::Scalar>& wo,

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file support/draws.hpp
-/// \brief Numbers and directions of any precision for tests, the same with every compiler.
+/// \brief Numbers and directions of any precision for tests, the
+/// same with every compiler.
 
 #include <cmath>
 #include <concepts>

@@ -63,8 +63,8 @@ inline double to_double(const Exact& x) {
 }
 
 /// \name The same with integers, many times faster
-/// Every float is an integer times a power of two; on the grid of the smallest such power
-/// sums and products are exact.
+/// Every float is an integer times a power of two; on the grid of the smallest such
+/// power sums and products are exact.
 /// \{
 
 using Integer = boost::multiprecision::cpp_int;

@@ -14,7 +14,7 @@ namespace ljus {
 /// partition". Chapter: \ref ch_bvh.
 /// \{
 
-/// What a search tells of its way, if nobody listens.
+/// Is told of each node that a search visits, and does nothing.
 struct NoTrace {
     /// A node was visited: its number.
     constexpr void operator()(std::uint32_t) const noexcept {}
@@ -25,7 +25,7 @@ struct NoTrace {
 // [nearest]
 template <std::floating_point T>
 struct NearestHitT {
-    FlatHitT<T> at{};                                                 ///< Where.
+    FlatHitT<T> at{};                                                 ///< Where it is.
     std::uint32_t number = std::numeric_limits<std::uint32_t>::max(); ///< Of what.
     bool found = false; ///< Whether there is one.
 

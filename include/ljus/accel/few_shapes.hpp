@@ -29,7 +29,7 @@ namespace ljus {
 /// that it does not.
 class FewShapes {
 public:
-    static constexpr std::size_t most = 32; ///< So many shapes have room.
+    static constexpr std::size_t most = 32; ///< The most shapes that it holds.
 
     /// Adds a shape.
     /// \param quad    The shape; one without an area is never asked.

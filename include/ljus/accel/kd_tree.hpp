@@ -93,8 +93,8 @@ public:
     /// \param center  Of the ball.
     /// \param radius  As for visit_within().
     /// \param found   Room for as many as are wanted; filled as a heap, farthest first.
-    /// \param wanted  Called with a place in the tree's order; false passes it over. As
-    ///                it is, any point will do.
+    /// \param wanted  Called with a place in the tree's order; false passes it over. By
+    ///                default any point will do.
     /// \return How many were found; of several that are equally far, any, but always
     ///         the same ones.
     /// \cost In the mean O(log n) and some steps a point that is wanted, also where

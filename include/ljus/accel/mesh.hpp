@@ -237,7 +237,7 @@ template <std::floating_point T>
     return mesh.sphere();
 }
 
-/// Refuses a mesh that was moved from; all else was refused when it was made.
+/// Refuses a mesh that was moved from; anything else was refused when it was made.
 /// \throws std::invalid_argument  if it has no triangle.
 template <std::floating_point T>
 void check(const MeshT<T>& mesh) {

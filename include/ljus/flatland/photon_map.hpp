@@ -17,7 +17,7 @@ namespace ljus::flatland {
 /// A photon where it met a diffuse surface.
 /// \report{Section 2.3}
 struct Photon {
-    Vec2 position{0};                     ///< Where.
+    Vec2 position{0};                     ///< In metres.
     Vec2 direction{0};                    ///< Unit vector, the way it travels.
     Vec2 normal{0, 1};                    ///< Of the surface.
     double flux = 0;                      ///< In W.
@@ -46,7 +46,7 @@ struct PhotonPassSettings {
 /// \param scene        The scene.
 /// \param path         The photon as it left its lamp.
 /// \param stream       Its numbers.
-/// \param max_bounces  Surfaces on its path, at most.
+/// \param max_bounces  The most surfaces on its path.
 /// \param visit        Called with the path and the vertex wherever it arrives.
 // [trace_photon]
 template <typename Visit>
@@ -90,8 +90,7 @@ inline void store_photon(const PathState& path, const Vertex& vertex, PhotonMap&
 [[nodiscard]] inline PhotonMap trace_photons(const Scene& scene,
                                              const PhotonPassSettings& pass) {
     check(scene);
-    require(pass.photons >= 0, "pass.photons", static_cast<long long>(pass.photons),
-            "at least 0");
+    require_at_least("pass.photons", pass.photons, 0);
     require_positive("the flux of the scene", flux(scene));
     const double each = flux(scene) / pass.photons;
     PhotonMap map;

@@ -48,7 +48,7 @@ using Shape = std::variant<Segment, Circle>;
 
 /// A point of a surface.
 struct SurfacePoint {
-    Vec2 position{0};  ///< Where.
+    Vec2 position{0};  ///< In metres.
     Vec2 normal{0, 1}; ///< Unit vector.
 };
 

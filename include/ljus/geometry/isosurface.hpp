@@ -103,7 +103,8 @@ template <std::floating_point T, typename Value, typename Gradient>
     Wide x = o + double(t) * d;
     const double unit = double(std::numeric_limits<T>::epsilon()) / 2;
     Wide g = gradient(x);
-    // Of a value's doubt over the slope; without a slope f is a square, of its root.
+    // How far along the ray a doubtful value may lie: its doubt over the slope; where
+    // the slope vanishes and f is like a square, the root of its doubt.
     const double doubt =
         std::max(8 * unit * (glm::length(o) + double(t) * glm::length(d)),
                  std::min(rounding / glm::length(g), std::sqrt(rounding)));
@@ -145,7 +146,7 @@ bounding_sphere(const IsosurfaceT<T, Field>& surface) noexcept {
     return surface.bounds;
 }
 
-/// Refuses bounds that are none, and a Lipschitz bound that is none.
+/// Refuses bounds without a size, and a Lipschitz bound that is not above 0.
 /// \throws std::invalid_argument  naming what is wrong and its value.
 template <std::floating_point T, LipschitzField Field>
 void check(const IsosurfaceT<T, Field>& surface) {

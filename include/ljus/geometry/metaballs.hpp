@@ -83,8 +83,8 @@ template <std::floating_point T>
 
 /// The distance at which a ray first meets metaballs, from outside or from within.
 ///
-/// \tparam Solver  QuarticPieces, the default, for it was the fastest and the most
-///                 exact of chapter 9's four; or Bisection, SphereTracing, Radicals.
+/// \tparam Solver  QuarticPieces, the default: the fastest and the most exact of the
+///                 four that chapter 9 compares; or Bisection, SphereTracing, Radicals.
 /// \param ray      Hits count within its [t_min, t_max].
 /// \param balls    The metaballs.
 /// \param solver   The limits of the solver.

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/geometry/shape.hpp
-/// \brief What every shape can do, and the shapes of the house together.
+/// \brief What every shape can do, and the shapes of the library together.
 
 #include <array>
 #include <numbers>

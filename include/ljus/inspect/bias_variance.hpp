@@ -21,7 +21,8 @@ struct BiasVariance {
 /// For each pixel and channel, with m the mean of the M runs:
 /// variance = sum (x - m)^2 / (M - 1) and bias^2 = (m - r)^2 - variance / M, which has
 /// the noise left in m taken off. Their sum is the expected mean square error of a run.
-/// It is the only honest split for photon mapping.
+/// Whole runs are compared, so that noise that neighbouring pixels share, as with
+/// photon maps, does not count as bias.
 /// *Trap*: bias^2 is an estimate and comes out negative, by chance, when there is no
 /// bias; it is not clamped, since clamping would itself be a bias.
 /// \param runs       At least 2 pictures of the same size, of independent seeds.

@@ -60,12 +60,9 @@ requires Renderer<R, T>
 class_means(const R& renderer, const AnyCamera<T>& camera,
             const RenderSettings& picture,
             std::span<const LightPathExpression> classes) {
-    const auto at_least_one = [](const char* what, int count) {
-        require(count >= 1, what, static_cast<long long>(count), "at least 1");
-    };
-    at_least_one("width", picture.width);
-    at_least_one("height", picture.height);
-    at_least_one("samples", picture.samples);
+    require_at_least("width", picture.width, 1);
+    require_at_least("height", picture.height, 1);
+    require_at_least("samples", picture.samples, 1);
     using Sums = std::vector<RgbT<double>>;
     const Pattern pattern = make_pattern(picture.sampling, picture.samples);
     std::vector<Sums> rows(std::size_t(picture.height),
@@ -75,17 +72,13 @@ class_means(const R& renderer, const AnyCamera<T>& camera,
         Counts counts;
         for (int x = 0; x < picture.width; ++x)
             for (int i = 0; i < picture.samples; ++i) {
-                detail::ClassesLog<T> log;
+                detail::ClassesLog<T> log; // knows nothing of the pixel's filter
                 for (const LightPathExpression& wanted : classes)
                     log.logs.push_back({wanted});
-                (void)detail::sample_pixel(renderer, camera, picture, pattern, x,
-                                           int(y), i, counts, log);
-                typename R::Stream stream; // the log knows nothing of the filter
-                const double weight(
-                    detail::place_of_ray<T>(picture, pattern, x, int(y), i, stream)
-                        .weight);
+                const auto found = detail::trace_pixel(
+                    renderer, camera, picture, pattern, x, int(y), i, counts, log);
                 for (std::size_t k = 0; k < classes.size(); ++k)
-                    sums[k] += weight * RgbT<double>(log.logs[k].sum);
+                    sums[k] += double(found.weight) * RgbT<double>(log.logs[k].sum);
             }
     };
     parallel_blocks(picture.height, row, {.threads = picture.threads});

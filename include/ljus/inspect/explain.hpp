@@ -62,8 +62,7 @@ requires Renderer<R, T>
                                             const RenderSettings& picture, int x, int y,
                                             int keep = 4) {
     detail::require_image_size(picture.width, picture.height);
-    require(picture.samples >= 1, "samples", static_cast<long long>(picture.samples),
-            "at least 1");
+    require_at_least("samples", picture.samples, 1);
     require(x >= 0 && x < picture.width, "the pixel's column",
             static_cast<long long>(x), "at least 0 and below the picture's width");
     require(y >= 0 && y < picture.height, "the pixel's row", static_cast<long long>(y),
@@ -75,21 +74,20 @@ requires Renderer<R, T>
     Counts counts;
     RgbT<double> radiance{0};
     for (int i = 0; i < picture.samples; ++i) {
-        PathLog log;
-        const RgbT<T> sample =
-            sample_pixel(renderer, camera, picture, pattern, x, y, i, counts, log);
+        PathLog log; // knows nothing of the pixel's filter
+        const auto found =
+            trace_pixel(renderer, camera, picture, pattern, x, y, i, counts, log);
+        const RgbT<T> sample = found.weight * found.radiance;
         if (i < keep) pixel.first_rays.push_back(log);
         if (!is_finite(sample)) {
             ++pixel.rejected;
             continue;
         }
         radiance += RgbT<double>(sample);
-        typename R::Stream stream; // the log knows nothing of the pixel's filter
-        const double weight(place_of_ray<T>(picture, pattern, x, y, i, stream).weight);
         for (const PathLogLine& line : log.lines) {
             if (line.what == "vertex") continue;
             PathSum& sum = sums[{line.path, line.what}];
-            sum.value += weight * line.value / double(picture.samples);
+            sum.value += double(found.weight) * line.value / double(picture.samples);
             ++sum.terms;
         }
     }
@@ -202,7 +200,7 @@ requires Renderer<R, T>
 /// Explains one pixel of a scene, as the path tracer finds it by default.
 /// \param scene   The scene.
 /// \param camera  The camera.
-/// \param x       Column of the pixel of a Picture by default, from the left.
+/// \param x       Column of the pixel, from the left, in a picture of the default size.
 /// \param y       Row of the pixel, from the top.
 /// \return As above.
 /// \throws std::invalid_argument  if the pixel lies outside of the picture.

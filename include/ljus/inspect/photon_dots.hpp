@@ -34,7 +34,7 @@ struct PhotonDotSettings {
 /// \param width   Of the picture, in pixels.
 /// \param height  Of the picture, in pixels.
 /// \return The drawing, dark enough for dots to be seen on it.
-/// \throws std::invalid_argument  if the size is none.
+/// \throws std::invalid_argument  if the width or the height is below 1.
 /// \cost One ray a pixel.
 template <SceneLike S, std::floating_point T>
 [[nodiscard]] ImageT<T> scene_drawing(const S& scene, const CameraT<T>& camera,

@@ -94,72 +94,89 @@ namespace detail {
                                               const PhotonMappingSettings& settings);
 
 #ifndef LJUS_CORE // else it is there already
-LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
-                                const PhotonMappingSettings& settings) {
-    const auto of_all = [&](std::size_t count, const char* what) {
-        return std::to_string(count) + " of " + std::to_string(found.objects) +
-               " objects " + what;
-    };
-    const auto item = [](const char* pass, bool on, std::string why) {
-        return PlanItem{pass, on, std::move(why)};
-    };
-    const Passes run = choose_passes(found, settings);
-    Plan plan;
-    plan.shadow_rays =
-        item("shadow rays", run.shadow_rays,
-             found.lights == 0 ? "the scene has no light"
-                               : of_all(found.diffuse, "reflect diffusely, lit by ") +
-                                     std::to_string(found.lights) + " light(s)");
-    plan.indirect_rays =
-        item("indirect rays", run.indirect_rays,
-             run.indirect_rays         ? of_all(found.diffuse, "light each other")
-             : settings.max_depth <= 1 ? "the depth ends at the first surface"
-             : run.shadow_rays         ? "not asked for"
-                                       : "nothing is lit");
-    plan.caustics_map =
-        item("caustics map", run.caustics_map,
-             found.specular == 0              ? "no object mirrors or refracts"
-             : settings.caustics.photons == 0 ? "0 photons were asked for"
-             : run.shadow_rays ? of_all(found.specular, "mirror or refract") +
-                                     caustics_clause(settings)
-                               : "nothing is lit");
-    plan.general_map =
-        item("general map", run.general_map,
-             run.general_map ? "indirect light is asked of it" : "no ray asks it");
-    plan.shadow_photons =
-        item("shadow photons", run.shadow_photons,
-             run.skipped_rays     ? "they tell which shadow rays are needless"
-             : run.shadow_photons ? "the general map keeps them"
-                                  : "no map keeps them");
+// "3 of 7 objects mirror or refract".
+inline std::string of_all(const SceneNeeds& found, std::size_t count,
+                          const char* what) {
+    return std::to_string(count) + " of " + std::to_string(found.objects) +
+           " objects " + what;
+}
+
+// Why rays are sent from diffuse surfaces, or not.
+inline void plan_rays(Plan& plan, const Passes& run, const SceneNeeds& found,
+                      const PhotonMappingSettings& settings) {
+    plan.shadow_rays = {
+        "shadow rays", run.shadow_rays,
+        found.lights == 0 ? "the scene has no light"
+                          : of_all(found, found.diffuse, "reflect diffusely, lit by ") +
+                                std::to_string(found.lights) + " light(s)"};
+    plan.indirect_rays = {
+        "indirect rays", run.indirect_rays,
+        run.indirect_rays         ? of_all(found, found.diffuse, "light each other")
+        : settings.max_depth <= 1 ? "the depth ends at the first surface"
+        : run.shadow_rays         ? "not asked for"
+                                  : "nothing is lit"};
+}
+
+// Why photons are traced, or not.
+inline void plan_photons(Plan& plan, const Passes& run, const SceneNeeds& found,
+                         const PhotonMappingSettings& settings) {
+    plan.caustics_map = {"caustics map", run.caustics_map,
+                         found.specular == 0 ? "no object mirrors or refracts"
+                         : settings.caustics.photons == 0 ? "0 photons were asked for"
+                         : run.shadow_rays
+                             ? of_all(found, found.specular, "mirror or refract") +
+                                   caustics_clause(settings)
+                             : "nothing is lit"};
+    plan.general_map = {"general map", run.general_map,
+                        run.general_map ? "indirect light is asked of it"
+                                        : "no ray asks it"};
+    plan.shadow_photons = {"shadow photons", run.shadow_photons,
+                           run.skipped_rays ? "they tell which shadow rays are needless"
+                           : run.shadow_photons ? "the general map keeps them"
+                                                : "no map keeps them"};
+}
+
+// Why rays are left out, or not.
+inline void plan_skipping(Plan& plan, const Passes& run,
+                          const PhotonMappingSettings& settings) {
     const std::string photons = std::to_string(settings.general.photons) + " photons";
     const std::string needed = std::to_string(photons_needed(settings.skip));
-    plan.skipped_rays =
-        item("skipped rays", run.skipped_rays,
-             settings.skip.rule == SkipRule::none ? "no rule was asked for"
-             : run.skipped_rays ? "where " + needed + " of " + photons + " agree"
-             : !run.shadow_rays ? "nothing is lit"
-                                : photons + ", and each light takes " + needed);
-    plan.skipped_bounces =
-        item("skipped bounces", run.skipped_bounces,
-             run.skipped_bounces             ? "where none of " + photons + " is near"
-             : !settings.skip.indirect_rays  ? "not asked for"
-             : settings.general.photons == 0 ? "0 photons were asked for"
-                                             : "there are no indirect rays");
-    plan.irradiance = item("irradiance", run.irradiance,
-                           run.irradiance ? "gather rays look it up where they end"
-                                          : "no gather ray asks for it");
-    plan.cache =
-        item("irradiance cache", run.cache,
-             run.cache ? "pixels interpolate what few points gather" : "not asked for");
-    plan.thin_film = item("thin film", found.films,
-                          found.films ? "paths pass through the listed films"
-                                      : "no material is one");
+    plan.skipped_rays = {
+        "skipped rays", run.skipped_rays,
+        settings.skip.rule == SkipRule::none ? "no rule was asked for"
+        : run.skipped_rays ? "where " + needed + " of " + photons + " agree"
+        : !run.shadow_rays ? "nothing is lit"
+                           : photons + ", and each light takes " + needed};
+    plan.skipped_bounces = {
+        "skipped bounces", run.skipped_bounces,
+        run.skipped_bounces             ? "where none of " + photons + " is near"
+        : !settings.skip.indirect_rays  ? "not asked for"
+        : settings.general.photons == 0 ? "0 photons were asked for"
+                                        : "there are no indirect rays"};
+}
+
+LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
+                                const PhotonMappingSettings& settings) {
+    const Passes run = choose_passes(found, settings);
+    Plan plan;
+    plan_rays(plan, run, found, settings);
+    plan_photons(plan, run, found, settings);
+    plan_skipping(plan, run, settings);
+    plan.irradiance = {"irradiance", run.irradiance,
+                       run.irradiance ? "gather rays look it up where they end"
+                                      : "no gather ray asks for it"};
+    plan.cache = {"irradiance cache", run.cache,
+                  run.cache ? "pixels interpolate what few points gather"
+                            : "not asked for"};
+    plan.thin_film = {"thin film", found.films,
+                      found.films ? "paths pass through the listed films"
+                                  : "no material is one"};
     const bool tree = detail::needs_tree(found.objects) && !found.few;
-    plan.tree = item("tree", tree,
-                     std::to_string(found.objects) +
-                         (tree        ? " objects, a tree finds the first on a ray"
-                          : found.few ? " objects, eight are asked at a time"
-                                      : " object(s), a loop asks each"));
+    plan.tree = {"tree", tree,
+                 std::to_string(found.objects) +
+                     (tree        ? " objects, a tree finds the first on a ray"
+                      : found.few ? " objects, eight are asked at a time"
+                                  : " object(s), a loop asks each")};
     return plan;
 }
 #endif
@@ -179,7 +196,8 @@ template <SceneLike S>
         name.resize(17, ' ');
         plan.types.push_back(name.append(detail::to_line(hooks)));
     };
-    int shapes = 0, materials = 0; // neither finds what it asks for: all are asked
+    // Each type is asked, because none says that it is the one that is looked for.
+    int shapes = 0, materials = 0;
     (void)S::any_shape([&]<typename G>() {
         add("shape ", ++shapes, detail::shape_hooks<G>());
         return false;

@@ -65,7 +65,7 @@ inline void save_file(const std::string& path, const Bytes& bytes) {
 }
 
 /// Reads a file.
-/// \param path  The file: what is none, as a pipe, which may never end, is refused.
+/// \param path  The file; a pipe or a device, which may never end, is refused.
 /// \param most  The most bytes it may have: what is longer, or endless, is refused.
 /// \param begin What it must begin with, looked at before it is read to the end.
 /// \return All its bytes.

@@ -35,7 +35,7 @@ inline void put_grid(Bytes& bytes, const PatchGrid& grid) {
         put_number(bytes, number);
 }
 
-// The next grid of a file, without its first patch; nothing if it is none.
+// The next grid of a file, without its first patch; nothing if its numbers are wrong.
 [[nodiscard]] inline std::optional<PatchGrid> take_grid(MapReader& file) {
     PatchGrid grid;
     grid.object.type = file.take<std::uint32_t>();

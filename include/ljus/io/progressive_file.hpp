@@ -76,7 +76,7 @@ inline void require_sense(const MapReader& file, const ProgressiveState& state) 
 /// \throws std::runtime_error  as save_file(); std::invalid_argument without a pass.
 /// \cost 48 bytes per pixel.
 inline void save_checkpoint(const std::string& path, const ProgressiveState& state) {
-    require(state.passes >= 1, "the number of passes", state.passes, "at least 1");
+    require_at_least("the number of passes", state.passes, 1);
     Bytes bytes = detail::map_front(
         detail::checkpoint_format, std::uint32_t(state.block_side),
         std::uint32_t(state.sum.width), std::uint32_t(state.sum.height));

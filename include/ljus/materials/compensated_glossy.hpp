@@ -60,7 +60,7 @@ template <std::floating_point T, typename F>
             .mean = detail::mean_reflectance<T>(first.reflectance)};
 }
 
-/// What there is: as of the gloss.
+/// The lobes of this material: those of the gloss.
 template <std::floating_point T, typename F>
 [[nodiscard]] constexpr Lobes lobes(const CompensatedGlossyT<T, F>& gloss) noexcept {
     return lobes(gloss.first);

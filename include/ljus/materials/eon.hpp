@@ -88,7 +88,7 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// What there is: a diffuse part, even if it is black.
+/// The lobes of this material: a diffuse one, even if it is black.
 template <std::floating_point T>
 [[nodiscard]] constexpr Lobes lobes(const EonT<T>&) noexcept {
     return Lobes::diffuse;

@@ -60,8 +60,8 @@ struct GlossyT {
 using Glossy = GlossyT<float>;                             ///< Of a colour, in float.
 using RoughMetal = GlossyT<float, ConductorIndexT<float>>; ///< Of metal, in float.
 
-/// What there is: a part that counts as diffuse, because it has an f; with roughness 0
-/// a specular one.
+/// The lobes of this material: a glossy one, which counts as diffuse because it has an
+/// f; with roughness 0 a specular one.
 template <std::floating_point T, typename F>
 [[nodiscard]] constexpr Lobes lobes(const GlossyT<T, F>& gloss) noexcept {
     return gloss.roughness > T(0) ? Lobes::glossy : Lobes::specular;

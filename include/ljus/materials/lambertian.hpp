@@ -25,7 +25,7 @@ struct LambertianT {
 };
 using Lambertian = LambertianT<float>; ///< LambertianT in float.
 
-/// What there is: a diffuse part, even if it is black.
+/// The lobes of this material: a diffuse one, even if it is black.
 template <std::floating_point T>
 [[nodiscard]] constexpr Lobes lobes(const LambertianT<T>&) noexcept {
     return Lobes::diffuse;

@@ -117,7 +117,7 @@ diffuse_sample(const Vec3T<T>& wi, const RgbT<T>& weight, T density) noexcept {
 template <typename M>
 concept OnlySpecular = std::floating_point<typename M::Scalar> && M::only_specular;
 
-/// What there is: specular parts.
+/// The lobes of such a material: specular ones.
 template <OnlySpecular M>
 [[nodiscard]] constexpr Lobes lobes(const M&) noexcept {
     return Lobes::specular;

@@ -32,7 +32,7 @@ using Mirror = MirrorT<float>; ///< MirrorT in float.
 /// \param which   The parts to sample from.
 /// \return The sample; nothing if `wo` lies on the surface, if the mirror is black, or
 ///         without Lobes::specular.
-/// \cost Nothing to speak of.
+/// \cost Two changes of sign.
 /// \report{Section 3.2.4, Eq. (4)}
 // [mirror sample]
 template <std::floating_point T>

@@ -46,8 +46,8 @@ struct MixtureT {
 };
 using Mixture = MixtureT<float>; ///< MixtureT in float.
 
-/// What there is: specular if anything is mirrored, reflected or refracted; diffuse if
-/// the matt part is not black, or if there is nothing else.
+/// The lobes of this material: a specular one if anything is mirrored, reflected or
+/// refracted; a diffuse one if the matt part is not black, or if there is nothing else.
 template <std::floating_point T>
 [[nodiscard]] constexpr Lobes lobes(const MixtureT<T>& mixture) noexcept {
     const bool boundary =

@@ -30,7 +30,7 @@ struct OrenNayarT {
 };
 using OrenNayar = OrenNayarT<float>; ///< OrenNayarT in float.
 
-/// What there is: a diffuse part, even if it is black.
+/// The lobes of this material: a diffuse one, even if it is black.
 template <std::floating_point T>
 [[nodiscard]] constexpr Lobes lobes(const OrenNayarT<T>&) noexcept {
     return Lobes::diffuse;

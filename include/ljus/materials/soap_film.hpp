@@ -16,7 +16,7 @@ namespace ljus {
 ///
 /// The film is a *thin sheet*: light that it does not reflect goes straight on, through
 /// both surfaces at once. That is no scattering but visibility; so sample() knows the
-/// reflection only, and pass_through() says how much is left; see thin_surfaces.
+/// reflection only, and pass_through() says how much is left; see \ref next_vertex.
 /// \{
 
 /// Where the colours come from.

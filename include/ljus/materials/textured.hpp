@@ -13,7 +13,7 @@ namespace ljus {
 ///
 /// Renderers ask material_at(), which asks at_point(): a plain material has none and is
 /// itself, a textured one answers with its base in the colour of the place. So no plain
-/// material knows of textures, and a scene without them is the same program as before.
+/// material knows of textures, and a scene without them compiles nothing of this.
 /// \{
 
 /// A material whose colour is multiplied by a texture's.

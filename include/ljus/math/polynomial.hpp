@@ -204,27 +204,6 @@ template <std::floating_point T, std::size_t N>
     return std::nullopt;
 }
 
-/// A polynomial in powers, c[0] + c[1] x + ... + c[N] x^N, on an interval: as Bernstein
-/// coefficients over it.
-/// \param p     The coefficients.
-/// \param low   The interval's lower end.
-/// \param high  Its upper end.
-/// \return The polynomial of u, where x = low + u (high - low).
-template <std::floating_point T, std::size_t M>
-[[nodiscard]] BernsteinT<T, M - 1> on_interval(std::array<T, M> p, T low,
-                                               T high) noexcept {
-    constexpr std::size_t N = M - 1;
-    // Horner's scheme, again and again: the powers of x - low.
-    for (std::size_t i = 0; i < N; ++i)
-        for (std::size_t j = N; j-- > i;) p[j] += low * p[j + 1];
-    constexpr auto of_n = binomials<T, N>();
-    T length = T(1);
-    for (std::size_t i = 0; i <= N; ++i, length *= high - low) p[i] *= length / of_n[i];
-    for (std::size_t i = 0; i < N; ++i)
-        for (std::size_t j = N; j > i; --j) p[j] += p[j - 1];
-    return {p};
-}
-
 } // namespace detail
 
 /// \}

@@ -100,7 +100,7 @@ template <std::floating_point T>
 
 namespace detail {
 
-// Apart from the check, which is everywhere and has nothing to say.
+// Apart from the check, so that what is inlined everywhere stays small.
 template <typename Value>
 [[noreturn]] void refuse(std::string_view what, const Value& value,
                          std::string_view right) {
@@ -138,6 +138,16 @@ void require_finite(std::string_view what, const Vec3T<T>& value) {
 template <std::floating_point T>
 void require_positive(std::string_view what, T value) {
     require(std::isfinite(value) && value > T(0), what, value, "finite and above 0");
+}
+
+/// Refuses a count below the least that makes sense.
+/// \param what   The name of the number.
+/// \param value  The number.
+/// \param least  The smallest that is right.
+/// \throws std::invalid_argument  as require().
+inline void require_at_least(std::string_view what, long long value, long long least) {
+    if (value < least)
+        detail::refuse(what, value, detail::join({"at least ", to_text(least)}));
 }
 
 /// Refuses a number outside [0, 1].

@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/math/sampling_pattern.hpp
-/// \brief Where the rays of a pixel go through it: four patterns for any
-/// number.
+/// \brief Where the rays of a pixel go through it: four patterns for any number.
 
 #include <bit>
 #include <cstdint>
@@ -223,7 +222,7 @@ template <std::floating_point T>
 /// \param u        Two random numbers in [0, 1), which Sobol's points leave unused.
 /// \return Point of the unit square, uniform over keys and u; rounding may put it onto
 ///         1.
-/// \cost In nanoseconds a point, at 64 and at 61 of them: see the chapter's table.
+/// \cost The chapter's table has the nanoseconds per point, for 64 points and for 61.
 /// \report{Section 3.2}
 // [spread]
 template <std::floating_point T>

@@ -59,8 +59,8 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// The size of each component. Not glm::abs(), which asks each for its sign: in a ray's
-/// direction a processor cannot guess it.
+/// The size of each component. Not glm::abs(), which branches on each sign: for the
+/// direction of a ray a processor cannot predict it.
 template <std::floating_point T>
 [[nodiscard]] inline Vec3T<T> sizes(const Vec3T<T>& v) noexcept {
     return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};

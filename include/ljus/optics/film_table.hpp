@@ -86,9 +86,8 @@ template <std::floating_point T = float>
                                             const detail::FilmTableSize& size = {}) {
     detail::require_index("the index of a film", index);
     require(index >= T(1), "the index of a film", index, "at least 1");
-    require(size.cosines >= 2, "cosines", static_cast<long long>(size.cosines),
-            "at least 2");
-    require(size.paths >= 2, "paths", static_cast<long long>(size.paths), "at least 2");
+    require_at_least("cosines", size.cosines, 2);
+    require_at_least("paths", size.paths, 2);
     require_positive("longest", size.longest);
 
     const double n = double(index);

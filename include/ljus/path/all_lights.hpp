@@ -95,8 +95,8 @@ analytic_light(const S& scene, const LightT<T>& light, T form, const VertexT<T>&
 // [analytic_light]
 
 /// The light of lamps that a ray meets whose direction the material samples, with the
-/// weight that the shadow rays leave it. It is a path of its own: what it meets else,
-/// adds nothing.
+/// weight that the shadow rays leave it. It is a path of its own: anything else that it
+/// meets adds nothing.
 /// \param scene     The scene.
 /// \param vertex    The surface.
 /// \param material  What it is made of.
@@ -121,10 +121,7 @@ template <SceneLike S, std::floating_point T, Material M, typename Stream>
     ++counts.shadow_rays;
     const auto lamp = next_vertex(scene, path, numbers);
     if (!lamp || !lamp->emits()) return RgbT<T>{T(0)};
-    const T pdf = scene.visit_shape(lamp->id, [&](const auto& shape) {
-        return pdf_towards(at_time(shape, lamp->time), vertex.point.position,
-                           lamp->point);
-    });
+    const T pdf = pdf_of_lamp_point(scene, vertex.point.position, *lamp);
     return balance_heuristic(next->sample.pdf, T(rays) * pdf) * path.throughput *
            lamp->object.emission;
 }

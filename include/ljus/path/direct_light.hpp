@@ -48,6 +48,20 @@ template <std::floating_point T>
 }
 // [heuristics]
 
+/// The density with which a shadow ray to a lamp chooses the point of it that a path
+/// has met.
+/// \param scene  The scene.
+/// \param from   Where the shadow ray would start.
+/// \param lamp   The point of the lamp.
+/// \return Per steradian, as seen from there.
+template <SceneLike S, std::floating_point T>
+[[nodiscard]] T pdf_of_lamp_point(const S& scene, const Vec3T<T>& from,
+                                  const VertexT<T>& lamp) {
+    return scene.visit_shape(lamp.id, [&](const auto& shape) {
+        return pdf_towards(at_time(shape, lamp.time), from, lamp.point);
+    });
+}
+
 /// The light of one point of a light: as it is sent, and what of it arrives.
 template <std::floating_point T>
 struct LightShareT {

@@ -134,7 +134,8 @@ struct LightPathExpressionReader {
 /// \param expression  As "ES*D?L": E, D, S, L, '.' for D or S, and | ( ) * + ? as
 ///                    usual; at most 63 letters. It must outlive the class.
 /// \return The class; the compiler makes it, if it is constexpr.
-/// \throws std::invalid_argument  for an expression that is none.
+/// \throws std::invalid_argument  for a text that is no such expression, with the place
+///         of the mistake.
 [[nodiscard]] constexpr LightPathExpression
 light_path_expression(std::string_view expression) {
     LightPathExpression result{.expression = expression};

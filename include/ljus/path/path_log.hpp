@@ -12,7 +12,7 @@
 namespace ljus {
 
 /// \defgroup path_log Path logs
-/// \brief Every renderer reports to a log; most often to one that is not there.
+/// \brief Every renderer reports to a log; most often to a NoLog, which costs nothing.
 /// \{
 
 /// Takes nothing and costs nothing: the log of a picture.
@@ -72,11 +72,8 @@ struct PathLog {
     template <std::floating_point T>
     void term(std::string_view owner, std::string_view suffix, const RgbT<T>& value) {
         if (is_black(value)) return;
-        lines.push_back({letters + std::string(suffix),
-                         std::string(owner),
-                         glm::dvec3(value),
-                         here,
-                         0});
+        lines.push_back({letters + std::string(suffix), std::string(owner),
+                         glm::dvec3(value), here, 0});
     }
 };
 

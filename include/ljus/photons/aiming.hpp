@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "ljus/path/emission.hpp"
+#include "ljus/photons/detail/aim_steps.hpp"
 
 namespace ljus {
 
@@ -32,21 +32,6 @@ template <SceneLike S>
 }
 
 namespace detail {
-
-/// A photon that was aimed at an object.
-template <std::floating_point T>
-struct AimedPhotonT {
-    EmittedPhotonT<T> photon; ///< The photon.
-    ObjectId target;          ///< It counts only if this is what it meets first.
-};
-
-/// How a point of a light aims at an object.
-template <std::floating_point T>
-struct AimT {
-    detail::ConeT<T> cone{}; ///< In which it sees the object's bounding sphere.
-    bool at_area = false;    ///< At points of the object's area instead of the cone.
-    T size = T(0); ///< About the solid angle over 2 pi: how often it is chosen.
-};
 
 /// How a point of a light aims at an object: at the cone in which it sees the object's
 /// bounding sphere, or at the points of a flat one. From inside of that sphere, a lamp
@@ -104,61 +89,6 @@ template <std::floating_point T>
 }
 // [aim_at_ball]
 
-namespace detail {
-
-/// A target that was chosen.
-template <std::floating_point T>
-struct ChosenTargetT {
-    ObjectId target; ///< Its number.
-    T sum = T(0);    ///< The sizes of all targets together.
-};
-
-/// Chooses a target in proportion to its size, as seen by a light.
-/// \param targets   The objects.
-/// \param size_of   Called with each; 0 leaves it out.
-/// \param u_target  In [0, 1).
-/// \return The target; nothing if none has a size.
-template <std::floating_point T, typename SizeOf>
-[[nodiscard]] std::optional<ChosenTargetT<T>>
-choose_target(std::span<const ObjectId> targets, SizeOf size_of, T u_target) {
-    ChosenTargetT<T> chosen;
-    // Each takes the place of the one before with its share of the sum so far, and u is
-    // stretched to [0, 1) again.
-    for (const ObjectId candidate : targets) {
-        const T size = size_of(candidate);
-        if (!(size > T(0))) continue;
-        chosen.sum += size;
-        const T share = size / chosen.sum;
-        if (u_target < share) {
-            chosen.target = candidate;
-            u_target /= share;
-        } else {
-            u_target = (u_target - share) / (T(1) - share);
-        }
-    }
-    if (!(chosen.sum > T(0))) return std::nullopt;
-    return chosen;
-}
-
-/// How much of its flux a light's point sends around a direction, per steradian; aimed
-/// photons are paid for with it.
-/// \param light      The light, no sun.
-/// \param point      The point of it.
-/// \param direction  Unit, away from it.
-/// \return cos / pi, 1 / (4 pi) or a spot's intensity over its flux; 0 behind a lamp.
-template <std::floating_point T>
-[[nodiscard]] T emitted_share(const LightT<T>& light, const SurfacePointT<T>& point,
-                              const Vec3T<T>& direction) noexcept {
-    if (light.kind == LightKind::spot)
-        return detail::spot_share(light, direction) * std::numbers::inv_pi_v<T> /
-               (light.inner + light.outer);
-    if (!light.object) return pdf_uniform_sphere(direction);
-    const T cosine = glm::dot(direction, point.normal);
-    return cosine > T(0) ? cosine * std::numbers::inv_pi_v<T> : T(0);
-}
-
-} // namespace detail
-
 /// A photon aimed at one of several objects: at the cone in which the light's point
 /// sees the object's bounding sphere, uniformly; a wide cone is chosen more often, so
 /// that the density is the same, one over the sum of the cones, in all of them. A flat
@@ -192,24 +122,14 @@ aim(const S& scene, const LightChoice& choice, std::span<const ObjectId> targets
     const T u_target = next_1d<T>(stream);
     const Vec2T<T> u_direction = next_2d<T>(stream);
     const T time = detail::path_time(scene, stream);
-    EmittedPhotonT<T> photon{.light = static_cast<std::uint16_t>(chosen.light)};
+    const auto number = static_cast<std::uint16_t>(chosen.light);
 
     if (light.kind == LightKind::sun) {
-        const auto bound_of = [&](ObjectId id) {
-            return scene.visit_shape(id,
-                                     [](const auto& s) { return bounding_sphere(s); });
-        };
-        const auto disc_of = [&](ObjectId id) {
-            const T radius = bound_of(id).radius;
-            return std::numbers::pi_v<T> * radius * radius;
-        };
-        const auto aimed = detail::choose_target(targets, disc_of, u_target);
+        auto aimed = detail::aim_sun(scene, chosen, targets, u_target, u_point);
         if (!aimed) return std::nullopt;
-        const SphereT<T> bound = bound_of(aimed->target);
-        photon.ray = detail::sun_ray(light, bound.center, bound.radius, u_point);
-        photon.ray.time = time;
-        photon.flux = light.emission * (aimed->sum / chosen.probability);
-        return detail::AimedPhotonT<T>{photon, aimed->target};
+        aimed->photon.ray.time = time;
+        aimed->photon.light = number;
+        return aimed;
     }
 
     SurfacePointT<T> point{.position = light.position};
@@ -221,27 +141,21 @@ aim(const S& scene, const LightChoice& choice, std::span<const ObjectId> targets
     if (!aimed) return std::nullopt;
 
     const detail::AimT<T> at = detail::aim_at(scene, light, point, aimed->target);
-    Vec3T<T> direction =
-        to_world(frame_around(at.cone.axis),
-                 sample_uniform_cone(u_direction, at.cone.one_minus_cos));
-    T pdf = pdf_uniform_cone(at.cone.one_minus_cos);
-    if (at.at_area) {
-        const auto seen = scene.visit_shape(aimed->target, [&](const auto& shape) {
-            return sample_towards(at_time(shape, time), point.position, u_direction);
-        });
-        direction = glm::normalize(seen.point.position - point.position);
-        pdf = seen.pdf;
-    }
+    auto [direction, pdf] =
+        detail::sample_aim(scene, at, point.position, aimed->target, u_direction, time);
     pdf *= at.size / aimed->sum;                                  // of the choice
     if (!(pdf > T(0) && std::isfinite(pdf))) return std::nullopt; // edge-on, or at it
     const T emitted = detail::emitted_share(light, point, direction);
     if (!(emitted > T(0))) return std::nullopt;
-    photon.flux = light.flux * (emitted / (pdf * chosen.probability));
-    photon.ray = light.object
-                     ? spawn_ray(point, direction)
-                     : RayT<T>{.origin = point.position, .direction = direction};
-    photon.ray.time = time;
-    return detail::AimedPhotonT<T>{photon, aimed->target};
+    RayT<T> ray = light.object
+                      ? spawn_ray(point, direction)
+                      : RayT<T>{.origin = point.position, .direction = direction};
+    ray.time = time;
+    return detail::AimedPhotonT<T>{
+        {.ray = ray,
+         .flux = light.flux * (emitted / (pdf * chosen.probability)),
+         .light = number},
+        aimed->target};
 }
 // [aim]
 

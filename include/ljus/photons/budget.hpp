@@ -47,7 +47,7 @@ namespace ljus {
 
 /// What a pilot pass found out about one object. Scatters are the a_k of share_out().
 struct CausticPilot {
-    ObjectId object{};      ///< Which.
+    ObjectId object{};      ///< Which object.
     std::size_t stored = 0; ///< Photons of the pilot that came to a diffuse surface.
     double flux = 0;        ///< Luminous part of the flux that it throws, W.
     double area = 0;        ///< Flux over its mean irradiance: on how much it lies.
@@ -106,6 +106,45 @@ trace_pilot(const S& scene, PhotonPassSettings pass, std::size_t object,
     return trace_photons(scene, MapType::caustics, pass);
 }
 
+/// What the photons of a pilot say of their object.
+template <std::floating_point T>
+struct PilotLightT {
+    const PhotonMapT<T>& caustics; ///< The photons of all pilots.
+    const PhotonMapT<T>& rest;     ///< What else lights the scene.
+    T radius = T(0);               ///< The caustics are asked within it.
+    T wide = T(0);                 ///< The rest is asked within it.
+    double dark = 0;               ///< A tenth of the mean light, W/m^2.
+
+    /// Adds up what an object throws, and how that scatters.
+    /// \param object   The object.
+    /// \param photons  Of its pilot, as they were stored.
+    /// \param paths    How many were sent.
+    [[nodiscard]] CausticPilot judge(ObjectId object,
+                                     const std::vector<PhotonT<T>>& photons,
+                                     long long paths) const {
+        CausticPilot pilot{.object = object, .stored = photons.size()};
+        double lit = 0; // flux times irradiance
+        for (const PhotonT<T>& photon : photons) {
+            const double flux = luminance(RgbT<double>(photon.flux));
+            if (!(flux > 0)) continue; // what follows is above 0 as well
+            const double own = irradiance_around(caustics, photon, radius);
+            const double visible =
+                flux / (own + dark + irradiance_around(rest, photon, wide));
+            pilot.flux += flux;
+            lit += flux * own;
+            pilot.absolute += double(paths) * flux * flux;
+            pilot.visible += double(paths) * visible * visible;
+        }
+        pilot.absolute = std::sqrt(pilot.absolute);
+        pilot.visible = std::sqrt(pilot.visible);
+        if (lit > 0) {
+            pilot.area = pilot.flux * pilot.flux / lit;
+            pilot.relative = pilot.absolute * pilot.area / pilot.flux;
+        }
+        return pilot;
+    }
+};
+
 } // namespace detail
 
 /// Traces a few photons to each mirror and each glass, to learn what it throws and how
@@ -152,29 +191,10 @@ pilot_caustics(const S& scene, const PhotonPassSettings& pass, T radius,
     const double dark =
         0.1 * (light.empty() ? detail::mean_irradiance(caustics, all, 2 * radius)
                              : detail::mean_irradiance(rest, light, wide));
+    const detail::PilotLightT<T> around{caustics, rest, 2 * radius, wide, dark};
     std::vector<CausticPilot> pilots;
-    for (std::size_t k = 0; k < objects.size(); ++k) {
-        CausticPilot pilot{.object = objects[k], .stored = found[k].size()};
-        double lit = 0; // flux times irradiance
-        for (const PhotonT<T>& photon : found[k]) {
-            const double flux = luminance(RgbT<double>(photon.flux));
-            if (!(flux > 0)) continue; // what follows is above 0 as well
-            const double own = detail::irradiance_around(caustics, photon, 2 * radius);
-            const double visible =
-                flux / (own + dark + detail::irradiance_around(rest, photon, wide));
-            pilot.flux += flux;
-            lit += flux * own;
-            pilot.absolute += double(paths) * flux * flux;
-            pilot.visible += double(paths) * visible * visible;
-        }
-        pilot.absolute = std::sqrt(pilot.absolute);
-        pilot.visible = std::sqrt(pilot.visible);
-        if (lit > 0) {
-            pilot.area = pilot.flux * pilot.flux / lit;
-            pilot.relative = pilot.absolute * pilot.area / pilot.flux;
-        }
-        pilots.push_back(pilot);
-    }
+    for (std::size_t k = 0; k < objects.size(); ++k)
+        pilots.push_back(around.judge(objects[k], found[k], paths));
     return pilots;
 }
 

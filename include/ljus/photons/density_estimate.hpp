@@ -24,15 +24,15 @@ namespace detail {
 /// The kernel of settings that name none.
 template <typename K>
 inline constexpr K default_kernel{};
-/// Of the kernels of the house, that of the least variance.
+/// Of the kernels of the library, that of the least variance.
 template <>
 inline constexpr Kernel default_kernel<Kernel> = Kernel::epanechnikov;
 
 } // namespace detail
 
 /// How photons are gathered.
-/// \tparam K  One of the kernels of the house, chosen when the program runs, or a type
-///            that is one: see KernelLike.
+/// \tparam K  Kernel, for one of the library's, chosen when the program runs; or a type
+///            that is a kernel: see KernelLike.
 template <KernelLike K>
 struct DensityEstimateOf {
     float radius = 0.1f;                  ///< In scene units, from 1e-15 to 1e15.

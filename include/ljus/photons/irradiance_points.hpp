@@ -60,6 +60,19 @@ template <std::floating_point T>
     return PhotonRecordT<T>(map.records[index]).kind == kind;
 }
 
+/// Whether a photon of a map becomes a point: every so many of them.
+///
+/// They are counted in the order of emission, which is chance. In the tree's order
+/// there would be more points where there are too many photons, and the mean over a
+/// surface would be too small.
+/// \param map    The general map.
+/// \param index  Of the photon, in the tree's order.
+/// \param every  One of so many is a point.
+template <std::floating_point T>
+[[nodiscard]] bool is_point(const PhotonMapT<T>& map, std::size_t index, int every) {
+    return map.tree.point_ids()[index] % static_cast<std::size_t>(every) == 0;
+}
+
 /// The irradiance on one side of a surface that the nearest photons make, by
 /// Epanechnikov's kernel.
 /// \param scene     The scene.
@@ -67,7 +80,7 @@ template <std::floating_point T>
 /// \param vertex    Where.
 /// \param normal    Unit, on the side that is asked about.
 /// \param settings  How many photons, and whether edges are made up for.
-/// \param radius    Within which they lie, at most; in scene units.
+/// \param radius    The largest distance at which they count, in scene units.
 /// \param wanted    Says of the index of a record whether that photon counts.
 /// \return W/m^2.
 template <SceneLike S, std::floating_point T, typename Wanted>
@@ -104,12 +117,52 @@ estimate_irradiance(const S& scene, const PhotonMapT<T>& map, const VertexT<T>& 
     // [estimate_irradiance]
 }
 
+/// The irradiance at a point: direct light by shadow rays, which know where its shadows
+/// end; caustics and indirect light from the maps.
+/// \param scene     The scene.
+/// \param general   The general map, of whose indirect photons those count that are not
+///                  points themselves.
+/// \param caustics  The caustics map; may be empty.
+/// \param vertex    The point, seen from the side that is asked about.
+/// \param settings  How.
+/// \param radius    Within which the photons of an estimate lie, in scene units.
+/// \param stream    The numbers of the shadow rays.
+/// \return W/m^2.
+template <SceneLike S, std::floating_point T>
+[[nodiscard]] RgbT<T> irradiance_of_point(const S& scene, const PhotonMapT<T>& general,
+                                          const PhotonMapT<T>& caustics,
+                                          const VertexT<T>& vertex,
+                                          const IrradiancePointSettings& settings,
+                                          T radius, RandomStream& stream) {
+    const Vec3T<T> side =
+        vertex.wo.z < T(0) ? -vertex.point.normal : vertex.point.normal;
+    const T every = T(settings.every);
+    // [at_point]
+    Counts counts;
+    const LambertianT<T> white{.albedo = RgbT<T>{T(1)}};
+    RgbT<T> sum = std::numbers::pi_v<T> *
+                  sample_all_lights(scene, vertex, white, DirectLight::analytic,
+                                    settings.shadow_rays, stream, counts);
+    const auto indirect = [&](std::uint32_t k) {
+        return is_of_kind(general, k, PhotonKind::indirect) &&
+               !is_point(general, k, settings.every);
+    };
+    const auto caustic = [&](std::uint32_t k) {
+        return is_of_kind(caustics, k, PhotonKind::caustic);
+    };
+    sum +=
+        estimate_irradiance(scene, general, vertex, side, settings, radius, indirect) *
+        (every / (every - 1));
+    if (!caustics.empty())
+        sum += estimate_irradiance(scene, caustics, vertex, side, settings, radius,
+                                   caustic);
+    // [at_point]
+    return sum;
+}
+
 } // namespace detail
 
 /// Works out the irradiance at every so many photons of a map.
-///
-/// Direct light comes by shadow rays, which know where its shadows end; caustics and
-/// indirect light are estimated from the maps.
 /// \param scene     The scene.
 /// \param general   The general map: where the points are, and its indirect photons.
 /// \param caustics  The caustics map; may be empty.
@@ -122,23 +175,15 @@ template <SceneLike S, std::floating_point T>
 [[nodiscard]] IrradiancePointsT<T> make_irradiance_points(
     const S& scene, const PhotonMapT<T>& general, const PhotonMapT<T>& caustics,
     const IrradiancePointSettings& settings, std::uint64_t seed, int threads = 0) {
-    const auto every = static_cast<std::size_t>(settings.every);
-    // By the order of emission, which is chance. In the tree's order there would be
-    // more points where there are too many photons, and the mean over a surface would
-    // be too small.
-    const auto is_point = [&](std::size_t i) {
-        return general.tree.point_ids()[i] % every == 0;
-    };
     std::vector<std::size_t> chosen;
     for (std::size_t i = 0; i < general.records.size(); ++i)
-        if (is_point(i)) chosen.push_back(i);
-    const std::size_t count = chosen.size();
+        if (detail::is_point(general, i, settings.every)) chosen.push_back(i);
     const T radius = settings.radius > 0
                          ? T(settings.radius)
                          : 4 * typical_radius(general, settings.nearest);
-    std::vector<Vec3T<T>> positions(count);
-    std::vector<IrradianceAtT<T>> records(count);
-    const auto at_point = [&](std::size_t i) {
+    std::vector<Vec3T<T>> positions(chosen.size());
+    std::vector<IrradianceAtT<T>> records(chosen.size());
+    const auto work_out = [&](std::size_t i) {
         const std::size_t photon = chosen[i];
         const detail::PhotonRecordT<T> record = general.records[photon];
         positions[i] = general.tree.point(photon);
@@ -146,51 +191,19 @@ template <SceneLike S, std::floating_point T>
         if (photon_side(record.direction, normal) < 0) normal = -normal;
         records[i].normal = normal;
         // What stands there is asked of the scene: a photon does not remember.
-        const T height = T(1e-3) * radius;
-        const RayT<T> down{.origin = positions[i] + height * normal,
-                           .direction = -normal,
-                           .t_max = T(2) * height};
-        const auto hit = closest_hit(scene, down);
-        if (!hit) return;
-        const VertexT<T> vertex = vertex_at(scene, down, *hit);
-        const Vec3T<T> side =
-            vertex.wo.z < T(0) ? -vertex.point.normal : vertex.point.normal;
-        // [at_point]
+        const auto vertex =
+            detail::vertex_below(scene, positions[i], normal, T(1e-3) * radius);
+        if (!vertex) return;
         auto stream = random_stream(seed, Pass::irradiance, 0, i);
-        Counts counts;
-        const LambertianT<T> white{.albedo = RgbT<T>{T(1)}};
-        RgbT<T> sum =
-            std::numbers::pi_v<T> *
-            detail::sample_all_lights(scene, vertex, white, DirectLight::analytic,
-                                      settings.shadow_rays, stream, counts);
-        const auto indirect = [&](std::uint32_t k) {
-            return detail::is_of_kind(general, k, PhotonKind::indirect) && !is_point(k);
-        };
-        const auto caustic = [&](std::uint32_t k) {
-            return detail::is_of_kind(caustics, k, PhotonKind::caustic);
-        };
-        sum += detail::estimate_irradiance(scene, general, vertex, side, settings,
-                                           radius, indirect) *
-               (T(every) / T(every - 1));
-        if (!caustics.empty())
-            sum += detail::estimate_irradiance(scene, caustics, vertex, side, settings,
-                                               radius, caustic);
-        records[i].irradiance = sum;
-        // [at_point]
+        records[i].irradiance = detail::irradiance_of_point(
+            scene, general, caustics, *vertex, settings, radius, stream);
     };
-    constexpr long long block = 64;
-    const auto body = [&](long long b) {
-        const auto range = detail::block_range(b, block, static_cast<long long>(count));
-        for (long long i = range.first; i < range.last; ++i)
-            at_point(static_cast<std::size_t>(i));
-    };
-    (void)parallel_blocks(detail::block_count(static_cast<long long>(count), block),
-                          body, {.threads = threads});
+    (void)detail::parallel_each(chosen.size(), 64, work_out, {.threads = threads});
 
     IrradiancePointsT<T> points;
     points.radius = radius;
     points.tree = KdTree8T<T>(positions, threads);
-    points.records.reserve(count);
+    points.records.reserve(chosen.size());
     for (const std::uint32_t i : points.tree.point_ids())
         points.records.push_back(records[i]);
     return points;

@@ -45,7 +45,7 @@ inline constexpr PhotonKinds light_kinds{7}; ///< All but shadow photons.
 namespace detail {
 
 /// A surface's normal in three bytes, in steps of 1/127: less than half a degree wrong.
-/// Zero, for a photon whose surface nobody told, is every surface's.
+/// Zero, of a photon whose surface is not known, matches every surface.
 using SmallNormal = glm::vec<3, std::int8_t>;
 
 } // namespace detail

@@ -62,12 +62,10 @@ struct PhotonPassSettings {
 /// \param pass  The settings.
 /// \throws std::invalid_argument  with name and value.
 inline void check(const PhotonPassSettings& pass) {
-    require(pass.photons >= 0, "the number of photons", pass.photons, "at least 0");
-    require(pass.max_bounces >= 1, "the largest number of bounces",
-            static_cast<long long>(pass.max_bounces), "at least 1");
+    require_at_least("the number of photons", pass.photons, 0);
+    require_at_least("the largest number of bounces", pass.max_bounces, 1);
     require(pass.max_memory > 0, "the memory for photons", pass.max_memory, "above 0");
-    require(pass.give_up >= 1, "the number of paths without a photon", pass.give_up,
-            "at least 1");
+    require_at_least("the number of paths without a photon", pass.give_up, 1);
 }
 
 /// What a photon pass brings.

@@ -72,7 +72,7 @@ struct PhotonCounts {
     std::uint32_t shadow = 0; ///< Something stood in their way.
 };
 
-/// A report's "nearly none": one in so many, from its program.
+/// The report's "nearly none": one in so many, by its program.
 inline constexpr std::uint64_t report_ratio = 1200;
 
 /// What photons say.

@@ -60,7 +60,7 @@ struct VerdictGridT {
         if (at.bits == nullptr) return Verdict::unknown;
         const std::uint64_t lit = at.bits[2 * light] >> at.cell & 1;
         const std::uint64_t shadow = at.bits[2 * light + 1] >> at.cell & 1;
-        return static_cast<Verdict>(lit + 2 * shadow); // no branch to guess wrong
+        return static_cast<Verdict>(lit + 2 * shadow); // no branch to mispredict
     }
     // [place_of]
 
@@ -79,7 +79,7 @@ namespace detail {
 template <std::floating_point T>
 struct VerdictsAtT {
     const VerdictGridT<T>& grid;        ///< Which grid.
-    typename VerdictGridT<T>::Place at; ///< Where.
+    typename VerdictGridT<T>::Place at; ///< The place of the vertex in it.
 
     /// Of the light with this number.
     [[nodiscard]] Verdict operator()(std::size_t light) const noexcept {

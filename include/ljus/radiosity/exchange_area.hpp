@@ -73,6 +73,33 @@ struct EdgeRule {
     return glm::dot(u, v) * sum;
 }
 
+// The same integral for parallel edges, in closed form. `ahead` and `d` are how far the
+// second edge begins before the start of the first, along it and beside it; `back` is
+// the length of the first edge, negative if the two run against each other.
+[[nodiscard]] inline double parallel_edges(double ahead, double d, double back,
+                                           double length_v, double unit) noexcept {
+    const auto f = [&](double z) { return log_twice(z, d, unit); };
+    return f(ahead + length_v) + f(ahead - back) - f(ahead + length_v - back) -
+           f(ahead) - 1.5 * length_v * back;
+}
+
+// Where the first edge passes the ends of the second, and its line: shares of its
+// length, with both of its ends, in order.
+[[nodiscard]] inline std::array<double, 5>
+pieces_of_edge(const glm::dvec3& way, const glm::dvec3& u, const glm::dvec3& v,
+               double length_u, const glm::dvec3& along) noexcept {
+    const glm::dvec3 off = u - glm::dot(u, along) * along;
+    std::array<double, 5> ends{0, glm::dot(way, u) / (length_u * length_u),
+                               glm::dot(way + v, u) / (length_u * length_u),
+                               glm::dot(way, off) / glm::dot(off, off), 1};
+    for (std::size_t i = 1; i < 4; ++i) {
+        ends[i] = glm::clamp(ends[i], 0.0, 1.0);
+        for (std::size_t k = i; ends[k] < ends[k - 1]; --k)
+            std::swap(ends[k], ends[k - 1]);
+    }
+    return ends;
+}
+
 /// The integral of the logarithm of the distance over two edges, times the cosine of
 /// their angle.
 ///
@@ -100,10 +127,8 @@ struct EdgeRule {
     const double ahead = glm::dot(way, along);
     if (glm::length(glm::cross(u, along)) <= 1e-14 * length_u) {
         const double d = glm::length(way - ahead * along);
-        const double back = std::copysign(length_u, cosine);
-        const auto f = [&](double z) { return detail::log_twice(z, d, unit); };
-        return f(ahead + length_v) + f(ahead - back) - f(ahead + length_v - back) -
-               f(ahead) - 1.5 * length_v * back;
+        return parallel_edges(ahead, d, std::copysign(length_u, cosine), length_v,
+                              unit);
     }
     // Inner integral: over the second edge, from the point s of the first.
     const auto inner = [&](double s) {
@@ -112,16 +137,7 @@ struct EdgeRule {
         const double d = glm::length(from - z * along);
         return detail::log_once(z + length_v, d, unit) - detail::log_once(z, d, unit);
     };
-    // Where the first edge passes the ends of the second, and its line.
-    const glm::dvec3 off = u - glm::dot(u, along) * along;
-    std::array<double, 5> ends{0, glm::dot(way, u) / (length_u * length_u),
-                               glm::dot(way + v, u) / (length_u * length_u),
-                               glm::dot(way, off) / glm::dot(off, off), 1};
-    for (std::size_t i = 1; i < 4; ++i) {
-        ends[i] = glm::clamp(ends[i], 0.0, 1.0);
-        for (std::size_t k = i; ends[k] < ends[k - 1]; --k)
-            std::swap(ends[k], ends[k - 1]);
-    }
+    const std::array<double, 5> ends = pieces_of_edge(way, u, v, length_u, along);
     const detail::EdgeRule& rule = detail::edge_rule();
     double sum = 0;
     for (std::size_t piece = 1; piece < ends.size(); ++piece) {

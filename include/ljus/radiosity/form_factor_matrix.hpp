@@ -95,10 +95,8 @@ template <SceneLike S>
 [[nodiscard]] std::optional<FormFactors>
 make_form_factors(const S& scene, const Patches& all,
                   const FormFactorSettings& settings = {}) {
-    require(settings.rays >= 1, "rays", static_cast<long long>(settings.rays),
-            "at least 1");
-    require(settings.shadow_rays >= 1, "shadow_rays",
-            static_cast<long long>(settings.shadow_rays), "at least 1");
+    require_at_least("rays", settings.rays, 1);
+    require_at_least("shadow_rays", settings.shadow_rays, 1);
     const detail::IndexedT<S> indexed(scene);
     const std::size_t n = all.patches.size();
     FormFactors factors{.area = std::vector<double>(n),

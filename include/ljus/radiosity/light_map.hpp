@@ -112,7 +112,7 @@ template <SceneLike S>
         const bool known = grid.object.type < view.grid_of.size() &&
                            grid.object.index < view.grid_of[grid.object.type].size();
         const bool same = known && scene.visit_shape(grid.object, [&](const auto& s) {
-            if constexpr (requires { patch_grid(s, 1.0); })
+            if constexpr (detail::Cuttable<std::remove_cvref_t<decltype(s)>>)
                 return patch_grid(s, 1.0).kind == grid.kind;
             else
                 return false;
@@ -164,19 +164,15 @@ template <SceneLike S, std::floating_point T, typename Log = NoLog>
     const auto hit = closest_hit(view.scene, ray);
     if (!hit) return RgbT<T>(0);
     const auto& object = view.scene.object(hit->object);
-    const Vec3T<T> outer = view.scene.visit_shape(hit->object, [&](const auto& shape) {
-        return surface_point(shape, ray, hit->at).normal;
-    });
-    const bool inward = glm::dot(ray.direction, outer) > T(0);
-    const bool back = inward != object.inside_out;
-    RgbT<T> sum = back ? RgbT<T>(0) : object.emission;
+    const detail::HitSideT<T> side = detail::side_of(view.scene, ray, *hit);
+    RgbT<T> sum = side.back ? RgbT<T>(0) : object.emission;
     log.term("emission", "L", sum);
     const std::uint32_t number =
-        view.grid_of[hit->object.type][hit->object.index][back];
+        view.grid_of[hit->object.type][hit->object.index][side.back];
     if (number == detail::no_grid) return sum;
 
     const PatchGrid& grid = view.map.grids[number];
-    const glm::dvec2 at = detail::place_on(grid.kind, hit->at, outer);
+    const glm::dvec2 at = detail::place_on(grid.kind, hit->at, side.outer);
     const RgbT<double> irradiance =
         view.look.smooth ? blended_light(grid, at, view.vertices[number])
                          : view.map.irradiance[grid.first + cell_of(grid, at)];

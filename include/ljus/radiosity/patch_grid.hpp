@@ -131,6 +131,33 @@ struct CellPlace {
 
 namespace detail {
 
+/// What can be cut into patches.
+template <typename S>
+concept Cuttable = requires(const S& shape) {
+    patch_grid(shape, 1.0);
+};
+
+/// The side of an object that a ray has hit.
+template <std::floating_point T>
+struct HitSideT {
+    Vec3T<T> outer{T(0)}; ///< The shape's own normal there.
+    bool back = false;    ///< Whether emission does not leave this side.
+};
+
+/// Finds the side of an object that a ray has hit.
+/// \param scene  The scene.
+/// \param ray    The ray.
+/// \param hit    What closest_hit() returned.
+template <SceneLike S, std::floating_point T>
+[[nodiscard]] HitSideT<T> side_of(const S& scene, const RayT<T>& ray,
+                                  const SceneHitT<T>& hit) {
+    const Vec3T<T> outer = scene.visit_shape(hit.object, [&](const auto& shape) {
+        return surface_point(shape, ray, hit.at).normal;
+    });
+    const bool inward = glm::dot(ray.direction, outer) > T(0);
+    return {outer, inward != scene.object(hit.object).inside_out};
+}
+
 /// The place of a hit on its shape.
 /// \param kind          Of the grid.
 /// \param hit           u and v of a flat shape.

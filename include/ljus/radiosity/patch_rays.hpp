@@ -32,7 +32,7 @@ template <SceneLike S, std::floating_point T>
                                             std::uint32_t number, const Vec2T<T>& u) {
     const PatchGrid& grid = all.grids[all.patches[number].grid];
     return scene.visit_shape(grid.object, [&](const auto& shape) {
-        if constexpr (requires { patch_grid(shape, 1.0); })
+        if constexpr (Cuttable<std::remove_cvref_t<decltype(shape)>>)
             return sample_cell(grid, shape, number - grid.first, u);
         else
             return SurfacePointT<T>{}; // such a shape has no patches
@@ -49,15 +49,12 @@ template <SceneLike S, std::floating_point T>
 [[nodiscard]] std::optional<std::uint32_t> patch_at(const S& scene, const Patches& all,
                                                     const RayT<T>& ray,
                                                     const SceneHitT<T>& hit) {
-    const Vec3T<T> outer = scene.visit_shape(hit.object, [&](const auto& shape) {
-        return surface_point(shape, ray, hit.at).normal;
-    });
-    const bool inward = glm::dot(ray.direction, outer) > T(0);
-    const bool back = inward != scene.object(hit.object).inside_out;
-    const std::uint32_t number = all.grid_of[hit.object.type][hit.object.index][back];
+    const HitSideT<T> side = side_of(scene, ray, hit);
+    const std::uint32_t number =
+        all.grid_of[hit.object.type][hit.object.index][side.back];
     if (number == no_grid) return std::nullopt;
     const PatchGrid& grid = all.grids[number];
-    return grid.first + cell_of(grid, place_on(grid.kind, hit.at, outer));
+    return grid.first + cell_of(grid, place_on(grid.kind, hit.at, side.outer));
 }
 
 /// Shoots rays from a patch, by the cosine, and sees where they arrive: the share that

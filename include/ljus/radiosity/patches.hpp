@@ -73,7 +73,7 @@ concept Flat = requires(const S& shape) {
 
 namespace detail {
 
-// How far a shape reaches along a normal, at most.
+// An upper bound of how far a shape reaches along a normal.
 template <typename S>
 double reach_along(const S& shape, const glm::dvec3& normal) {
     if constexpr (Flat<S>) {
@@ -146,6 +146,27 @@ void add_side(Patches& all, const S& shape, const PatchGrid& side, Patch patch,
     all.grids.push_back(grid);
 }
 
+// Cuts the open sides of a matt object, and returns the grids of its front and back.
+template <typename S, std::floating_point T>
+std::array<std::uint32_t, 2>
+cut_sides(Patches& all, const S& shape, ObjectId id, const ObjectT<T>& object,
+          const RgbT<double>& albedo, const std::array<bool, 2>& open,
+          const PatchSettings& settings) {
+    std::array<std::uint32_t, 2> sides{no_grid, no_grid};
+    for (const bool back : {false, true}) {
+        if (!open[back]) continue;
+        PatchGrid grid = patch_grid(shape, settings.size);
+        grid.object = id;
+        grid.back = back;
+        grid.inward = back != object.inside_out;
+        sides[back] = static_cast<std::uint32_t>(all.grids.size());
+        const double shine = back ? 0 : std::numbers::pi;
+        add_side(all, shape, grid,
+                 {.albedo = albedo, .emitted = shine * RgbT<double>(object.emission)},
+                 settings.most);
+    }
+    return sides;
+}
 inline void say(Patches& all, long long count, const char* one, const char* many) {
     if (count > 0)
         all.left_out.push_back(std::to_string(count).append(count == 1 ? one : many));
@@ -176,7 +197,6 @@ template <SceneLike S>
     long long unknown = 0, shiny = 0, lamps = 0;
     const auto cut = [&]<typename G>(const G& shape, ObjectId id) {
         const auto& object = scene.object(id);
-        std::array<std::uint32_t, 2> sides{detail::no_grid, detail::no_grid};
         std::array<bool, 2> open{};
         for (const bool back : {false, true})
             open[back] = detail::anything_before(
@@ -184,31 +204,16 @@ template <SceneLike S>
         // A wall that sees something on one side only stands between nothing.
         all.convex =
             all.convex && (Flat<G> ? !(open[0] && open[1]) : object.inside_out);
-        const bool matt = scene.visit_material(object.material, [](const auto& m) {
-            return Matt<std::remove_cvref_t<decltype(m)>>;
+        std::array<std::uint32_t, 2> sides{detail::no_grid, detail::no_grid};
+        scene.visit_material(object.material, [&](const auto& m) {
+            if constexpr (!Matt<std::remove_cvref_t<decltype(m)>>)
+                ++shiny;
+            else if constexpr (detail::Cuttable<G>)
+                sides = detail::cut_sides(all, shape, id, object, diffuse_albedo(m),
+                                          open, settings);
+            else
+                ++unknown;
         });
-        if constexpr (requires { patch_grid(shape, 1.0); }) {
-            scene.visit_material(object.material, [&](const auto& m) {
-                if constexpr (Matt<std::remove_cvref_t<decltype(m)>>)
-                    for (const bool back : {false, true}) {
-                        if (!open[back]) continue;
-                        PatchGrid grid = patch_grid(shape, settings.size);
-                        grid.object = id;
-                        grid.back = back;
-                        grid.inward = back != object.inside_out;
-                        sides[back] = static_cast<std::uint32_t>(all.grids.size());
-                        const double shine = back ? 0 : std::numbers::pi;
-                        detail::add_side(
-                            all, shape, grid,
-                            {.albedo = diffuse_albedo(m),
-                             .emitted = shine * RgbT<double>(object.emission)},
-                            settings.most);
-                    }
-            });
-        } else if (matt) {
-            ++unknown;
-        }
-        shiny += !matt;
         lamps += !is_black(object.emission);
         all.grid_of[id.type].push_back(sides);
     };

@@ -3,6 +3,10 @@
 /// \file ljus/render/adaptive.hpp
 /// \brief Rays where they are needed: pictures that know their own error.
 
+#include <algorithm>
+#include <span>
+#include <vector>
+
 #include "ljus/render/detail/adaptive_blocks.hpp"
 #include "ljus/render/render.hpp"
 
@@ -13,8 +17,8 @@ namespace ljus {
 /// Chapter: \ref ch_recursion_depth.
 ///
 /// Every pixel gets a few rays, which tell how much rays differ there; the others go
-/// where they take away most of the error. RenderSettings::samples is the number of
-/// rays per pixel in the mean, at most.
+/// where they take away most of the error. RenderSettings::samples is the largest
+/// number of rays per pixel, in the mean over the picture.
 ///
 ///     // 2 rays; 8 more where their mean has a relative standard error above 0.2
 ///     render_adaptive(mapper, camera, {.samples = 10},
@@ -67,6 +71,61 @@ void trace_block(SampleSums<R, T>& samples, const R& renderer,
     }
 }
 
+/// Sends the batches that some blocks are to have, and judges these blocks.
+///
+/// What the samples of all these blocks ask later is asked together.
+/// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
+/// \param camera    A CameraT, or anything with a camera_ray().
+/// \param picture   Size, seed, pattern.
+/// \param rule      Rays in a batch; what counts as dark.
+/// \param blocks    The blocks; their batches, rays and variances are updated.
+/// \param sums      Of all pixels of the picture.
+/// \return What it cost.
+template <typename R, template <std::floating_point> typename AnyCamera,
+          std::floating_point T>
+[[nodiscard]] Counts
+trace_blocks(const R& renderer, const AnyCamera<T>& camera,
+             const RenderSettings& picture, const AdaptiveSettings& rule,
+             std::span<AdaptiveBlock* const> blocks, std::vector<PixelSums>& sums) {
+    Counts cost; // of its own: two threads do not share a cache line
+    SampleSums<R, T> samples(renderer, sums, cost);
+    for (AdaptiveBlock* const block : blocks)
+        trace_block(samples, renderer, camera, picture, rule, *block, cost);
+    samples.finish();
+    for (AdaptiveBlock* const block : blocks)
+        block->variance = relative_variance(*block, sums, picture.width, rule.epsilon);
+    return cost;
+}
+
+/// The relMSE that the blocks believe the picture to have, noise alone.
+/// \param blocks  All blocks of the picture.
+/// \param pixels  How many pixels it has.
+[[nodiscard]] inline double relative_error(const std::vector<AdaptiveBlock>& blocks,
+                                           std::size_t pixels) noexcept {
+    double error = 0;
+    for (const AdaptiveBlock& block : blocks)
+        error += block.pixels() * block.variance / std::max(block.rays, 1);
+    return error / double(pixels);
+}
+
+/// Sets the pixels of an adaptive picture to the means of their rays.
+/// \param result     Gets the means and the numbers of rays.
+/// \param blocks     All blocks of the picture.
+/// \param sums       Of all its pixels.
+/// \param forgotten  Rays that each pixel had besides those in the sums.
+template <std::floating_point T>
+void set_pixels(AdaptiveT<T>& result, const std::vector<AdaptiveBlock>& blocks,
+                const std::vector<PixelSums>& sums, int forgotten) {
+    for (const AdaptiveBlock& block : blocks)
+        for (int y = block.y; y < block.bottom; ++y)
+            for (int x = block.x; x < block.right; ++x) {
+                const auto i = place_of(result.image.width, x, y);
+                result.image.pixels[i] =
+                    RgbT<T>(sums[i].sum / double(std::max(block.rays, 1)));
+                result.rays.pixels[i] = RgbT<T>(T(block.rays + forgotten));
+            }
+}
+
 } // namespace detail
 
 /// Renders a picture with more rays where they differ more, by several threads.
@@ -100,8 +159,7 @@ requires Renderer<R, T>
     double traced = 0; // rays, of all that are allowed
     const double allowed = double(picture.samples) * double(sums.size());
 
-    // Sends the batches that the blocks want, through 64 pixels or more at a time: what
-    // their samples ask later is asked together.
+    // Sends the batches that the blocks want, through 64 pixels or more at a time.
     const auto trace_round = [&] {
         std::vector<detail::AdaptiveBlock*> work;
         double rays = 0;
@@ -115,17 +173,11 @@ requires Renderer<R, T>
         const auto all = static_cast<long long>(work.size());
         std::vector<Counts> counts(std::size_t(detail::block_count(all, size)));
         const auto some = [&](long long number) {
-            Counts cost;
-            detail::SampleSums<R, T> samples(renderer, sums, cost);
-            const auto range = detail::block_range(number, size, all);
-            for (auto k = std::size_t(range.first); k < std::size_t(range.last); ++k)
-                detail::trace_block(samples, renderer, camera, picture, rule, *work[k],
-                                    cost);
-            samples.finish();
-            for (auto k = std::size_t(range.first); k < std::size_t(range.last); ++k)
-                work[k]->variance = detail::relative_variance(
-                    *work[k], sums, picture.width, rule.epsilon);
-            counts[std::size_t(number)] = cost;
+            const auto [first, last] = detail::block_range(number, size, all);
+            counts[std::size_t(number)] = detail::trace_blocks(
+                renderer, camera, picture, rule,
+                std::span(work).subspan(std::size_t(first), std::size_t(last - first)),
+                sums);
         };
         const auto progress = [&](long long done, long long of) {
             const double now = traced + rays * double(done) / double(of);
@@ -139,12 +191,7 @@ requires Renderer<R, T>
         traced += rays;
         return done;
     };
-    const auto estimate = [&] {
-        double error = 0;
-        for (const auto& block : blocks)
-            error += block.pixels() * block.variance / std::max(block.rays, 1);
-        return error / double(sums.size());
-    };
+    const auto estimate = [&] { return detail::relative_error(blocks, sums.size()); };
 
     // [rounds]
     result.complete = trace_round(); // the first rays
@@ -154,7 +201,7 @@ requires Renderer<R, T>
            !(rule.target > 0 && estimate() <= rule.target && !rule.two_stage) &&
            detail::plan_round(blocks, rule, limit)) {
         if (rule.two_stage) {
-            sums.assign(sums.size(), {}); // the first rays have done their duty
+            sums.assign(sums.size(), {}); // the first rays only decided
             for (auto& block : blocks) block.rays = 0;
         }
         result.complete = trace_round();
@@ -166,15 +213,7 @@ requires Renderer<R, T>
                                static_cast<long long>(allowed));
     result.estimate = estimate();
     result.reached = result.estimate <= rule.target * (1 + 1e-6); // but for rounding
-    for (const auto& block : blocks)
-        for (int y = block.y; y < block.bottom; ++y)
-            for (int x = block.x; x < block.right; ++x) {
-                const auto i = detail::place_of(picture.width, x, y);
-                const int rays = block.rays + (rule.two_stage ? rule.first : 0);
-                result.image.pixels[i] =
-                    RgbT<T>(sums[i].sum / double(std::max(block.rays, 1)));
-                result.rays.pixels[i] = RgbT<T>(T(rays));
-            }
+    detail::set_pixels(result, blocks, sums, rule.two_stage ? rule.first : 0);
     return result;
 }
 

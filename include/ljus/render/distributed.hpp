@@ -30,11 +30,11 @@ template <SceneLike S>
 struct DistributedTracer {
     using Stream = StratifiedStream; ///< What render() gives it to draw from.
     detail::IndexedT<S> scene;       ///< What is rendered.
-    DistributedSettings settings;    ///< How.
+    DistributedSettings settings;    ///< How rays are distributed.
 };
 
-/// Makes a tracer. How its rays are spread, over the pixel and all the rest, says
-/// RenderSettings::sampling.
+/// Makes a tracer. RenderSettings::sampling says how its rays are spread, over the
+/// pixel and over everything else that they choose.
 /// \param scene     Must outlive the tracer; a scene, which it indexes, or an
 ///                  IndexedScene.
 /// \param settings  The depth.
@@ -43,8 +43,7 @@ struct DistributedTracer {
 template <SceneLike S>
 [[nodiscard]] DistributedTracer<S>
 make_distributed(const S& scene, const DistributedSettings& settings = {}) {
-    require(settings.max_depth >= 0, "max_depth",
-            static_cast<long long>(settings.max_depth), "at least 0");
+    require_at_least("max_depth", settings.max_depth, 0);
     return {detail::IndexedT<S>(scene), settings};
 }
 /// Not of a temporary: the scene would be gone before it is rendered.

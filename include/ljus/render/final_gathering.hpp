@@ -65,7 +65,7 @@ struct GatherRayT {
 /// \param scene      The scene.
 /// \param points     Where the irradiance is known.
 /// \param path       The ray, as it leaves a diffuse surface.
-/// \param max_depth  Surfaces on a path, at most.
+/// \param max_depth  The most surfaces on a path.
 /// \param stream     The numbers of the ray.
 /// \param counts     Counts rays and lookups.
 /// \return Radiance and distance.
@@ -107,7 +107,8 @@ struct GatheredT {
     RgbT<T> irradiance{T(0)};          ///< Indirect light alone; W/m^2.
     Vec3T<T> normal{T(0), T(0), T(1)}; ///< Unit, on the side that is seen.
     T distance = T(0); ///< Harmonic mean of the gather rays' lengths, in scene units.
-    T spacing = T(0);  ///< How far the farthest of its nearest points lies.
+    T spacing = T(0);  ///< How far the farthest of its nearest points lies; set when a
+                       ///< cache is made.
 };
 
 /// Gathers the indirect irradiance at a vertex, by rays spread evenly over the cosine.

@@ -42,13 +42,14 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The irradiance between the points of a cache: the mean over those around that have a
-/// like normal, each weighted by how near it is. How far is around, the nearest point
-/// knows.
+/// The irradiance between the points of a cache: the mean over those that have a like
+/// normal, each weighted by how near it is. Points count as far away as the `spacing`
+/// of the nearest one.
 /// \param cache     The points.
 /// \param position  Where the irradiance is asked for.
 /// \param normal    Unit, on the side that is asked about.
-/// \param reach     How far a point counts: at most so many times its own distance.
+/// \param reach     A point counts no farther away than so many times the harmonic mean
+///                  distance of what it sees.
 /// \return W/m^2; nothing if no point is near enough.
 // [interpolate]
 template <std::floating_point T>
@@ -101,7 +102,8 @@ irradiance_between(const S& scene, const IrradiancePointsT<T>& points,
 
 namespace detail {
 
-/// Tells each point of a cache how far its nearest points of a like normal lie.
+/// Sets the `spacing` of each point of a cache: how far the farthest of its nearest
+/// points of a like normal lies.
 /// \param cache     The cache.
 /// \param settings  How many points.
 /// \param threads   As in ParallelSettings.
@@ -118,14 +120,9 @@ void measure_spacing(IrradianceCacheT<T>& cache, const GatherSettings& settings,
             cache.tree.point(i), std::numeric_limits<T>::infinity(), found, like);
         return count > 1 ? T(std::sqrt(found[0].distance2)) : T(0);
     };
-    constexpr long long block = 64;
-    const auto size = static_cast<long long>(cache.records.size());
-    const auto body = [&](long long b) {
-        const BlockRange range = block_range(b, block, size);
-        for (auto i = std::size_t(range.first); i < std::size_t(range.last); ++i)
-            cache.records[i].spacing = measure(i);
-    };
-    (void)parallel_blocks(block_count(size, block), body, {.threads = threads});
+    (void)parallel_each(cache.records.size(), 64,
+                        [&](std::size_t i) { cache.records[i].spacing = measure(i); },
+                        {.threads = threads});
 }
 
 } // namespace detail

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/render/path_tracing.hpp
-/// \brief The rendering equation solved by random paths: the judge of all the others.
+/// \brief The rendering equation solved by random paths: the reference of all others.
 
 #include "ljus/path/continue_path.hpp"
 #include "ljus/path/direct_light.hpp"
@@ -39,7 +39,7 @@ template <SceneLike S>
 struct PathTracer {
     using Stream = RandomStream;  ///< What render() gives it to draw from.
     detail::IndexedT<S> scene;    ///< What is rendered.
-    PathTracingSettings settings; ///< How.
+    PathTracingSettings settings; ///< How paths are traced.
     LightChoice lights;           ///< Its lights, by power.
 };
 
@@ -52,8 +52,7 @@ struct PathTracer {
 template <SceneLike S>
 [[nodiscard]] PathTracer<S> make_path_tracer(const S& scene,
                                              const PathTracingSettings& settings = {}) {
-    require(settings.max_depth >= 1, "max_depth",
-            static_cast<long long>(settings.max_depth), "at least 1");
+    require_at_least("max_depth", settings.max_depth, 1);
     require(settings.roulette_threshold >= 0, "roulette_threshold",
             settings.roulette_threshold, "at least 0");
     require(settings.roulette_max > 0 && settings.roulette_max <= 1, "roulette_max",
@@ -87,10 +86,8 @@ template <std::floating_point T>
 template <SceneLike S, std::floating_point T>
 [[nodiscard]] T pdf_of_light(const PathTracer<S>& tracer, const PathStateT<T>& path,
                              const VertexT<T>& vertex) {
-    const T pdf = tracer.scene.visit_shape(vertex.id, [&](const auto& shape) {
-        return pdf_towards(at_time(shape, vertex.time), path.previous, vertex.point);
-    });
-    return pdf * detail::probability_of<T>(tracer.lights, vertex.object.light);
+    return pdf_of_lamp_point(tracer.scene, path.previous, vertex) *
+           detail::probability_of<T>(tracer.lights, vertex.object.light);
 }
 
 /// The light of a lamp that a path has met, with the weight that the shadow ray from

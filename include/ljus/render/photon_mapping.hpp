@@ -36,7 +36,7 @@ struct PhotonMapper {
     using Later = detail::LaterCaustics<typename S::Scalar>;
     detail::IndexedT<S> scene;                   ///< What is rendered.
     const PhotonMapsT<typename S::Scalar>& maps; ///< Of the first pass.
-    PhotonMappingSettings settings;              ///< How.
+    PhotonMappingSettings settings;              ///< Depths, radii, passes.
     Lobes bounces; ///< By which lobes a path goes on until its light is gathered.
 };
 
@@ -138,12 +138,12 @@ void light_at(const PhotonMapper<S, Stream>& mapper, const VertexT<T>& vertex,
 
 namespace detail {
 
-/// A camera path goes both ways at glass so many times, at most.
+/// The most branches that split off from one camera path at glass.
 inline constexpr std::size_t max_splits = 8;
 
-/// A branch that split off survives roulette so many times more often than its
-/// throughput says. It is faint: by its throughput alone it would survive rarely, and
-/// then be as bright as if it were the only one. Any number keeps the mean.
+/// How many times more often than its throughput says a branch that split off survives
+/// roulette. By its throughput alone such a faint branch would survive rarely, and then
+/// be as bright as if it were the only one. The mean is the same for any number.
 inline constexpr int split_survival = 16;
 
 } // namespace detail

@@ -78,16 +78,11 @@ struct PhotonMappingSettings {
 /// \param settings  The settings.
 /// \throws std::invalid_argument  with name and value.
 inline void check(const PhotonMappingSettings& settings) {
-    require(settings.max_depth >= 1, "max_depth",
-            static_cast<long long>(settings.max_depth), "at least 1");
-    require(settings.shadow_rays >= 1, "shadow_rays",
-            static_cast<long long>(settings.shadow_rays), "at least 1");
-    require(settings.caustics.photons >= 0, "caustics.photons",
-            settings.caustics.photons, "at least 0");
-    require(settings.general.photons >= 0, "general.photons", settings.general.photons,
-            "at least 0");
-    require(settings.irradiance.every >= 2, "irradiance.every",
-            static_cast<long long>(settings.irradiance.every), "at least 2");
+    require_at_least("max_depth", settings.max_depth, 1);
+    require_at_least("shadow_rays", settings.shadow_rays, 1);
+    require_at_least("caustics.photons", settings.caustics.photons, 0);
+    require_at_least("general.photons", settings.general.photons, 0);
+    require_at_least("irradiance.every", settings.irradiance.every, 2);
     require(settings.irradiance.nearest >= 2 &&
                 settings.irradiance.nearest <= max_nearest,
             "irradiance.nearest", static_cast<long long>(settings.irradiance.nearest),
@@ -96,22 +91,18 @@ inline void check(const PhotonMappingSettings& settings) {
                 std::isfinite(settings.irradiance.radius),
             "irradiance.radius", double(settings.irradiance.radius),
             "at least 0 (0: chosen from the photons)");
-    require(settings.irradiance.shadow_rays >= 1, "irradiance.shadow_rays",
-            static_cast<long long>(settings.irradiance.shadow_rays), "at least 1");
-    require(settings.gather.rays >= 1, "gather.rays",
-            static_cast<long long>(settings.gather.rays), "at least 1");
-    require(settings.gather.tile >= 1, "gather.tile",
-            static_cast<long long>(settings.gather.tile), "at least 1");
+    require_at_least("irradiance.shadow_rays", settings.irradiance.shadow_rays, 1);
+    require_at_least("gather.rays", settings.gather.rays, 1);
+    require_at_least("gather.tile", settings.gather.tile, 1);
     require(settings.gather.nearest >= 2 &&
                 settings.gather.nearest <= max_cache_nearest,
             "gather.nearest", static_cast<long long>(settings.gather.nearest),
             "within [2, 64]");
     require_positive("gather.reach", settings.gather.reach);
-    require(settings.gather.max_depth >= 2, "gather.max_depth",
-            static_cast<long long>(settings.gather.max_depth), "at least 2");
+    require_at_least("gather.max_depth", settings.gather.max_depth, 2);
     for (DensityEstimateSettings gather :
          {settings.caustics_estimate, settings.general_estimate}) {
-        if (gather.radius == 0) gather.radius = 1; // will be chosen from the photons
+        if (gather.radius == 0) gather.radius = 1; // 0: chosen from the photons later
         check(gather);
     }
     check(settings.skip);

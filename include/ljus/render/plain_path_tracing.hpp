@@ -28,8 +28,7 @@ struct PlainPathTracer {
 template <SceneLike S>
 [[nodiscard]] PlainPathTracer<S> make_plain_path_tracer(const S& scene,
                                                         int max_depth = 100) {
-    require(max_depth >= 1, "max_depth", static_cast<long long>(max_depth),
-            "at least 1");
+    require_at_least("max_depth", max_depth, 1);
     return {detail::IndexedT<S>(scene), max_depth};
 }
 /// Not of a temporary: the scene would be gone before it is rendered.

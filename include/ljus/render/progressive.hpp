@@ -67,7 +67,7 @@ struct ProgressiveState {
 /// scatters more than an earlier one, as they do here. What the shrinking radius adds
 /// is that the passes' expectations move: this makes the estimate too large, by a share
 /// of the squared bias that vanishes, 1/(3n) for alpha = 2/3. The **bias itself is not
-/// in it**: a blur that all passes have is a blur that none of them tells.
+/// in it**: a blur that all passes share does not show in how they differ.
 struct ProgressiveError {
     double pixels = 0; ///< Standard error of a pixel: its root mean square over all.
     double blocks = 0; ///< The same of a block's mean, with what its pixels share.
@@ -82,8 +82,7 @@ struct ProgressiveError {
 template <std::floating_point T>
 void add_pass(ProgressiveState& state, const ImageT<T>& image) {
     require(state.alpha > 0 && state.alpha <= 1, "alpha", state.alpha, "in (0, 1]");
-    require(state.block_side >= 1, "the side of a block",
-            static_cast<long long>(state.block_side), "at least 1");
+    require_at_least("the side of a block", state.block_side, 1);
     for (const RgbT<T>& color : image.pixels) require_finite("a pass's pixel", color);
     const auto blocks = detail::means_of_blocks(image, state.block_side);
     if (state.passes == 0) {
@@ -108,7 +107,7 @@ void add_pass(ProgressiveState& state, const ImageT<T>& image) {
 /// \return The mean of the passes, W/(m^2 sr).
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> mean_image(const ProgressiveState& state) {
-    require(state.passes >= 1, "the number of passes", state.passes, "at least 1");
+    require_at_least("the number of passes", state.passes, 1);
     auto mean = make_image<T>(state.sum.width, state.sum.height);
     for (std::size_t p = 0; p < mean.pixels.size(); ++p)
         mean.pixels[p] = RgbT<T>(state.sum.pixels[p] / double(state.passes));
@@ -186,11 +185,12 @@ settings_for_passes(const S& scene, PhotonMappingSettings settings) {
 /// One pass of the photon mapper: photons of its own, camera rays of its own, and all
 /// radii, of the caustics map and of the general map, times `scale`.
 ///
-/// With IndirectLight::rays there is no general map: only caustics converge, and only
-/// they have to. With k nearest photons the k-th sets the radius until the shrinking
-/// one is smaller, and until then no bias goes away. A radius that is chosen from the
-/// photons, and shares that a pilot finds, are chosen once: see settings_for_passes().
-/// Points of an irradiance cache are the pass's own; what they are blurred by stays.
+/// With IndirectLight::rays there is no general map, and only the caustics are biased
+/// and have to converge. With k nearest photons the k-th sets the radius until the
+/// shrinking one is smaller, and until then no bias goes away. A radius that is chosen
+/// from the photons, and shares that a pilot finds, are chosen once: see
+/// settings_for_passes(). Points of an irradiance cache are the pass's own, but the
+/// interpolation between them blurs as much in every pass.
 /// \tparam Draws    RandomStream, or StratifiedStream for several rays per pixel.
 /// \param scene     The scene, or an IndexedScene, which saves indexing it each time.
 /// \param camera    A CameraT, or anything with a camera_ray().

@@ -56,7 +56,7 @@ constexpr void start_ray(RandomStream& stream, std::uint64_t seed, std::uint64_t
 
 namespace detail {
 
-/// So many pixels beside each other are rendered at a time.
+/// How many pixels beside each other are rendered at a time.
 inline constexpr int strip_width = 16;
 
 /// Where one ray of a pixel goes through the picture, and what it counts there.
@@ -116,19 +116,6 @@ template <typename R, template <std::floating_point> typename AnyCamera,
 }
 // [trace_pixel]
 
-/// The same in one number.
-/// \return Radiance times the weight of the filter, W/(m^2 sr).
-template <typename R, template <std::floating_point> typename AnyCamera,
-          std::floating_point T, typename Log = NoLog>
-[[nodiscard]] RgbT<T> sample_pixel(const R& renderer, const AnyCamera<T>& camera,
-                                   const RenderSettings& picture,
-                                   const Pattern& pattern, int x, int y, int number,
-                                   Counts& counts, Log&& log = {}) {
-    const PixelSampleT<T> found =
-        trace_pixel(renderer, camera, picture, pattern, x, y, number, counts, log);
-    return found.weight * found.radiance;
-}
-
 } // namespace detail
 
 /// Some rows of a picture, counted from the top: first <= y < last.
@@ -155,8 +142,7 @@ requires Renderer<R, T>
 [[nodiscard]] RenderedT<T> render_rows(const R& renderer, const AnyCamera<T>& camera,
                                        const RenderSettings& picture,
                                        const RowRange& rows) {
-    require(picture.samples >= 1, "samples", static_cast<long long>(picture.samples),
-            "at least 1");
+    require_at_least("samples", picture.samples, 1);
     detail::require_image_size(picture.width, picture.height);
     require(rows.first >= 0 && rows.first < rows.last, "the first row",
             static_cast<long long>(rows.first), "at least 0 and below the last");

@@ -24,8 +24,9 @@ struct WhittedSettings {
     int max_depth = 5;     ///< Reflections and refractions in a row; 0 sends no ray on,
                            ///< 1000 is the most: each is one call inside of another.
     bool both_ways = true; ///< Glass sends two rays; false: one of them, by roulette.
-    bool lamps = true; ///< A lamp with a size lights, from its centre; or is only seen.
-    Rgb ambient{0}; ///< W/(m^2 sr) from everywhere to every diffuse surface; in place
+    bool lamps = true; ///< A lamp with a size lights from its centre; false: is only
+                       ///< seen.
+    Rgb ambient{0}; ///< W/(m^2 sr) from everywhere to every diffuse surface, in place
                     ///< of all the light that the tree does not carry.
 };
 
@@ -35,7 +36,7 @@ template <SceneLike S>
 struct WhittedTracer {
     using Stream = RandomStream; ///< What render() gives it to draw from.
     detail::IndexedT<S> scene;   ///< What is rendered.
-    WhittedSettings settings;    ///< How.
+    WhittedSettings settings;    ///< How a tree is traced.
 };
 
 /// Makes a tracer.

@@ -17,7 +17,7 @@ namespace ljus {
 
 namespace detail {
 
-/// So many shapes, at most, are asked in turn; of more, a tree says which ones to ask.
+/// The most shapes that are asked in turn; of more, a tree says which ones to ask.
 /// In the report's room, cut down to its first 1, 2, 3, ... objects, the tree is no
 /// slower than the loop from the third on (benchmarks/rays_room.cpp; \ref ch_bvh).
 inline constexpr std::size_t flat_loop_limit = 2;

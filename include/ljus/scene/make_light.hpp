@@ -80,7 +80,7 @@ inline constexpr bool is_light<LightT<T>> = true;
 
 } // namespace detail
 
-/// \name The lights of the house
+/// \name The lights of the library
 /// \{
 
 /// Refuses a light that no picture can be made with.

@@ -33,7 +33,7 @@ struct ObjectId {
 
 namespace detail {
 
-/// The number of the light that an object is, if it is none.
+/// The light number of an object that is no light.
 inline constexpr std::uint32_t no_light = 0xffffffffu;
 
 /// The place of a type in a list; of the last one, no matter which it is.

@@ -28,16 +28,6 @@ using SphereFurnaceT = Scene<Shapes<SphereT<T>>, Materials<LambertianT<T>>>;
 template <std::floating_point T>
 using BoxFurnaceT = Scene<Shapes<QuadT<T>>, Materials<LambertianT<T>>>;
 
-/// The radiance inside of a furnace.
-/// \param emission  Of its walls, W/(m^2 sr).
-/// \param albedo    Of its walls, below 1.
-/// \return W/(m^2 sr), in every direction.
-template <std::floating_point T>
-[[nodiscard]] constexpr RgbT<T> furnace_radiance(const RgbT<T>& emission,
-                                                 const RgbT<T>& albedo) noexcept {
-    return emission / (RgbT<T>{T(1)} - albedo);
-}
-
 template <std::floating_point T>
 CameraT<T> furnace_camera() {
     return look_at(ViewT<T>{.position{T(0.3), T(-0.2), T(0.5)},

@@ -1,6 +1,7 @@
 /// \file cornell_diffuse.cpp
 /// \brief A box of matt walls and balls, by the photon mapper: nothing asks for a
-/// photon. With -DALL_HEADERS it includes everything and lists every shape and material.
+/// photon. With -DALL_HEADERS it includes everything and lists
+/// every shape and material.
 
 #ifdef ALL_HEADERS
 #include "ljus/ljus.hpp"

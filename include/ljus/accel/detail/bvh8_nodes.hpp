@@ -153,7 +153,7 @@ struct Bvh8Ray {
     for (int axis = 0; axis < 3; ++axis) {
         const auto i = static_cast<std::size_t>(axis);
         const std::size_t back = std::signbit(ray.direction[axis]) ? 1 : 0;
-        // Not by `back ?`: which way rays go a processor cannot guess.
+        // Not by `back ?`: a processor cannot predict which way rays go.
         const float size_of_inverse = 1 / d[axis];
         const float inverse = std::copysign(size_of_inverse, ray.direction[axis]);
         const float shift = origin[axis] * inverse;

@@ -16,13 +16,15 @@ namespace ljus::detail {
 /// \cite wald2008. Chapter: \ref ch_bvh.
 /// \{
 
-// A ray made ready; or all that there is to say of it.
+// How a search begins: with a ray made ready, or, where there is none, with its answer.
 struct Bvh8Start {
     Bvh8Ray ray{};
-    bool done = true;
-    bool found = false;
+    bool done = true;   // nothing is left to be walked
+    bool found = false; // what the leaf said, if it was asked about everything
 };
 
+// Makes a ray ready. For a finite ray with which that is not possible, the leaf is
+// asked about all slots at once.
 template <typename Leaf>
 inline Bvh8Start begin_walk(const Bvh8Nodes& wide, const Ray& ray, Leaf& leaf) {
     Bvh8Start start;
@@ -34,8 +36,8 @@ inline Bvh8Start begin_walk(const Bvh8Nodes& wide, const Ray& ray, Leaf& leaf) {
     return start;
 }
 
-// Asks eight boxes at once: which ones the ray enters, and where. A function of its own
-// for each search, and `inline`, so that compilers put it there.
+// Asks eight boxes at once: which ones the ray enters, and where. Each search has an
+// instance of its own, and `inline` asks for it: compilers inline what is called once.
 template <typename Search>
 inline std::uint64_t enter(Lanes& t, const Bvh8Nodes& wide, std::uint32_t node,
                            const Bvh8Ray& r, float t_min, float t_max) noexcept {
@@ -102,7 +104,7 @@ void walk_nearest(const Bvh8Nodes& wide, const Ray& ray, Leaf&& leaf, Watch&& wa
                 };
                 std::uint64_t nearest = key(take_lane(entered));
                 // Of three the order is right, of more it nearly is: without a branch
-                // that a processor would have to guess.
+                // that a processor would have to predict.
                 if (entered != 0) {
                     const std::uint64_t other = key(take_lane(entered));
                     std::uint64_t second = glm::max(nearest, other);

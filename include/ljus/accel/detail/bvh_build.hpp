@@ -125,10 +125,8 @@ template <std::floating_point T>
                                      const BvhSettings& settings = {}) {
     require(boxes.size() < (std::size_t{1} << 31), "the number of boxes in a tree",
             static_cast<long long>(boxes.size()), "below 2^31");
-    require(settings.leaf_size >= 1, "leaf_size",
-            static_cast<long long>(settings.leaf_size), "at least 1");
-    require(settings.at_a_time >= 1, "at_a_time",
-            static_cast<long long>(settings.at_a_time), "at least 1");
+    require_at_least("leaf_size", settings.leaf_size, 1);
+    require_at_least("at_a_time", settings.at_a_time, 1);
     return BvhBuilder<T>(boxes, settings).build();
 }
 

@@ -39,19 +39,13 @@ public:
     void build(std::span<const Vec3T<T>> points, int threads) {
         constexpr long long piece = 1 << 14;
         if (shape_.points < 2 * piece) threads = 1; // not worth waking them
-        const auto total = static_cast<long long>(points.size());
-        parallel_blocks(block_count(total, piece),
-                        [&](long long block) {
-                            const auto [first, last] = block_range(block, piece, total);
-                            for (auto i = std::size_t(first); i < std::size_t(last);
-                                 ++i) {
-                                require_finite("a point of the k-d tree", points[i]);
-                                Item& item = items_[0][i];
-                                for (int c = 0; c < 3; ++c) item.v[c] = points[i][c];
-                                item.index = static_cast<typename Item::Index>(i);
-                            }
-                        },
-                        {.threads = threads});
+        const auto take = [&](std::size_t i) {
+            require_finite("a point of the k-d tree", points[i]);
+            Item& item = items_[0][i];
+            for (int c = 0; c < 3; ++c) item.v[c] = points[i][c];
+            item.index = static_cast<typename Item::Index>(i);
+        };
+        parallel_each(points.size(), piece, take, {.threads = threads});
 
         // The upper ranges level by level, then whole subtrees.
         const int together = std::min(shape_.halvings, 5);
@@ -169,8 +163,8 @@ private:
     }
     // [partition]
 
-    // Two numbers between which the item of a rank is likely to lie: of a few items,
-    // twice its own coordinate; of many, what a sample says.
+    // Two numbers between which the item of a rank is likely to lie. Of a few items
+    // both are that item's own coordinate; of many they are estimated from a sample.
     static Extremes<T> pivots(const Item* items, std::uint64_t count,
                               std::uint64_t rank, int axis) {
         constexpr std::uint64_t few = 2048;

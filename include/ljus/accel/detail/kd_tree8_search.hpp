@@ -52,67 +52,91 @@ template <std::floating_point T>
 
 // The most that are selected by counting; more go through a heap.
 inline constexpr std::size_t max_counted = 512;
+
+// The points that a search for the k nearest has gathered so far.
+template <std::floating_point T>
+struct CandidatesT {
+    static constexpr std::size_t room = 2 * max_counted;
+
+    alignas(32) T d2[room + 8];    // squared distances in T
+    std::uint32_t index[room + 8]; // places in the tree's order
+
+    CandidatesT() noexcept {} // nothing is set: all are written before they are read
+
+    // Fills the last eight up, as select_smallest() asks for it.
+    void fill_up(std::size_t count) noexcept {
+        for (std::size_t i = count; i % 8 != 0; ++i)
+            d2[i] = std::numeric_limits<T>::infinity();
+    }
+};
+
+// Lets those go that are surely not among the k nearest, and shortens the reach to the
+// others: k of them, and up to `spare` more.
+// Returns how many are left: more than that if many are equally far, as far as T tells.
+template <std::floating_point T>
+[[nodiscard]] std::size_t thin_out(CandidatesT<T>& all, std::size_t count,
+                                   std::size_t k, std::size_t spare,
+                                   ReachT<T>& reach) noexcept {
+    all.fill_up(count);
+    const T least = select_smallest(all.d2, count, k, spare);
+    const T bound = ReachT<T>::up_to(double(least), false).last;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const T x = all.d2[i];
+        all.d2[kept] = x;
+        all.index[kept] = all.index[i];
+        kept += x <= bound;
+    }
+    if (double(bound) < reach.limit2) reach = ReachT<T>::up_to(double(bound), false);
+    return kept;
+}
+
+// Keeps exactly the k nearest, and shortens the reach to less than the k-th: those that
+// T puts near the k-th are put into their order in double.
+template <std::floating_point T>
+void keep_nearest(CandidatesT<T>& all, std::size_t count, std::size_t k,
+                  const KdTree8PartsT<T>& tree, const Vec3T<T>& center,
+                  ReachT<T>& reach) {
+    all.fill_up(count);
+    const auto kth = ReachT<T>::up_to(double(select_smallest(all.d2, count, k)), false);
+    std::uint32_t band[CandidatesT<T>::room];
+    std::size_t sure = 0, ties = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const T x = all.d2[i];
+        const std::uint32_t at = all.index[i];
+        all.d2[sure] = x;
+        all.index[sure] = at;
+        band[ties] = at;
+        sure += x <= kth.sure;
+        ties += x > kth.sure && x <= kth.last;
+    }
+    const auto exact = [&](std::uint32_t i) {
+        return Neighbor{distance2(tree.point(i), center), i};
+    };
+    const std::uint32_t last = static_cast<std::uint32_t>(k - sure - 1);
+    std::nth_element(band, band + last, band + ties,
+                     [&](auto a, auto b) { return exact(a) < exact(b); });
+    const double limit2 = exact(band[last]).distance2;
+    for (std::size_t i = 0; sure < k; ++i, ++sure) {
+        all.d2[sure] = distances2(tree.blocks[band[i] / 8], center).lane[band[i] % 8];
+        all.index[sure] = band[i];
+    }
+    reach = ReachT<T>::up_to(limit2, true);
+}
+
 // Gathers candidates and now and then, when there are more than enough, finds by
 // counting how far the k-th of them lies: the reach from then on.
 template <std::floating_point T, typename Wanted>
 [[nodiscard]] std::size_t count_nearest(const KdTree8PartsT<T>& tree,
                                         const Vec3T<T>& center, ReachT<T> reach,
                                         std::span<Neighbor> found, Wanted& wanted) {
-    constexpr std::size_t room = 2 * max_counted;
-    alignas(32) T d2[room + 8];
-    std::uint32_t index[room + 8];
-    std::uint32_t band[room];
+    CandidatesT<T> all;
     const std::size_t k = found.size();
+    const std::size_t spare = k / 8; // on the way a few too many will do
     std::size_t count = 0;
-
-    const auto fill_up = [&] {
-        for (std::size_t i = count; i % 8 != 0; ++i)
-            d2[i] = std::numeric_limits<T>::infinity();
-    };
-    // On the way a few too many will do.
-    const std::size_t spare = k / 8;
-    const auto thin_out = [&] {
-        fill_up();
-        const T least = select_smallest(d2, count, k, spare);
-        const T bound = ReachT<T>::up_to(double(least), false).last;
-        std::size_t kept = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            const T x = d2[i];
-            d2[kept] = x;
-            index[kept] = index[i];
-            kept += x <= bound;
-        }
-        count = kept;
-        if (double(bound) < reach.limit2)
-            reach = ReachT<T>::up_to(double(bound), false);
-    };
     const auto shrink = [&] {
-        fill_up();
-        // Those that T puts near the k-th are put into their order in double.
-        const auto kth = ReachT<T>::up_to(double(select_smallest(d2, count, k)), false);
-        std::size_t sure = 0, ties = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            const T x = d2[i];
-            const std::uint32_t at = index[i];
-            d2[sure] = x;
-            index[sure] = at;
-            band[ties] = at;
-            sure += x <= kth.sure;
-            ties += x > kth.sure && x <= kth.last;
-        }
-        const auto exact = [&](std::uint32_t i) {
-            return Neighbor{distance2(tree.point(i), center), i};
-        };
-        const std::uint32_t last = static_cast<std::uint32_t>(k - sure - 1);
-        std::nth_element(band, band + last, band + ties,
-                         [&](auto a, auto b) { return exact(a) < exact(b); });
-        const double limit2 = exact(band[last]).distance2;
-        for (std::size_t i = 0; sure < k; ++i, ++sure) {
-            d2[sure] = distances2(tree.blocks[band[i] / 8], center).lane[band[i] % 8];
-            index[sure] = band[i];
-        }
+        keep_nearest(all, count, k, tree, center, reach);
         count = k;
-        reach = ReachT<T>::up_to(limit2, true);
     };
 
     std::size_t enough = k;
@@ -123,8 +147,8 @@ template <std::floating_point T, typename Wanted>
             if (some == 0) continue;
             for (std::uint32_t i = 0; i < lane_count; ++i) {
                 const auto at = static_cast<std::uint32_t>(8 * b + i);
-                d2[count] = far.lane[i];
-                index[count] = at;
+                all.d2[count] = far.lane[i];
+                all.index[count] = at;
                 if constexpr (std::is_same_v<Wanted, AnyPoint>)
                     count += some >> i & 1u;
                 else
@@ -132,7 +156,7 @@ template <std::floating_point T, typename Wanted>
             }
         }
         if (count >= enough) {
-            thin_out();
+            count = thin_out(all, count, k, spare, reach);
             if (count > k + 2 * spare) shrink(); // many are equally far
             enough = count + std::max<std::size_t>(k / 2, 32);
         }
@@ -141,7 +165,7 @@ template <std::floating_point T, typename Wanted>
 
     std::size_t farthest = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        found[i] = {distance2(tree.point(index[i]), center), index[i]};
+        found[i] = {distance2(tree.point(all.index[i]), center), all.index[i]};
         if (found[i].distance2 > found[farthest].distance2) farthest = i;
     }
     if (count > 0) std::swap(found[0], found[farthest]);

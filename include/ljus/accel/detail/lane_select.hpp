@@ -94,7 +94,7 @@ smallest_and_largest(const T* values, std::size_t count, T above, T up_to) noexc
 ///                eights with infinity.
 /// \param count   How many there are, at least 1.
 /// \param k       Which one, in [1, count].
-/// \param spare   So many more than k may be let through, if that is sooner found out.
+/// \param spare   How many more than k may be let through, if that is found sooner.
 /// \return The smallest of them that k numbers do not exceed; with numbers to spare,
 ///         that or any other number that k to k + spare of them do not exceed.
 /// \cost About five passes, at most a hundred (in double two hundred); a pass is a

@@ -2,7 +2,7 @@
 
 /// \file ljus/accel/detail/triangle_bvh.hpp
 /// \brief A wide tree over triangles: eight of them are looked at together, and only
-/// those are tested about which that leaves a doubt.
+/// those that this leaves in doubt are tested one by one.
 
 #include "ljus/accel/bvh8.hpp"
 

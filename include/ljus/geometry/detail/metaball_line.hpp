@@ -44,7 +44,7 @@ inline constexpr T steepest_blob = T(8) / (T(3) * std::numbers::sqrt3_v<T>);
 template <std::floating_point C>
 struct StrandT {
     C enter = C(0);  ///< Where s becomes positive.
-    C leave = C(0);  ///< Where it ends to be.
+    C leave = C(0);  ///< Where it ceases to be.
     C middle = C(0); ///< m, where the ray is nearest to the centre.
     C height = C(0); ///< h = 1 - p^2/R^2 there.
     C bend = C(0);   ///< k = D.D / R^2.

@@ -37,9 +37,10 @@ struct FlatLanes {
     Lanes3 n, a, b;          ///< N, of unit length, A and B.
     Lanes d, a0, b0;         ///< NaN where there is no shape: no ray meets it.
     Lanes sum;               ///< 1 for a triangle, where u + v <= 1; 0 for a quad.
-    Lanes height, height_by; ///< Bound of the height's rounding: + so much by `reach`;
-                             ///< by `length`, of that of N.D.
-    Lanes slack, slack_by;   ///< The same for u and v, times the cosine at the plane.
+    Lanes height, height_by; ///< `height` + `reach` * `height_by` bounds the rounding
+                             ///< of the height, `length` * `height_by` that of N.D.
+    Lanes slack, slack_by; ///< `length` * (`slack` + `reach` * `slack_by`) bounds that
+                           ///< of u and v, each times the cosine at the plane.
 };
 
 /// Eight balls.
@@ -49,13 +50,13 @@ struct BallLanes {
     Lanes radius2; ///< Squared.
 };
 
-/// A block that no ray meets.
+/// Eight flat shapes that no ray meets.
 [[nodiscard]] inline FlatLanes no_flats() noexcept {
     FlatLanes none{};
     for (float& lane : none.d.lane) lane = std::numeric_limits<float>::quiet_NaN();
     return none;
 }
-/// Another one.
+/// Eight balls that no ray meets.
 [[nodiscard]] inline BallLanes no_balls() noexcept {
     BallLanes none{};
     for (float& lane : none.center.x) lane = std::numeric_limits<float>::quiet_NaN();
@@ -125,9 +126,8 @@ inline constexpr float least_length = 1e-6f, largest_size = 1e8f;
     std::uint32_t met = 0;
     for_lanes([&](int i) {
         const float along = flat.n.x[i] * d.x + flat.n.y[i] * d.y + flat.n.z[i] * d.z;
-        const float above =
-            flat.d.lane[i] -
-            (flat.n.x[i] * o.x + flat.n.y[i] * o.y + flat.n.z[i] * o.z);
+        const float above = flat.d.lane[i] -
+                            (flat.n.x[i] * o.x + flat.n.y[i] * o.y + flat.n.z[i] * o.z);
         c.lane[i] = std::abs(along);
         h.lane[i] = above * std::copysign(1.0f, along);
     });
@@ -152,8 +152,8 @@ inline constexpr float least_length = 1e-6f, largest_size = 1e8f;
         const bool inside = (u.lane[i] >= -slack) & (v.lane[i] >= -slack) &
                             (u.lane[i] <= top) &
                             (flat.sum.lane[i] * u.lane[i] + v.lane[i] <= top + slack);
-        const bool ahead = (h.lane[i] + off >= r.t_min * (c.lane[i] - c_off)) &
-                           (first <= r.t_max);
+        const bool ahead =
+            (h.lane[i] + off >= r.t_min * (c.lane[i] - c_off)) & (first <= r.t_max);
         entry.lane[i] = first > r.t_min ? first : r.t_min;
         met |= (inside & ahead) ? lane_bit[i] : 0u;
     });

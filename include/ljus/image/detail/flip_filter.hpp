@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/image/detail/flip_filter.hpp
-/// \brief What the eye does before it compares: it blurs, and finds edges and
-/// points.
+/// \brief What the eye does before it compares: it blurs, and finds edges and points.
 
 #include <cmath>
 #include <numbers>

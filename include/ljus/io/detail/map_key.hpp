@@ -129,7 +129,7 @@ private:
     }
 };
 
-// All that is part of a scene. A camera is none.
+// All that is part of a scene, which its camera is not.
 template <typename S>
 [[nodiscard]] std::uint64_t scene_hash(const S& scene) {
     FieldHash hash;

@@ -10,7 +10,7 @@
 
 namespace ljus::detail {
 
-/// Refuses shares that are none.
+/// Refuses numbers that are no shares of a whole.
 /// \param shares   A number for each target, or none at all.
 /// \param targets  How many.
 /// \throws std::invalid_argument  with the number that is wrong.

@@ -27,7 +27,7 @@ struct VerdictCell {
     }
 };
 
-/// So many cells along an axis, at most.
+/// The most cells along an axis.
 inline constexpr std::int32_t most_cells = 1 << 20;
 
 /// The brick of a cell as a number, never 0: 18 bits a coordinate, and the way.

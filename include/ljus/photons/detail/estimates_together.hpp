@@ -15,7 +15,7 @@ namespace ljus::detail {
 /// A place of a diffuse surface where an estimate is wanted, and for whom.
 template <std::floating_point T>
 struct EstimatePlaceT {
-    Vec3T<T> center{T(0)};    ///< Where.
+    Vec3T<T> center{T(0)};    ///< In scene units.
     Vec3T<T> normal{T(0)};    ///< Of the surface, as photons are compared with it.
     Vec3T<T> from{T(0)};      ///< As in FluxDiscT: the side that is seen.
     RgbT<T> brdf{T(0)};       ///< Of the surface, per steradian.

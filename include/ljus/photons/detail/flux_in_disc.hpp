@@ -70,8 +70,8 @@ template <std::floating_point T>
     return weight;
 }
 
-// Which of eight photons lie in a disc: 1 for those that do, or else 0. Small loops,
-// each of a few numbers: a long one is not always made a vector of.
+// Which of eight photons lie in a disc: 1 for those that do, or else 0. The loops are
+// small, because compilers do not always vectorise a long one.
 template <std::floating_point T, typename K>
 [[nodiscard]] inline LanesT<T>
 lanes_in_disc(const Lanes3T<T>& points, const RecordBlockT<T>& record,

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "ljus/path/vertex.hpp"
 
@@ -43,6 +44,23 @@ corners_of(const TriangleT<T>& triangle) noexcept {
     return {triangle.v1, triangle.v2, triangle.v3};
 }
 
+/// The surface at a place: what a short ray straight down meets there.
+/// \param scene   The scene.
+/// \param place   Where.
+/// \param normal  Unit, up from the surface that is expected there.
+/// \param height  Where the ray starts, and as far below it ends.
+/// \return The vertex; nothing if there is no surface.
+template <SceneLike S, std::floating_point T>
+[[nodiscard]] std::optional<VertexT<T>>
+vertex_below(const S& scene, const Vec3T<T>& place, const Vec3T<T>& normal, T height) {
+    const RayT<T> down{.origin = place + height * normal,
+                       .direction = -normal,
+                       .t_max = T(2) * height};
+    const auto hit = closest_hit(scene, down);
+    if (!hit) return std::nullopt;
+    return vertex_at(scene, down, *hit);
+}
+
 /// Whether a surface goes on at a place near one of its points: a short ray straight
 /// down on it meets a surface of the same normal.
 /// \param scene   The scene.
@@ -52,13 +70,8 @@ corners_of(const TriangleT<T>& triangle) noexcept {
 template <SceneLike S, std::floating_point T>
 [[nodiscard]] bool goes_on(const S& scene, const Vec3T<T>& place,
                            const Vec3T<T>& normal, T height) {
-    const RayT<T> ray{.origin = place + height * normal,
-                      .direction = -normal,
-                      .t_max = T(2) * height};
-    const auto hit = closest_hit(scene, ray);
-    if (!hit) return false;
-    const Vec3T<T> there = vertex_at(scene, ray, *hit).point.normal;
-    return std::abs(glm::dot(there, normal)) > T(0.99);
+    const auto there = vertex_below(scene, place, normal, height);
+    return there && std::abs(glm::dot(there->point.normal, normal)) > T(0.99);
 }
 
 /// The part of a kernel's disc that lies on the surface of its middle. Each straight

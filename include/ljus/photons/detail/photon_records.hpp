@@ -34,8 +34,8 @@ struct RecordBlockT {
     std::uint32_t code[lane_count];  ///< What has happened to them, and their normals.
 };
 
-// A photon's kind and its normal in 32 bits. To shift all of eight numbers by the same
-// is one instruction everywhere: so the lanes take them apart.
+// A photon's kind and its normal in 32 bits. Every machine shifts eight numbers by the
+// same count in one instruction, so that lanes can take the fields apart.
 struct RecordCode {
     // The kind as one_kind() has it, above the three bytes of the normal.
     static constexpr int kind_shift = 24;

@@ -32,7 +32,7 @@ struct VerdictBitsT {
     }
 };
 
-/// Which way the side faces that a photon has come to.
+/// Which way the side of a surface faces that a photon has come to.
 template <std::floating_point T>
 [[nodiscard]] int facing(const PhotonT<T>& photon) noexcept {
     return facing(photon.normal,
@@ -82,10 +82,10 @@ template <std::floating_point T>
 }
 // [cell_length]
 
-/// A photon: where, and what kind.
+/// A photon that says something: where it lies, and what kind it is.
 struct Witness {
-    std::uint32_t where = 0; ///< 64 times its brick, and its cell.
-    bool shadow = false;     ///< Or a direct one.
+    std::uint32_t where = 0; ///< 64 times its brick, plus its cell.
+    bool shadow = false;     ///< A shadow photon; else it brings light.
 };
 
 /// Finds the cells of photons, and makes the bricks for them.
@@ -118,7 +118,7 @@ find_witnesses(const std::vector<PhotonT<T>>& photons, const SkipSettings& skip,
     return found;
 }
 
-/// So many bricks, at most: while it is made each takes 512 bytes.
+/// The most bricks of a grid; while the grid is made, each takes 512 bytes.
 inline constexpr std::uint32_t most_bricks = 1 << 21;
 
 /// Photons in a cell: direct ones in the lower half of 64 bits, shadows in the upper.
@@ -212,18 +212,15 @@ template <std::floating_point T>
         const std::uint32_t needed = indirect ? 1 : photons_needed(skip);
         for (const Witness& one : found[list])
             counts[one.where] += one.shadow ? PackedCounts{1} << 32 : 1;
-        const auto judge_block = [&](long long block) {
-            const BlockRange some = block_range(block, 64, bricks);
-            for (auto b = std::size_t(some.first); b < std::size_t(some.last); ++b) {
-                auto around = counts_around(grid.table, std::uint32_t(b), counts);
-                add_neighbors(around);
-                const auto bits = judge_brick(around, rule, needed);
-                std::uint64_t* const to = &grid.bits[b * grid.stride() + 2 * list];
-                to[0] = bits[0];
-                if (!indirect) to[1] = bits[1];
-            }
+        const auto judge_one = [&](std::size_t brick) {
+            auto around = counts_around(grid.table, std::uint32_t(brick), counts);
+            add_neighbors(around);
+            const auto bits = judge_brick(around, rule, needed);
+            std::uint64_t* const to = &grid.bits[brick * grid.stride() + 2 * list];
+            to[0] = bits[0];
+            if (!indirect) to[1] = bits[1];
         };
-        parallel_blocks(block_count(bricks, 64), judge_block, {.threads = threads});
+        (void)parallel_each(bricks, 64, judge_one, {.threads = threads});
         for (const Witness& one : found[list]) counts[one.where] = 0;
     }
     return grid;

@@ -33,19 +33,13 @@ namespace detail {
 
 /// Refuses a rule that gives no picture.
 /// \param rule     The rule.
-/// \param samples  Rays a pixel in the mean, at most.
+/// \param samples  The most rays per pixel, in the mean.
 /// \throws std::invalid_argument  with name and value.
 inline void check(const AdaptiveSettings& rule, int samples) {
-    const auto whole = [](const char* name, int value, int least) {
-        require(value >= least, name, static_cast<long long>(value),
-                least == 0   ? "at least 0"
-                : least == 1 ? "at least 1"
-                             : "at least 2");
-    };
-    whole("first", rule.first, 2);
-    whole("more", rule.more, rule.two_stage ? 2 : 1);
-    whole("batches", rule.batches, rule.two_stage ? 1 : 0);
-    whole("block", rule.block, 1);
+    require_at_least("first", rule.first, 2);
+    require_at_least("more", rule.more, rule.two_stage ? 2 : 1);
+    require_at_least("batches", rule.batches, rule.two_stage ? 1 : 0);
+    require_at_least("block", rule.block, 1);
     require(rule.target >= 0, "target", rule.target, "at least 0");
     require(rule.disagreement >= 0, "disagreement", rule.disagreement, "at least 0");
     require(std::isfinite(rule.epsilon) && rule.epsilon > 0, "epsilon", rule.epsilon,
@@ -62,10 +56,10 @@ inline void check(const AdaptiveSettings& rule, int samples) {
 struct AdaptiveBlock {
     int x = 0, y = 0;          ///< Its upper left pixel.
     int right = 0, bottom = 0; ///< One past its last column and row.
-    int rays = 0;              ///< A pixel, that count.
-    int batches = 0;           ///< That it has had; the first rays are one.
-    int wanted = 1;            ///< Batches in this round.
-    double variance = 0;       ///< Relative, of one ray; mean over the pixels.
+    int rays = 0;              ///< Per pixel, less those that were forgotten.
+    int batches = 0;           ///< Batches it has had; the first rays count as one.
+    int wanted = 1;            ///< Batches it is to get in this round.
+    double variance = 0;       ///< See relative_variance().
 
     /// How many pixels it has.
     [[nodiscard]] constexpr double pixels() const noexcept {
@@ -105,10 +99,11 @@ adaptive_blocks(const RenderSettings& picture, int size) {
     return block.pixels() * block.wanted * rays_in_batch(rule, block.batches);
 }
 
-/// How much the rays of a block differ, from what they have found.
+/// How much the rays of a block differ, by what they have found.
 ///
-/// Relative to the mean of the block, which is surer than that of a pixel. The rays of
-/// a pixel are taken for independent; as they are stratified, they are a little better.
+/// The variance is relative to the mean of the block, which is known better than that
+/// of a pixel. The rays of a pixel are taken for independent; because they are
+/// stratified, the true variance of their mean is a little smaller.
 /// \param block    At least 2 rays per pixel.
 /// \param sums     Of all pixels.
 /// \param width    Of the picture.
@@ -132,8 +127,8 @@ adaptive_blocks(const RenderSettings& picture, int size) {
 /// How many batches each block gets in the next round.
 /// \param blocks  Their `wanted` is set.
 /// \param rule    The rule.
-/// \param limit   Rays a pixel in the mean, at most, that count.
-/// \return Whether any gets one.
+/// \param limit   The most rays per pixel in the mean, less those that were forgotten.
+/// \return Whether any block gets a batch.
 inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSettings& rule,
                        double limit) {
     std::vector<RayShare> parts;

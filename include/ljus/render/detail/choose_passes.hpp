@@ -17,7 +17,7 @@ namespace ljus {
 
 /// What a survey counts in a scene.
 struct SceneNeeds {
-    std::size_t objects = 0;  ///< All.
+    std::size_t objects = 0;  ///< How many there are.
     std::size_t diffuse = 0;  ///< Those with a part that is not a mirror or glass.
     std::size_t specular = 0; ///< Those with a part that is.
     std::size_t lights = 0;   ///< Emissive objects and point lights.

@@ -15,8 +15,8 @@ namespace ljus::detail {
 /// What the points behind one row of tiles have gathered.
 template <std::floating_point T>
 struct GatheredRowT {
-    std::vector<Vec3T<T>> positions;   ///< Where.
-    std::vector<GatheredT<T>> records; ///< What.
+    std::vector<Vec3T<T>> positions;   ///< Where, in the world.
+    std::vector<GatheredT<T>> records; ///< What was gathered there, in the same order.
     Counts counts{};                   ///< What it cost.
 };
 
@@ -33,7 +33,7 @@ void gather_along(const S& scene, const IrradiancePointsT<T>& points,
                   const RayT<T>& ray, const GatherSettings& settings,
                   RandomStream& stream, GatheredRowT<T>& row) {
     constexpr std::size_t most = 8; // ways through glass, as many as are rendered
-    constexpr T faint = T(0.01);    // what is seen so faintly is gathered if need be
+    constexpr T faint = T(0.01); // a fainter place is gathered if it is ever asked for
     std::vector<PathStateT<T>> ways{camera_path(scene, ray, stream)};
     for (std::size_t way = 0; way < ways.size(); ++way) {
         PathStateT<T> path = ways[way];

@@ -28,7 +28,7 @@ struct AddTerm {
         sum += throughput * light;
     }
 };
-/// Their types from their values.
+/// Deduces the types from the values.
 template <std::floating_point T, typename Log>
 AddTerm(RgbT<T>&, RgbT<T>&, Log&) -> AddTerm<T, Log>;
 
@@ -67,7 +67,8 @@ struct LaterCaustics {
 
 /// Puts off the caustics of a vertex, if its samples are finished together and it is
 /// one whose estimates can be.
-/// \param add       What adds the terms of its path; an AddTerm, or anything else.
+/// \param add       What adds the terms of its path. Only an AddTerm whose log has a
+///                  list of places puts anything off.
 /// \param vertex    The surface.
 /// \param material  What it is made of.
 /// \param how       The estimate.

@@ -28,7 +28,7 @@ struct RayShare {
 /// and the rest is shared out among the others.
 /// \param parts   All parts.
 /// \param target  The mean of variance / rays that is wanted; 0: as small as can be.
-/// \param limit   Rays a pixel in the mean, at most.
+/// \param limit   The most rays per pixel, in the mean.
 /// \return Rays a pixel for each part, not below those that it has.
 [[nodiscard]] inline std::vector<double> ray_shares(const std::vector<RayShare>& parts,
                                                     double target, double limit) {

@@ -31,13 +31,13 @@ concept AsksLater = requires {
 template <typename R>
 struct LaterOf {
     using Type = NoLog;                ///< The log of its samples.
-    static constexpr int together = 1; ///< So many samples are finished at a time.
+    static constexpr int together = 1; ///< How many samples are finished at a time.
 };
 /// For one that puts questions off.
 template <AsksLater R>
 struct LaterOf<R> {
     using Type = typename R::Later;     ///< The log of its samples.
-    static constexpr int together = 64; ///< So many samples are finished at a time.
+    static constexpr int together = 64; ///< How many samples are finished at a time.
 };
 
 /// What the samples of a pixel have found. In double: a float would lose the last of

@@ -17,11 +17,11 @@ namespace ljus::detail {
 /// Digits that are left of the shapes, if they are fewer than three, and lengths that
 /// are too large.
 ///
-/// A number x of p bits is off by up to 2^-p x. Of a ball of radius r whose points have
-/// coordinates up to c, the surface is off by 2^-p c / r of its radius: that are
-/// log10(2^p r / c) digits. The direction of a shadow ray is as long as its way, and
-/// chord() multiplies four lengths: above the fourth root of the largest number a ball
-/// may cast no shadow.
+/// A number x of p bits is off by up to 2^-p x. The surface of a ball of radius r whose
+/// points have coordinates up to c is then off by 2^-p c / r of its radius, which
+/// leaves log10(2^p r / c) digits. The direction of a shadow ray is as long as its way,
+/// and chord() multiplies four lengths: above the fourth root of the largest number a
+/// ball may cast no shadow.
 /// \param scene  The scene.
 /// \return A sentence, or nothing.
 template <SceneLike S>
@@ -29,14 +29,14 @@ template <SceneLike S>
     using T = typename S::Scalar;
     constexpr bool single = std::is_same_v<T, float>;
     constexpr double widest = single ? 1e9 : 1e75;
+    const auto in_double = [](const auto& shape) {
+        const SphereT<T> ball = bounding_sphere(shape);
+        return SphereT<double>{Vec3T<double>(ball.center), double(ball.radius)};
+    };
     double most = 1, radius = 0, reach = 0;
     for (std::uint32_t type = 0; type < scene.objects.size(); ++type)
         for (std::uint32_t i = 0; i < scene.objects[type].size(); ++i) {
-            const SphereT<double> bound = scene.visit_shape({type, i}, [](const auto&
-                                                                              shape) {
-                const SphereT<T> ball = bounding_sphere(shape);
-                return SphereT<double>{Vec3T<double>(ball.center), double(ball.radius)};
-            });
+            const SphereT<double> bound = scene.visit_shape({type, i}, in_double);
             // [digits]
             const Vec3T<double> far = glm::abs(bound.center) + bound.radius;
             reach = std::max(reach, max_component(far));
