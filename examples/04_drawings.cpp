@@ -66,7 +66,7 @@ void draw_equation(const std::string& folder) {
     draw_label(drawing, {2.7, 2.0}, "dx″", colors::orange);
     draw_label(drawing, {1.63, 1.42}, "θ″");
     draw_label(drawing, {0.9, 1.37}, "dω", colors::orange);
-    draw_label(drawing, towards(x, 57, 1.95), "r″");
+    draw_label(drawing, towards(x, 37.5, 2.35), "r″");
     draw_label(drawing, {-2.1, 0.25}, "hemisphere Ω");
     save_drawing(folder, drawing);
 }

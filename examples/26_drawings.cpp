@@ -125,7 +125,7 @@ void draw_one_ray(const std::string& folder) {
                colors::violet);
     draw_angle(drawing, way[2], 0.42, angle_to(way[2], way[3]), leave, "θ_i",
                colors::red);
-    draw_angle(drawing, center, 0.3, leave, -down, "φ", colors::green);
+    draw_angle(drawing, center, 0.17, leave, -down, "φ", colors::green);
 
     draw_dot(drawing, flat(lamp), 6, colors::orange);
     draw_dot(drawing, flat(center), 4, "currentColor");

@@ -2,6 +2,7 @@
 /// \file 28_drawings.cpp
 /// \brief Chapter 28: the disc of an estimate at the edge of a wall.
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -47,8 +48,8 @@ void draw_discs_at_edge(const std::string& folder) {
         // The part of the disc that lies beyond the edge.
         std::vector<Point> beyond;
         for (const Point& point : examples::circle(middle, radius))
-            if (point.y < 0) beyond.push_back(point);
-        if (beyond.size() > 2) draw_area(drawing, beyond, colors::red);
+            beyond.push_back({point.x, std::min(point.y, 0.0)});
+        draw_area(drawing, beyond, colors::red);
         draw_dot(drawing, middle, 5, "currentColor");
         draw_dimension(drawing, middle, {x + radius, middle.y}, "r");
         draw_label(drawing, {x, -1.5},

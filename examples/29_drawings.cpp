@@ -2,7 +2,7 @@
 /// \file 29_drawings.cpp
 /// \brief Chapter 29: the gather rays of two points, and how far each point counts.
 
-#include <cmath>
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -61,11 +61,10 @@ void draw_reach(const std::string& folder) {
         const double mean = draw_gather_rays(drawing, point.x, 9, point.color);
         draw_dot(drawing, {point.x, 0}, 6, point.color);
         draw_label(drawing, {point.x, -0.28}, point.name, point.color);
-        // Half of the mean to each side: a reach of 0.5.
         const double y = -0.55;
-        draw_line(drawing, {{point.x, y}, {point.x + mean, y}},
+        draw_line(drawing, {{point.x - mean / 2, y}, {point.x + mean / 2, y}},
                   {.color = point.color, .width = 5});
-        draw_label(drawing, {point.x + mean / 2, y - 0.28},
+        draw_label(drawing, {std::max(point.x, 0.65), y - 0.28},
                    std::string("R_") + point.name[2] + " = " +
                        examples::text(mean, "%.1f"),
                    point.color);

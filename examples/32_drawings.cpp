@@ -88,15 +88,20 @@ std::vector<Part> by_block(std::size_t count, const std::vector<int>& takers) {
     return parts;
 }
 
-/// A list whose sums by two and by three threads differ, as those of most lists do.
+const std::vector<int> takers_of_two{0, 1, 1, 0}, takers_of_three{2, 0, 1, 0};
+
+/// A list whose sums by two threads, by three threads and by blocks differ, as those of
+/// most long lists do.
 std::vector<float> list_of(std::size_t count) {
     for (std::uint64_t seed = 1;; ++seed) {
         auto stream = ljus::random_stream(seed, ljus::Pass::user, 0, 0);
         std::vector<float> values;
         for (std::size_t i = 0; i < count; ++i)
             values.push_back(ljus::next_1d<float>(stream));
-        if (sum_of(values, by_thread(count, 2)) != sum_of(values, by_thread(count, 3)))
-            return values;
+        const float two = sum_of(values, by_thread(count, 2));
+        const float three = sum_of(values, by_thread(count, 3));
+        const float blocks = sum_of(values, by_block(count, takers_of_two));
+        if (two != three && two != blocks && three != blocks) return values;
     }
 }
 
@@ -112,8 +117,8 @@ void draw_sums(const std::string& folder) {
     const std::vector<float> values = list_of(12);
     draw_row(drawing, 3.6, "2 threads, parts", values, by_thread(12, 2));
     draw_row(drawing, 2.5, "3 threads, parts", values, by_thread(12, 3));
-    draw_row(drawing, 1.2, "2 threads, blocks", values, by_block(12, {0, 1, 1, 0}));
-    draw_row(drawing, 0.1, "3 threads, blocks", values, by_block(12, {2, 0, 1, 0}));
+    draw_row(drawing, 1.2, "2 threads, blocks", values, by_block(12, takers_of_two));
+    draw_row(drawing, 0.1, "3 threads, blocks", values, by_block(12, takers_of_three));
     save_drawing(folder, drawing);
 }
 

@@ -99,7 +99,7 @@ void draw_front(const std::string& folder) {
     draw_label(drawing, {6.8, -0.3}, "time");
     draw_label(drawing, {0.4, 4.25}, "error");
     draw_label(drawing, {1.6, 0.5}, "faster and more accurate", colors::blue);
-    draw_label(drawing, {6.4, 0.9}, "front", colors::orange);
+    draw_label(drawing, {6.7, 0.55}, "front", colors::orange);
     save_drawing(folder, drawing);
 }
 

@@ -43,7 +43,7 @@ void draw_mutants(const std::string& folder) {
                                    "tests pass it is equivalent, or a test is missing, "
                                    "or the code is not needed",
                     .low{-0.1, -0.1},
-                    .high{9.3, 4.3},
+                    .high{9.3, 4.35},
                     .scale = 78};
     draw_box(drawing, {0.85, 2.1}, 1.6, {"a header", "that passes"});
     const char* changes[] = {"+ → −", "< → <=", "2 → 3"};
@@ -54,14 +54,14 @@ void draw_mutants(const std::string& folder) {
         draw_arrow(drawing, {4.05, y}, {4.75, 2.1 + 0.25 * (1 - i)});
     }
     draw_box(drawing, {5.4, 2.1}, 1.2, {"its", "tests"});
-    draw_arrow(drawing, {6.05, 2.3}, {6.95, 3.4}, {.color = colors::green});
-    draw_arrow(drawing, {6.05, 2.1}, {6.95, 2.1}, {.color = colors::red});
-    draw_arrow(drawing, {6.05, 1.9}, {6.95, 0.75});
-    draw_box(drawing, {8.1, 3.4}, 2.2, {"a test fails:", "killed"}, colors::green);
-    draw_box(drawing, {8.1, 2.1}, 2.2, {"all pass: a test", "or a use is missing"},
-             colors::red);
+    draw_arrow(drawing, {6.05, 2.3}, {6.95, 3.6}, {.color = colors::green});
+    draw_arrow(drawing, {6.05, 2.1}, {6.95, 2.2}, {.color = colors::red});
+    draw_arrow(drawing, {6.05, 1.9}, {6.95, 0.8});
+    draw_box(drawing, {8.1, 3.65}, 2.2, {"a test fails:", "killed"}, colors::green);
+    draw_box(drawing, {8.1, 2.2}, 2.2,
+             {"all pass: a test is", "missing, or code", "is not needed"}, colors::red);
     draw_box(drawing, {8.1, 0.7}, 2.2,
-             {"all pass, and", "nothing changed:", "equivalent"});
+             {"all pass, for", "nothing changed:", "equivalent"});
     save_drawing(folder, drawing);
 }
 
