@@ -61,11 +61,12 @@ void draw_equation(const std::string& folder) {
     draw_label(drawing, {0.12, -0.22}, "x′");
     draw_label(drawing, {-0.22, 2.2}, "n");
     draw_label(drawing, {0.33, 0.86}, "θ_i");
-    draw_label(drawing, towards(x, 57, 1.35), "ω_i", colors::orange);
+    draw_label(drawing, towards(x, 62, 1.35), "ω_i", colors::orange);
     draw_label(drawing, towards(x, -43, 2.15), "ω_o", colors::blue);
     draw_label(drawing, {2.7, 2.0}, "dx″", colors::orange);
     draw_label(drawing, {1.63, 1.42}, "θ″");
-    draw_label(drawing, {1.0, 1.33}, "dω", colors::orange);
+    draw_label(drawing, {0.9, 1.37}, "dω", colors::orange);
+    draw_label(drawing, towards(x, 37.5, 2.35), "r″");
     draw_label(drawing, {-2.1, 0.25}, "hemisphere Ω");
     save_drawing(folder, drawing);
 }

@@ -25,7 +25,7 @@ void draw_ray(const std::string& folder) {
                     .description = "A ray from its origin O along D, with the part "
                                    "between t_min and t_max, and the first hit in it",
                     .low{-0.4, -0.9},
-                    .high{6.6, 1.7},
+                    .high{6.6, 1.8},
                     .scale = 100};
     const ljus::RayT<double> ray{
         .origin{0, 0, 0}, .direction{1, 0.2, 0}, .t_min = 0.8, .t_max = 5.2};
@@ -50,7 +50,7 @@ void draw_ray(const std::string& folder) {
     draw_label(drawing, {0.85, -0.08}, "D");
     draw_label(drawing, {1.0, 0.5}, "t_min", colors::orange);
     draw_label(drawing, {5.3, 0.75}, "t_max", colors::orange);
-    draw_label(drawing, {at(t).x - 0.25, at(t).y + 0.35}, "O + tD", colors::red);
+    draw_label(drawing, {at(t).x - 0.5, at(t).y + 0.3}, "O + tD", colors::red);
     draw_label(drawing, {0.7, -0.6}, "too near: not a hit");
     save_drawing(folder, drawing);
 }

@@ -59,7 +59,7 @@ void draw_change(const std::string& folder) {
     draw_label(drawing, {8.15, 0}, "u", colors::orange);
     draw_label(drawing, {6.05, 1.35}, "v", colors::blue);
     draw_label(drawing, {5.4, 2.8}, "t");
-    draw_label(drawing, {6.0, -0.3}, "0");
+    draw_label(drawing, {5.6, -0.3}, "0");
     draw_label(drawing, {7.85, -0.3}, "1", colors::orange);
     save_drawing(folder, drawing);
 }

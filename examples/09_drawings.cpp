@@ -63,8 +63,8 @@ void draw_field(const std::string& folder) {
     draw_dot(drawing, {1.7, 1.5}, 4, "currentColor");
     draw_dot(drawing, {3.3, 1.7}, 4, "currentColor");
     draw_label(drawing, {1.7, 1.25}, "C_1");
-    draw_label(drawing, {3.3, 1.45}, "C_2");
-    draw_label(drawing, {2.55, 2.85}, "f = 0", colors::red);
+    draw_label(drawing, {3.55, 1.6}, "C_2");
+    draw_label(drawing, {2.6, 3.05}, "f = 0", colors::red);
     save_drawing(folder, drawing);
 }
 

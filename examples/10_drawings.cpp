@@ -21,10 +21,10 @@ namespace colors = examples::colors;
 /// D, its part along the normal, and D less twice that part.
 void draw_projection(const std::string& folder) {
     Drawing drawing{.name = "reflection-parts",
-                    .description =
-                        "A direction D drawn from the point it meets, its "
-                        "part along the normal, and the reflected direction, "
-                        "which is D less twice that part",
+                    .description = "A direction D drawn from the point it meets, its "
+                                   "part along the normal, the rest I along the "
+                                   "surface, and the reflected direction, "
+                                   "which is D less twice that part",
                     .low{-2.3, -1.9},
                     .high{3.1, 1.95},
                     .scale = 115};
@@ -37,7 +37,7 @@ void draw_projection(const std::string& folder) {
     draw_arrow(drawing, {0, 0}, flat(d), {colors::blue, 2.5});
     draw_arrow(drawing, {0, 0}, flat(r), {colors::orange, 2.5});
     draw_arrow(drawing, {0, 0}, {0, 1.7}, {.width = 2});
-    draw_arrow(drawing, flat(d - along), flat(d), {colors::red, 2});
+    draw_arrow(drawing, {0, 0}, flat(d - along), {colors::green, 2.5});
     draw_arrow(drawing, flat(d), flat(d - along), {colors::red, 2});
     draw_arrow(drawing, flat(d - along), flat(r), {colors::red, 2});
     draw_arrow(drawing, {0, 0}, flat(along), {colors::red, 2});
@@ -46,8 +46,9 @@ void draw_projection(const std::string& folder) {
     draw_label(drawing, {-1.2, 0.65}, "D", colors::blue);
     draw_label(drawing, {0.85, -0.4}, "D", colors::blue);
     draw_label(drawing, {0.8, 0.85}, "R", colors::orange);
+    draw_label(drawing, {0.9, 0.13}, "I", colors::green);
     draw_label(drawing, {-0.65, -0.7}, "(D · N) N", colors::red);
-    draw_label(drawing, {2.35, 0.1}, "−2 (D · N) N", colors::red);
+    draw_label(drawing, {2.35, 0.25}, "−2 (D · N) N", colors::red);
     save_drawing(folder, drawing);
 }
 

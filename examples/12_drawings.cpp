@@ -70,8 +70,8 @@ void draw_polarisations(const std::string& folder) {
         draw_label(drawing, {hit.x + 1.65, -1.35}, is_p ? "p" : "s");
         draw_label(drawing, {hit.x - 0.28, 0.78}, "θ_i");
         draw_label(drawing, {hit.x + 0.22, -0.85}, "θ_t");
-        draw_label(drawing, {hit.x - 1.7, 0.22}, "n_i = 1");
-        draw_label(drawing, {hit.x - 1.65, -0.25}, "n_t = 1.5");
+        draw_label(drawing, {hit.x - 1.5, 0.22}, "n_i = 1");
+        draw_label(drawing, {hit.x - 1.42, -0.25}, "n_t = 1.5");
     }
     save_drawing(folder, drawing);
 }

@@ -73,8 +73,8 @@ void draw_angles(const std::string& folder) {
     draw_arrow(drawing, {0, 0}, up(outward, 1.9), {colors::blue, 2.5});
     draw_arc(drawing, {0, 0}, 0.7, pi / 2, pi / 2 + inward);
     draw_arc(drawing, {0, 0}, 0.95, pi / 2 - outward, pi / 2);
-    draw_label(drawing, {-0.38, 0.85}, "θ_i");
-    draw_label(drawing, {0.3, 1.15}, "θ_o");
+    draw_label(drawing, {-0.36, 0.87}, "α");
+    draw_label(drawing, {0.3, 1.13}, "β");
     draw_label(drawing, up(-inward - 0.12, 1.75), "ω_i", colors::orange);
     draw_label(drawing, up(outward + 0.14, 1.8), "ω_o", colors::blue);
     draw_label(drawing, {0.18, 2.05}, "n");
@@ -85,13 +85,13 @@ void draw_angles(const std::string& folder) {
                      center.y + length * std::sin(angle)};
     };
     draw_line(drawing, examples::circle(center, 1.05), {.width = 1, .dashed = true});
-    draw_arrow(drawing, center, round(2.7, 1.05 * std::sin(inward) / 0.8),
+    draw_arrow(drawing, center, round(2.7, 1.05 * std::sin(inward)),
                {colors::orange, 2.5});
-    draw_arrow(drawing, center, round(0.75, 1.05 * std::sin(outward) / 0.6),
+    draw_arrow(drawing, center, round(0.75, 1.05 * std::sin(outward)),
                {colors::blue, 2.5});
-    draw_arc(drawing, center, 0.42, 0.75, 2.7);
+    draw_arc(drawing, center, 0.36, 0.75, 2.7);
     draw_dot(drawing, center, 4, "currentColor");
-    draw_label(drawing, {4.3, 1.62}, "φ");
+    draw_label(drawing, {4.35, 1.6}, "φ_i − φ_o");
     draw_label(drawing, {4.4, -0.28}, "from above");
     save_drawing(folder, drawing);
 }

@@ -101,7 +101,7 @@ void draw_distribution(const std::string& folder) {
     }
     draw_arrow(drawing, {0, 0}, {0, 2.1}, {.width = 1.2});
     draw_label(drawing, {0.42, 1.95}, "α = 0.25", colors::red);
-    draw_label(drawing, {0.85, 1.45}, "0.5", colors::orange);
+    draw_label(drawing, {0.56, 1.2}, "0.5", colors::orange);
     draw_label(drawing, {1.15, 0.8}, "1", colors::blue);
     save_drawing(folder, drawing);
 }

@@ -115,22 +115,20 @@ void draw_tree_on_paper(const std::string& folder) {
                     .low{-0.4, -0.3},
                     .high{8.4, 3.7},
                     .scale = 85};
+    // The letters of the chapter: F is reflected, 1 - F goes through.
     const struct {
         Point from, to;
         const char* color;
         const char* weight;
-    } branches[] = {{{4, 3.4}, {4, 2.6}, "currentColor", "1"},
-                    {{4, 2.6}, {1.8, 1.6}, colors::red, "R"},
-                    {{4, 2.6}, {6.2, 1.6}, colors::blue, "T"},
-                    {{6.2, 1.6}, {4.9, 0.6}, colors::red, "TR"},
-                    {{6.2, 1.6}, {7.5, 0.6}, colors::blue, "TT"}};
+        Point label;
+    } branches[] = {{{4, 3.4}, {4, 2.6}, "currentColor", "1", {4.2, 3.1}},
+                    {{4, 2.6}, {1.8, 1.6}, colors::red, "F", {2.8, 2.3}},
+                    {{4, 2.6}, {6.2, 1.6}, colors::blue, "1 − F", {5.45, 2.3}},
+                    {{6.2, 1.6}, {4.9, 0.6}, colors::red, "(1 − F) F", {4.95, 1.25}},
+                    {{6.2, 1.6}, {7.5, 0.6}, colors::blue, "(1 − F)²", {7.25, 1.42}}};
     for (const auto& branch : branches) {
         draw_arrow(drawing, branch.from, branch.to, {branch.color, 2});
-        draw_label(drawing,
-                   {(branch.from.x + branch.to.x) / 2 +
-                        (branch.to.x < branch.from.x ? -0.3 : 0.3),
-                    (branch.from.y + branch.to.y) / 2 + 0.15},
-                   branch.weight, branch.color);
+        draw_label(drawing, branch.label, branch.weight, branch.color);
     }
     for (const Point& glass : {Point{4, 2.6}, Point{6.2, 1.6}, Point{4.9, 0.6}}) {
         draw_area(drawing, examples::circle(glass, 0.22), colors::blue);
@@ -138,14 +136,17 @@ void draw_tree_on_paper(const std::string& folder) {
     }
     for (const Point& leaf : {Point{1.8, 1.6}, Point{7.5, 0.6}}) {
         draw_dot(drawing, leaf, 8, "#808080");
-        draw_line(drawing, {leaf, {leaf.x + 0.5, leaf.y + 0.75}},
+        const double side = leaf.x < 4 ? -1 : 1; // away from the branch
+        draw_line(drawing, {leaf, {leaf.x + 0.5 * side, leaf.y + 0.75}},
                   {.color = colors::orange, .width = 1.5, .dashed = true});
+        draw_label(drawing, {leaf.x + 0.6 * side, leaf.y + 0.93}, "lamp",
+                   colors::orange);
     }
     draw_line(drawing, {{4.9, 0.38}, {4.5, -0.1}},
               {.color = colors::red, .dashed = true});
     draw_line(drawing, {{4.9, 0.38}, {5.3, -0.1}},
               {.color = colors::blue, .dashed = true});
-    draw_label(drawing, {0.7, 1.55}, "diffuse");
+    draw_label(drawing, {1.8, 1.25}, "diffuse");
     draw_label(drawing, {4.65, 2.75}, "glass");
     draw_label(drawing, {7.5, 0.2}, "diffuse");
     save_drawing(folder, drawing);

@@ -19,6 +19,7 @@
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
+#include "common/dimension.hpp"
 #include "common/drawing.hpp"
 #include "common/signals.hpp"
 
@@ -78,39 +79,102 @@ void draw_penumbra(const std::string& folder) {
     save_drawing(folder, drawing);
 }
 
-/// A thin lens: points in the plane of focus are sharp, others are circles.
-void draw_lens(const std::string& folder) {
-    Drawing drawing{.name = "distributed_rays-thin-lens",
-                    .description = "Rays from a pixel through a lens meet in the plane "
-                                   "of focus; a farther object is spread over a circle",
-                    .low{-2.4, -1.6},
-                    .high{6.6, 1.7},
-                    .scale = 85};
-    const double focus = 3.4, radius = 0.8;
-    draw_line(drawing, {{0, -radius}, {0, radius}}, {colors::blue, 4});
-    draw_line(drawing, {{-2, -1.1}, {-2, 1.1}}, {.width = 2});
-    draw_line(drawing, {{focus, -1.4}, {focus, 1.4}}, {.width = 1, .dashed = true});
+constexpr double lens_radius = 0.8, film_distance = 2, focus_distance = 3.4;
+
+/// The lens at x = 0 with its letters, and the film behind it, around a height.
+void draw_lens_and_film(Drawing& drawing, double height) {
+    const Point film{-film_distance, height};
+    draw_line(drawing, {{0, height - lens_radius}, {0, height + lens_radius}},
+              {colors::blue, 4});
+    draw_line(drawing, {{film.x, film.y - 1.1}, {film.x, film.y + 1.1}}, {.width = 2});
+    draw_line(drawing, {{focus_distance, height - 1.2}, {focus_distance, height + 1.2}},
+              {.width = 1, .dashed = true});
+    draw_dimension(drawing, {film.x, height - 1.35}, {0, height - 1.35}, "d",
+                   "currentColor", -12);
+}
+
+/// Camera rays: all from one place on the film meet in the plane of focus.
+/// \param confusion  The letter c of the chapter for points at the depth `far`.
+void draw_camera_rays(Drawing& drawing, double far, double confusion) {
+    draw_lens_and_film(drawing, 0);
     // The pixel's ray through the middle is the pinhole's; all others meet it in focus.
-    const Point pixel{-2, -0.2};
-    const double slope = -pixel.y / 2;
-    const Point sharp{focus, slope * focus};
-    const double far = 6;
+    const Point pixel{-film_distance, -0.2};
+    const double slope = -pixel.y / film_distance;
+    const Point sharp{focus_distance, slope * focus_distance};
     for (int i = -2; i <= 2; ++i) {
-        const Point lens{0, radius * i / 2};
+        const Point lens{0, lens_radius * i / 2};
         draw_line(drawing, {pixel, lens}, {.color = colors::orange, .width = 1});
-        const double way = (sharp.y - lens.y) / focus;
+        const double way = (sharp.y - lens.y) / focus_distance;
         draw_line(drawing, {lens, {far, lens.y + way * far}},
                   {.color = colors::orange, .width = i == 0 ? 2.2 : 1});
     }
-    const double spread = radius * (far - focus) / focus;
-    draw_line(drawing, {{far, slope * far - spread}, {far, slope * far + spread}},
+    const double half = confusion * far / 2;
+    draw_line(drawing, {{far, slope * far - half}, {far, slope * far + half}},
               {colors::red, 4});
     draw_dot(drawing, pixel, 4, "currentColor");
     draw_dot(drawing, sharp, 5, colors::green);
-    draw_label(drawing, {-2.0, 1.35}, "film");
-    draw_label(drawing, {0, 1.1}, "lens", colors::blue);
-    draw_label(drawing, {focus, 1.55}, "plane of focus");
-    draw_label(drawing, {6.25, slope * far}, "c", colors::red);
+    draw_label(drawing, {pixel.x, 1.3}, "film");
+    draw_label(drawing, {0, 1.05}, "lens", colors::blue);
+    draw_label(drawing, {focus_distance, 1.4}, "plane of focus");
+    draw_label(drawing, {far + 0.3, slope * far}, "c z", colors::red);
+    draw_dimension(drawing, {0, -1.35}, {focus_distance, -1.35}, "s", "currentColor",
+                   -12);
+}
+
+/// The light of a point at the depth z: its tip lies before the film, where a disc is.
+void draw_light_of_point(Drawing& drawing, double z, double confusion) {
+    const double height = -3.6;
+    draw_lens_and_film(drawing, height);
+    // 1/F is 1/s + 1/d, and also 1/z + 1/d'.
+    const double tip = 1 / (1 / focus_distance + 1 / film_distance - 1 / z);
+    const double half = confusion * film_distance / 2;
+    for (const double side : {-1.0, 1.0}) {
+        const Point lens{0, height + side * lens_radius};
+        draw_line(drawing, {{z, height}, lens}, {.color = colors::orange});
+        draw_line(drawing, {lens, {-film_distance, height - side * half}},
+                  {.color = colors::orange});
+    }
+    draw_area(drawing,
+              {{z, height},
+               {0, height + lens_radius},
+               {-tip, height},
+               {0, height - lens_radius}},
+              colors::orange);
+    draw_line(drawing,
+              {{-film_distance, height - half}, {-film_distance, height + half}},
+              {colors::red, 5});
+    draw_dot(drawing, {z, height}, 5, colors::violet);
+    draw_dot(drawing, {-tip, height}, 4, colors::violet);
+    draw_label(drawing, {-film_distance - 0.3, height}, "c d", colors::red);
+    draw_label(drawing, {z + 0.4, height + 0.25}, "point", colors::violet);
+    draw_dimension(drawing, {-tip, height + 0.95}, {0, height + 0.95}, "d′",
+                   colors::violet);
+    draw_line(drawing, {{-tip, height}, {-tip, height + 1.05}},
+              {.color = colors::violet, .width = 0.8, .dashed = true});
+    draw_dimension(drawing, {0, height - 1.35}, {z, height - 1.35}, "z", colors::violet,
+                   -12);
+    draw_dimension(drawing, {0.2, height - lens_radius}, {0.2, height + lens_radius},
+                   "2R", colors::blue, -18);
+}
+
+/// A thin lens: points in the plane of focus are sharp, others are circles.
+void draw_lens(const std::string& folder) {
+    Drawing drawing{.name = "distributed_rays-thin-lens",
+                    .description =
+                        "Above, rays from one place on the film at the distance d meet "
+                        "in the plane of focus at the distance s, and spread behind "
+                        "it; below, the light of a point at the depth z meets at the "
+                        "distance d′, and covers a disc on the film",
+                    .low{-2.6, -5.3},
+                    .high{6.7, 1.6},
+                    .scale = 80};
+    const double z = 6;
+    // In pixels; of a picture as high as its distance is 1, in scene units.
+    const ljus::LensCameraT<double> camera{
+        .pinhole{.half_height = 0.5}, .radius = lens_radius, .focus = focus_distance};
+    const double confusion = circle_of_confusion(camera, z, 1);
+    draw_camera_rays(drawing, z, confusion);
+    draw_light_of_point(drawing, z, confusion);
     save_drawing(folder, drawing);
 }
 
@@ -129,9 +193,9 @@ Balls<Ball> nine_balls(const ljus::Vec3& way = ljus::Vec3{0}) {
     const auto grey = scene.add(ljus::Lambertian{.albedo = ljus::Rgb{0.6f}});
     scene.add(ljus::Quad{{-9, 0, 9}, {18, 0, 0}, {0, 0, -18}}, grey);
     for (int i = 0; i < 9; ++i) {
-        const ljus::Sphere ball{.center{float(2 * (i % 3) - 2), 0.6f,
-                                        float(2 * (i / 3) - 2)},
-                                .radius = 0.6f};
+        const ljus::Sphere ball{
+            .center{float(2 * (i % 3) - 2), 0.6f, float(2 * (i / 3) - 2)},
+            .radius = 0.6f};
         if constexpr (std::is_same_v<Ball, MovingBall>)
             scene.add(MovingBall{ball, way}, grey);
         else

@@ -52,7 +52,7 @@ void draw_path(const std::string& folder) {
         draw_dot(drawing, vertex, 4, "currentColor");
     draw_label(drawing, {0.4, 2.1}, "E");
     draw_label(drawing, {2.4, -0.22}, "x_1");
-    draw_label(drawing, {6.3, 1.75}, "x_2");
+    draw_label(drawing, {6.77, 1.55}, "x_2");
     draw_label(drawing, {4.9, -0.22}, "x_3");
     draw_label(drawing, {3.4, 2.72}, "L", colors::orange);
     draw_label(drawing, {2.3, 0.75}, "V = 0", colors::red);

@@ -55,8 +55,10 @@ void draw_ways(const std::string& folder) {
             n = side ? Point{d.x > 0 ? -1.0 : 1.0, 0} : Point{0, d.y > 0 ? -1.0 : 1.0};
         }
     }
-    draw_label(drawing, {1.0, -0.28}, "absorbed", colors::red);
-    draw_label(drawing, {3.2, -0.28}, "reflected");
+    draw_dot(drawing, {1.9, -0.28}, 6, colors::red);
+    draw_label(drawing, {2.45, -0.28}, "absorbed", colors::red);
+    draw_dot(drawing, {3.5, -0.28}, 4, "currentColor");
+    draw_label(drawing, {4.0, -0.28}, "reflected");
     save_drawing(folder, drawing);
 }
 

@@ -3,6 +3,8 @@
 /// \brief Chapter 26: how a ball of glass gathers light, and the disc of the estimate.
 
 #include <cmath>
+#include <cstddef>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,11 +14,13 @@
 #include <ljus/optics/refraction.hpp>
 
 #include "common/command_line.hpp"
+#include "common/dimension.hpp"
 #include "common/drawing.hpp"
 
 namespace {
 
 using examples::Drawing;
+using examples::flat;
 using examples::Point;
 using Vec = ljus::Vec3T<double>;
 namespace colors = examples::colors;
@@ -76,6 +80,62 @@ void draw_gathering(const std::string& folder) {
     save_drawing(folder, drawing);
 }
 
+/// The direction from one point to another: radians, counter-clockwise from the right.
+double angle_to(const Vec& from, const Vec& to) {
+    return std::atan2(to.y - from.y, to.x - from.x);
+}
+
+/// An arc with its letter in the middle.
+void draw_angle(Drawing& drawing, const Vec& at, double radius, double first,
+                double last, const std::string& name, const char* color) {
+    draw_arc(drawing, flat(at), radius, first, last, {.color = color, .width = 1.2});
+    const double middle = (first + last) / 2, out = radius + 0.17;
+    draw_label(drawing, {at.x + out * std::cos(middle), at.y + out * std::sin(middle)},
+               name, color);
+}
+
+/// One ray with the letters of the chapter.
+void draw_one_ray(const std::string& folder) {
+    Drawing drawing{.name = "caustics-letters",
+                    .description = "A ray from the lamp through the ball to the floor, "
+                                   "with the angles alpha at the lamp, theta_i and "
+                                   "theta_t at both surfaces, and phi at the centre",
+                    .low{-2.6, -0.5},
+                    .high{2.9, 4.3},
+                    .scale = 130};
+    const Vec lamp{0, 4, 0}, &center = ball.center;
+    const double alpha = 16 * std::numbers::pi / 180, down = -std::numbers::pi / 2;
+    const auto way = through_ball(lamp, {std::sin(alpha), -std::cos(alpha), 0});
+    draw_line(drawing, {{-2.6, 0}, {2.9, 0}}, {.width = 2});
+    draw_area(drawing, examples::circle(flat(center), ball.radius), colors::blue);
+    draw_line(drawing, examples::circle(flat(center), ball.radius));
+    const examples::Pen thin{.color = "#808080", .width = 1, .dashed = true};
+    draw_line(drawing, {flat(lamp), {0, 0}}, thin);
+    for (const Vec& hit : {way[1], way[2]}) // the normals
+        draw_line(drawing, {flat(center), flat(hit + 0.75 * (hit - center))}, thin);
+    for (std::size_t i = 0; i + 1 < way.size(); ++i)
+        draw_arrow(drawing, flat(way[i]), flat(way[i + 1]), {colors::orange, 2});
+
+    draw_angle(drawing, lamp, 0.95, down, down + alpha, "α", colors::orange);
+    const double enter = angle_to(center, way[1]), leave = angle_to(center, way[2]);
+    draw_angle(drawing, way[1], 0.42, enter, angle_to(way[1], lamp), "θ_i",
+               colors::red);
+    const double inwards = enter - std::numbers::pi; // the normal, from the other end
+    draw_angle(drawing, way[1], 0.5, inwards, angle_to(way[1], way[2]), "θ_t",
+               colors::violet);
+    draw_angle(drawing, way[2], 0.42, angle_to(way[2], way[3]), leave, "θ_i",
+               colors::red);
+    draw_angle(drawing, center, 0.17, leave, -down, "φ", colors::green);
+
+    draw_dot(drawing, flat(lamp), 6, colors::orange);
+    draw_dot(drawing, flat(center), 4, "currentColor");
+    draw_dimension(drawing, {-0.3, center.y}, {-0.3, lamp.y}, "D", "currentColor", 14);
+    draw_line(drawing, {flat(center), {-0.94 * ball.radius, center.y - 0.342}});
+    draw_label(drawing, {-0.5, center.y - 0.35}, "R");
+    draw_dimension(drawing, {0, -0.15}, {way[3].x, -0.15}, "ρ", colors::red, -16);
+    save_drawing(folder, drawing);
+}
+
 /// A disc around a point of a floor, and the photons on it and beside it.
 void draw_disc(Drawing& drawing) {
     const auto seen = [](double x, double y) { return Point{x, 0.42 * y + 0.55}; };
@@ -129,7 +189,7 @@ void draw_kernels(Drawing& drawing) {
     }
     draw_label(drawing, {o.x - 1.35, 0.88}, "box", colors::blue);
     draw_label(drawing, {o.x + 0.75, 1.85}, "cone", colors::orange);
-    draw_label(drawing, {o.x + 1.5, 1.05}, "Epanechnikov", colors::green);
+    draw_label(drawing, {o.x + 1.65, 1.3}, "Epanechnikov", colors::green);
     draw_label(drawing, {o.x + 1.6, -0.28}, "r");
     draw_label(drawing, {o.x, -0.28}, "0");
 }
@@ -156,6 +216,7 @@ int main(int argc, char** argv) {
         line.about("Chapter 26, caustics: drawings.");
         const examples::Options options = line.parse({});
         draw_gathering(options.path(""));
+        draw_one_ray(options.path(""));
         draw_estimate(options.path(""));
     });
 }

@@ -75,9 +75,9 @@ void draw_passes(const std::string& folder) {
                  colors::red);
     draw_dot(drawing, eye, 5, "currentColor");
     draw_label(drawing, {x + 0.3, 2.2}, "E");
-    draw_label(drawing, {x + 1.3, 2.45}, "shadow ray", colors::orange);
-    draw_label(drawing, {x + 2.25, 1.75}, "indirect ray", colors::green);
-    draw_label(drawing, {x + 3.45, -0.3}, "map", colors::red);
+    draw_label(drawing, {x + 1.1, 2.62}, "shadow ray", colors::orange);
+    draw_label(drawing, {x + 2.85, 2.4}, "indirect ray", colors::green);
+    draw_label(drawing, {x + 3.65, -0.2}, "map", colors::red);
     save_drawing(folder, drawing);
 }
 

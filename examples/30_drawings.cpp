@@ -49,9 +49,9 @@ void draw_sum(const std::string& folder) {
     draw_line(drawing, {at(0.5, 0), at(0.5, 20)}, {.width = 1, .dashed = true});
     draw_dot(drawing, at(0.5, 20), 4, "currentColor");
     draw_label(drawing, {w * best, -0.3}, "a_1/(a_1 + a_2)", colors::red);
-    draw_label(drawing, {w * 0.5 - 0.2, -0.3}, "1/2");
+    draw_label(drawing, {w * 0.5, -0.3}, "1/2");
     draw_label(drawing, {1.1, 1.15}, "a_1²/s", colors::blue);
-    draw_label(drawing, {5.4, 0.75}, "a_2²/(1 − s)", colors::orange);
+    draw_label(drawing, {3.83, 0.43}, "a_2²/(1 − s)", colors::orange);
     draw_label(drawing, {2.55, 1.62}, "sum");
     draw_label(drawing, {6.35, 0.25}, "s");
     save_drawing(folder, drawing);

@@ -64,7 +64,7 @@ void draw_triangle(const std::string& folder) {
                         "longest side is the error; more rays shorten the "
                         "leg of the noise only",
                     .low{-0.6, -0.7},
-                    .high{5.3, 2.9},
+                    .high{5.3, 1.2},
                     .scale = 95};
     const double bias = 0.9;
     const char* names[] = {"1 ray", "4 rays", "16 rays"};

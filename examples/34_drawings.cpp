@@ -52,9 +52,16 @@ void draw_endings(const std::string& folder) {
             light *= albedo;
         }
         draw_line(drawing, {{x - 0.1, 0}, {x + 2.8, 0}}, {.width = 1.5});
-        if (way == 1)
+        if (way == 0) { // the bars up to bounce d stay
+            draw_line(drawing, {{x + 1.16, 0}, {x + 1.16, 1.6}},
+                      {colors::red, 1.2, true});
+            draw_label(drawing, {x + 1.16, 1.8}, "d = 3", colors::red);
+        }
+        if (way == 1) {
             draw_line(drawing, {{x - 0.1, 0.55}, {x + 2.8, 0.55}},
                       {colors::red, 1.2, true});
+            draw_label(drawing, {x + 2.6, 0.75}, "t", colors::red);
+        }
         draw_label(drawing, {x + 1.35, -0.35}, names[way]);
     }
     save_drawing(folder, drawing);

@@ -41,6 +41,7 @@ cat >html/ch_sphere.html <<'END'
 Error against time</div></div>
 <div class="fragment"><div class="line">std::<span class="keywordtype">float</span>ing_po<span class="keywordtype">int</span> <a class="code hl_function" href="q.html#x">normal</a>;</div></div><!-- fragment -->
 <dl class="exercise"><dt><b><a class="el" href="exercise.html#_exercise000009">Exercise:</a></b></dt><dd>One by importance, \(k\) of \(\frac{a}{b}\).</dd></dl>
+<table class="markdownTable"><tr><td>2.8e+02</td><td>1.5e+00</td><td>-1.01e+04</td><td>5.4e-05</td><td>1e+06 times</td></tr></table>
 </div></div><!-- contents -->
 </body></html>
 END
@@ -53,6 +54,8 @@ grep -q 'polyfill' $page && wrong "a script comes from the network"
 grep -q 'alt="Two balls."' $page || wrong "a picture has no alt text"
 grep -q '<img src="plot.svg" alt="Error against time"/>' $page || wrong "a plot stands in a frame"
 grep -q 'std::floating_point normal;' $page || wrong "a listing has wrong links or colours"
+grep -q '<td>280</td><td>1.5</td><td>-10100</td><td>5.4e-05</td><td>1e+06 times</td>' $page ||
+    wrong "a cell is not written out: $(grep '<td>' $page)"
 grep -q 'id="_exercise000009".*Exercise 6.1' $page || wrong "an exercise has no number"
 [ "$(grep -c 'rel="prev" href="ch_ray.html"' $page)" -eq 2 ] || wrong "no chapter before"
 grep -q 'One by importance, k of …' html/search-text.js || wrong "the search does not know a word"
