@@ -1,3 +1,10 @@
+/// \file final_gathering_test.cpp
+/// \brief Irradiance that photons precompute, and gather rays that look it up: closed
+/// forms, form factors, plain loops.
+///
+/// Its statistical cases were run with 20 further seeds: none failed. For others:
+/// `./scripts/test --seeds 20`.
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -157,7 +164,7 @@ TEST_CASE("final gathering: an even light is found in the middle and at the edge
             const float t = 0.1f + 0.08f * float(i);
             middle.add(estimate(t, 0.5f, how));
             edge.add(estimate(t, 0.001f, how));
-            cut.add(estimate(t, 0.001f, plain));
+            cut.add(estimate(t, 1e-6f, plain)); // half of the disc; at 0.001 it is 52 %
         }
         for (const float x : {0.001f, 0.999f})
             for (const float y : {0.001f, 0.999f}) corner.add(estimate(x, y, how));
@@ -229,11 +236,16 @@ TEST_CASE("final gathering: what is looked up is right in the mean over a surfac
 }
 
 TEST_CASE("final gathering: a radius from the photons") {
-    // Of n points on a unit square, k lie within r = sqrt(k / (pi n)) in the mean.
+    // Of n points on a unit square, pi n r^2 of the k-th nearest has a gamma distribution:
+    // its logarithm has the mean psi(k) and the variance 1 / k, nearly. So the mean of
+    // 255 searches is known to 1.1 % for k = 8, to less for others; 5 standard errors.
     const PhotonMap map = even_photons(50000, 3);
-    for (const std::size_t k : {8u, 32u, 200u})
-        CHECK(double(typical_radius(map, k)) ==
-              ljus_test::within(std::sqrt(double(k) / (pi * 50000)), 0.05));
+    for (const int k : {8, 32, 200}) {
+        double psi = -std::numbers::egamma;
+        for (int i = 1; i < k; ++i) psi += 1.0 / i;
+        CHECK(double(typical_radius(map, std::size_t(k))) ==
+              ljus_test::within(std::exp(psi / 2) / std::sqrt(pi * 50000), 0.055));
+    }
     CHECK(typical_radius(PhotonMap{}, 32) == 1);
     CHECK(typical_radius(even_photons(1, 1), 32) == 1);
     CHECK(typical_radius(make_photon_map(std::vector<Photon>(40)), 32) == 1);
@@ -490,8 +502,9 @@ TEST_CASE("final gathering: what a gather ray brings, along a known way") {
 
 TEST_CASE("final gathering: the irradiance of a square, from its own side") {
     // A square of side 2 at height 1, of which each point sends albedo E / pi: its form
-    // factor by Howell's C-11, four corners. 2000 even rays know it to a per cent. In
-    // a fog, and a ray's length 1 / cos: the harmonic mean of those that meet it.
+    // factor by Howell's C-11, four corners. 20 000 random rays would know it to 0.6 per
+    // cent, stratified ones to 0.2. And the harmonic mean of the lengths, 1 / cos, of
+    // those that meet it.
     Hall hall;
     const auto floor = hall.add(Lambertian{});
     hall.add(Quad{.corner{-9, -9, 0}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}}, floor);
@@ -500,7 +513,7 @@ TEST_CASE("final gathering: the irradiance of a square, from its own side") {
     const IrradiancePoints points = everywhere(Rgb{3, 5, 7}, {{0, 0, -1}, {0, 0, 1}});
     const double r = std::sqrt(2.0), factor = 4 / (2 * pi) * 2 / r * std::atan(1 / r);
     for (const bool above : {true, false})
-        for (const int rays : {2000, 1}) {
+        for (const int rays : {20000, 1}) {
             const Ray ray{.origin{0, 0, above ? 0.5f : -0.5f},
                           .direction{0, 0, above ? -1.0f : 1.0f}};
             const Vertex vertex = vertex_at(hall, ray, *closest_hit(hall, ray));
