@@ -2,8 +2,9 @@
 // quadrature with visibility, all in double. A mean of 64 seeds lies more than 3 of its
 // standard errors off in 0.4 % of all cases (Student's t, 63 degrees of freedom). Of a
 // family of such means, each of one cell, one and 5 % may lie beyond 3 and none beyond
-// 5, and the mean square, 1.03 if all is right, must be below 2.5. The cells share the
-// photons of their lamps: of 54 families with other seeds two failed.
+// 5, and the mean square, 1.03 if all is right, must be below 5. The cells share the
+// photons of their lamps, and scatter like as few as five cells would that do not: then
+// one family in 5000 lies above 5. Run with 20 further seeds (`./scripts/test --seeds 20`).
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -46,7 +47,7 @@ struct Family {
         CAPTURE(count);
         CHECK(beyond_3 <= 1 + count / 20);
         CHECK(largest < 5);
-        CHECK(squares < 2.5 * count);
+        CHECK(squares < 5 * count);
     }
 };
 
@@ -470,6 +471,25 @@ double under_lamp(double x, double y) {
     return pi * form_factor({x, y, 0}, {0, 0, 1}, lamp);
 }
 
+/// The variance that photons of that lamp have in an estimate by Epanechnikov's kernel K,
+/// times their number and the square of the radius: Phi int K^2 E dA - (int K E dA)^2 for
+/// a lamp of flux Phi. By the midpoint rule over the disc.
+double scatter_under_lamp(const Point& at, double radius) {
+    constexpr int rings = 16, spokes = 24;
+    double squares = 0, mean = 0;
+    for (int i = 0; i < rings; ++i)
+        for (int j = 0; j < spokes; ++j) {
+            const double r = (i + 0.5) / rings, angle = 2 * pi * (j + 0.5) / spokes;
+            const double kernel = 2 / pi * (1 - r * r); // times the radius squared
+            const double area = r * 2 * pi / (rings * spokes);
+            const double light = under_lamp(at.x + radius * r * std::cos(angle),
+                                            at.y + radius * r * std::sin(angle));
+            squares += kernel * kernel * light * area;
+            mean += kernel * light * area;
+        }
+    return pi * squares - radius * radius * mean * mean;
+}
+
 /// The slope of a line through points, by least squares.
 double slope(const std::vector<double>& x, const std::vector<double>& y) {
     double mx = 0, my = 0, xy = 0, xx = 0;
@@ -500,7 +520,6 @@ TEST_CASE("general map: variance falls with 1/(N r^2), bias^2 grows with r^4, an
     const std::vector<float> radii{0.1f, 0.141f, 0.2f, 0.283f, 0.4f, 0.566f, 0.8f};
     const std::vector<long long> numbers{3000, 10000, 30000, 100000};
     std::vector<double> log_number, log_best;
-    std::vector<double> scaled_variance; // times N r^2
     for (const long long number : numbers) {
         std::vector<std::vector<Mean>> seen(radii.size(),
                                             std::vector<Mean>(places.size()));
@@ -519,33 +538,31 @@ TEST_CASE("general map: variance falls with 1/(N r^2), bias^2 grows with r^4, an
                                               PhotonKind::direct));
         }
         double best = 1e9;
-        std::vector<double> log_radius, log_bias, log_radius_v, log_variance;
+        std::vector<double> log_radius, log_bias;
         for (std::size_t r = 0; r < radii.size(); ++r) {
-            double variance = 0, bias2 = 0;
+            double variance = 0, bias2 = 0, known = 0;
             for (std::size_t p = 0; p < places.size(); ++p) {
+                known += scatter_under_lamp(places[p], double(radii[r])) /
+                         (double(number) * double(radii[r]) * double(radii[r]) * 25);
                 const double v = seen[r][p].squares / 15; // of one map
                 const double e = seen[r][p].mean - under_lamp(places[p].x, places[p].y);
                 variance += v / double(places.size());
                 bias2 += (e * e - v / 16) / double(places.size());
             }
             best = std::min(best, variance + bias2);
-            log_radius_v.push_back(std::log(double(radii[r])));
-            log_variance.push_back(std::log(variance));
-            scaled_variance.push_back(variance * double(number) * double(radii[r]) *
-                                      double(radii[r]));
+            // Discs that hardly overlap: 25 variances of 16 maps are known to 8 %. 16
+            // checks of 5 standard errors.
+            if (radii[r] < 0.3f) CHECK(variance == ljus_test::within(known, 0.4));
             if (radii[r] < 0.25f) continue;
-            log_radius.push_back(log_radius_v.back());
+            log_radius.push_back(std::log(double(radii[r])));
             log_bias.push_back(bias2 > 0 ? std::log(bias2) : -99);
         }
-        CHECK(slope(log_radius_v, log_variance) == doctest::Approx(-2).epsilon(0.1));
         // The bias stands out of the noise where there are many photons.
         if (number == numbers.back())
             CHECK(slope(log_radius, log_bias) == doctest::Approx(4).epsilon(0.15));
         log_number.push_back(std::log(double(number)));
         log_best.push_back(std::log(best));
     }
-    for (const double value : scaled_variance)
-        CHECK(value == ljus_test::within(scaled_variance.front(), 0.35));
     CHECK(slope(log_number, log_best) == doctest::Approx(-2.0 / 3).epsilon(0.1));
 }
 
