@@ -236,7 +236,7 @@ TEST_CASE("final gathering: what is looked up is right in the mean over a surfac
 }
 
 TEST_CASE("final gathering: a radius from the photons") {
-    // Of n points on a unit square, pi n r^2 of the k-th nearest has a gamma distribution:
+    // Of n points on a unit square, pi n r^2 of the k-th nearest is gamma distributed:
     // its logarithm has the mean psi(k) and the variance 1 / k, nearly. So the mean of
     // 255 searches is known to 1.1 % for k = 8, to less for others; 5 standard errors.
     const PhotonMap map = even_photons(50000, 3);
@@ -502,9 +502,9 @@ TEST_CASE("final gathering: what a gather ray brings, along a known way") {
 
 TEST_CASE("final gathering: the irradiance of a square, from its own side") {
     // A square of side 2 at height 1, of which each point sends albedo E / pi: its form
-    // factor by Howell's C-11, four corners. 20 000 random rays would know it to 0.6 per
-    // cent, stratified ones to 0.2. And the harmonic mean of the lengths, 1 / cos, of
-    // those that meet it.
+    // factor by Howell's C-11, four corners. 20 000 random rays would know it to 0.6 %,
+    // stratified ones to 0.2 %. And the harmonic mean of the lengths, 1 / cos, of those
+    // that meet it.
     Hall hall;
     const auto floor = hall.add(Lambertian{});
     hall.add(Quad{.corner{-9, -9, 0}, .edge_u{18, 0, 0}, .edge_v{0, 18, 0}}, floor);

@@ -4,7 +4,8 @@
 // family of such means, each of one cell, one and 5 % may lie beyond 3 and none beyond
 // 5, and the mean square, 1.03 if all is right, must be below 5. The cells share the
 // photons of their lamps, and scatter like as few as five cells would that do not: then
-// one family in 5000 lies above 5. Run with 20 further seeds (`./scripts/test --seeds 20`).
+// one family in 5000 lies above 5. Run with 20 further seeds (`./scripts/test --seeds
+// 20`): none failed.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -471,9 +472,9 @@ double under_lamp(double x, double y) {
     return pi * form_factor({x, y, 0}, {0, 0, 1}, lamp);
 }
 
-/// The variance that photons of that lamp have in an estimate by Epanechnikov's kernel K,
-/// times their number and the square of the radius: Phi int K^2 E dA - (int K E dA)^2 for
-/// a lamp of flux Phi. By the midpoint rule over the disc.
+/// The variance that photons of that lamp have in an estimate by Epanechnikov's kernel
+/// K, times their number and the square of the radius: for a lamp of flux Phi it is
+/// Phi int K^2 E dA - (int K E dA)^2. By the midpoint rule over the disc.
 double scatter_under_lamp(const Point& at, double radius) {
     constexpr int rings = 16, spokes = 24;
     double squares = 0, mean = 0;
