@@ -147,7 +147,7 @@ TEST_CASE("tracing: the first hits of a lamp's photons share its flux by the for
     box.add(Quad{.corner{0, 0, 0}, .edge_u = z, .edge_v = y}, black);
     box.add(Quad{.corner{float(a), 0, 0}, .edge_u = z, .edge_v = y}, black);
     const double flux = pi * a * b;
-    const auto mis_weight = [&](auto where) {
+    const auto flux_where = [&](auto where) {
         return stored_flux(box, MapType::general,
                            {.photons = 20000, .shadow_photons = false, .threads = 1},
                            16, where);
@@ -163,21 +163,21 @@ TEST_CASE("tracing: the first hits of a lamp's photons share its flux by the for
     CHECK(perpendicular_form_factor(1, 1, 1) ==
           doctest::Approx(0.2000438).epsilon(1e-6));
     const Mean on_floor =
-        mis_weight([&](const Photon& p) { return near(p.position.y, 0); });
+        flux_where([&](const Photon& p) { return near(p.position.y, 0); });
     const Mean on_back =
-        mis_weight([&](const Photon& p) { return near(p.position.z, 0); });
+        flux_where([&](const Photon& p) { return near(p.position.z, 0); });
     const Mean on_front =
-        mis_weight([&](const Photon& p) { return near(p.position.z, b); });
+        flux_where([&](const Photon& p) { return near(p.position.z, b); });
     const Mean on_left =
-        mis_weight([&](const Photon& p) { return near(p.position.x, 0); });
+        flux_where([&](const Photon& p) { return near(p.position.x, 0); });
     const Mean on_right =
-        mis_weight([&](const Photon& p) { return near(p.position.x, a); });
+        flux_where([&](const Photon& p) { return near(p.position.x, a); });
     CHECK(std::abs(apart(on_floor, flux * floor)) < limit);
     CHECK(std::abs(apart(on_back, flux * long_wall)) < limit);
     CHECK(std::abs(apart(on_front, flux * long_wall)) < limit);
     CHECK(std::abs(apart(on_left, flux * short_wall)) < limit);
     CHECK(std::abs(apart(on_right, flux * short_wall)) < limit);
-    CHECK(on_floor.error() < 0.003 * on_floor.mean);
+    CHECK(on_floor.error() < 0.0045 * on_floor.mean); // 0.0024, known to 18 %
 }
 
 namespace {
@@ -347,7 +347,7 @@ TEST_CASE("tracing: aimed photons equal blind ones, whatever their targets") {
             CAPTURE(aimed[i].mean);
             CAPTURE(blind[i].mean);
             CHECK(std::abs(apart(aimed[i], blind[i])) < limit);
-            CHECK(aimed[i].error() < 0.02 * aimed[i].mean);
+            CHECK(aimed[i].error() < 0.03 * aimed[i].mean); // 0.015, known to 15 %
         }
     }
 }
