@@ -74,8 +74,8 @@ struct EdgeRule {
 }
 
 // The same integral for parallel edges, in closed form. `ahead` and `d` are how far the
-// second edge begins before the start of the first, along it and beside it; `back` is
-// the length of the first edge, negative if the two run against each other.
+// start of the second edge lies from that of the first, along the second and across it;
+// `back` is the length of the first edge, negative if the two run against each other.
 [[nodiscard]] inline double parallel_edges(double ahead, double d, double back,
                                            double length_v, double unit) noexcept {
     const auto f = [&](double z) { return log_twice(z, d, unit); };

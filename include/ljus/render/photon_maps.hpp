@@ -121,6 +121,7 @@ make_photon_maps(const S& scene, const PhotonMappingSettings& settings = {}) {
 /// \param camera    A CameraT, or anything with a camera_ray().
 /// \param picture   Size, seed, threads.
 /// \param settings  As for the maps.
+/// \throws std::invalid_argument  if a setting is out of range.
 template <SceneLike S, template <std::floating_point> typename AnyCamera>
 void add_irradiance_cache(PhotonMapsT<typename S::Scalar>& maps, const S& scene,
                           const AnyCamera<typename S::Scalar>& camera,

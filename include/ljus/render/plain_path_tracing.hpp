@@ -25,6 +25,7 @@ struct PlainPathTracer {
 /// \param scene      Must outlive the tracer.
 /// \param max_depth  Surfaces on a camera path; 1 is direct light only.
 /// \return The tracer.
+/// \throws std::invalid_argument  for a depth below 1.
 template <SceneLike S>
 [[nodiscard]] PlainPathTracer<S> make_plain_path_tracer(const S& scene,
                                                         int max_depth = 100) {

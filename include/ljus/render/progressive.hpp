@@ -105,6 +105,7 @@ void add_pass(ProgressiveState& state, const ImageT<T>& image) {
 /// The picture so far.
 /// \param state  Of at least one pass.
 /// \return The mean of the passes, W/(m^2 sr).
+/// \throws std::invalid_argument  if there is no pass.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> mean_image(const ProgressiveState& state) {
     require_at_least("the number of passes", state.passes, 1);
@@ -169,6 +170,7 @@ void require_first_pass(const ProgressiveState& state, RenderPass&& pass) {
 /// \param scene     The scene.
 /// \param settings  Photons of one pass.
 /// \return The same settings for each pass, and each time the program runs.
+/// \throws std::invalid_argument  if a setting is out of range.
 /// \cost With a radius of 0, the photon maps of one pass; with a budget, its pilot.
 template <SceneLike S>
 [[nodiscard]] PhotonMappingSettings

@@ -192,6 +192,7 @@ judge_brick(const CountsAround& sums, SkipRule rule, std::uint32_t needed) noexc
 /// \param lights   How many lights.
 /// \param skip     The rule.
 /// \param threads  As in ParallelSettings.
+/// \throws std::invalid_argument  if there would be more than most_bricks.
 // [make_bits]
 template <std::floating_point T>
 [[nodiscard]] VerdictBitsT<T> make_bits(const std::vector<PhotonT<T>>& photons,
