@@ -197,8 +197,9 @@ TEST_CASE("camera: what lies beside or behind the camera has no place in the pic
     const float infinity = std::numeric_limits<float>::infinity();
     CHECK_FALSE(project(camera, Vec3{nan, 2, 2}, 200, 100));
     CHECK_FALSE(project(camera, Vec3{1, 2, -infinity}, 200, 100));
-    CHECK_FALSE(
-        project(camera, Vec3{1e38f, 2, 2.9f}, 200, 100)); // out of float's range
+    // Out of float's range.
+    CHECK_FALSE(project(camera, Vec3{1e38f, 2, 2.9f}, 200, 100));
+    CHECK_FALSE(project(camera, Vec3{1, 1e38f, 2.9f}, 200, 100));
 }
 
 TEST_CASE("camera: without more said it looks along -z, upright") {

@@ -548,6 +548,20 @@ TEST_CASE("flatland: photons by their path, and the same ones in a longer pass")
         CHECK(glm::distance(photon.position, room_disc.center) > room_disc.radius);
 }
 
+TEST_CASE("flatland: a path does not forget what it has met") {
+    PathState path;
+    ljus::RandomStream stream = stream_of(1, 0);
+    const auto kind_after = [&](const Material& material) {
+        const Vertex vertex{.object{.material = material}};
+        REQUIRE(continue_path(path, vertex, Transport::flux, stream));
+        return kind_of(path);
+    };
+    CHECK(kind_after(Mirror{1}) == PhotonKind::caustic);
+    CHECK(kind_after(Lambertian{1}) == PhotonKind::indirect);
+    CHECK(kind_after(Mirror{1}) == PhotonKind::indirect);
+    CHECK((path.met_diffuse && path.met_specular));
+}
+
 TEST_CASE("flatland: of two lamps the second half of the numbers is the second's") {
     const Circle left{.center{-1, 1}, .radius = 0.1},
         right{.center{1, 1}, .radius = 0.1};

@@ -199,6 +199,27 @@ TEST_CASE("few shapes: the loop's answers where rounding decides") {
     CHECK(hits > 10000);
 }
 
+TEST_CASE(
+    "few shapes: the loop's answers from far away, to a range that ends at a hit") {
+    // From 1e6 away t is rounded by a tenth of a ball of radius 1.
+    Numbers n;
+    const auto scene = crowd<float>(n, 20, 5, 1);
+    const auto indexed = index_scene(scene);
+    int hits = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const Vec3 origin(n.power(1, 6) * n.direction());
+        Ray ray{.origin = origin, .direction = Vec3(n.point(5)) - origin};
+        const auto hit = closest_hit(scene, ray);
+        if (!hit) continue;
+        hits += same(scene, indexed, ray);
+        ray.t_max = hit->at.t;
+        hits += same(scene, indexed, ray);
+        ray.t_min = hit->at.t;
+        hits += same(scene, indexed, ray);
+    }
+    CHECK(hits > 2000);
+}
+
 TEST_CASE("few shapes: which scenes a tree is made for") {
     Numbers n;
     const auto few = [](const auto& scene) {

@@ -233,6 +233,25 @@ TEST_CASE("load_obj: a corner on the line that would cut off an ear keeps it") {
     }
 }
 
+TEST_CASE("load_obj: no ear is cut off across a corner that touches its side") {
+    // Two triangles of area 4 that meet in the fourth corner, on the first side.
+    const std::vector<glm::dvec3> corners{
+        {0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 0, 0}, {0, 4, 0}};
+    for (std::size_t first = 0; first < corners.size(); ++first) {
+        std::vector<glm::dvec3> turned = corners;
+        std::rotate(turned.begin(), turned.begin() + std::ptrdiff_t(first),
+                    turned.end());
+        double twice = 0;
+        for (const auto& t : detail::cut_polygon(turned)) {
+            const double one =
+                glm::cross(turned[t[1]] - turned[t[0]], turned[t[2]] - turned[t[0]]).z;
+            CHECK(one >= 0);
+            twice += one;
+        }
+        CHECK(twice == 16);
+    }
+}
+
 TEST_CASE("load_obj: a plus sign, and a normal that is none") {
     const auto loaded = read_obj("v +0 0 0\nv +1.5 0 0\nv 0 +1 0\nvn 0 0 0\nvn 0 0 +2\n"
                                  "f 1//1 2//2 3//2\n",

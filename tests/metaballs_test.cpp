@@ -301,6 +301,25 @@ TEST_CASE_TEMPLATE("metaballs: a hit lies on the surface, its normal is the grad
     }
 }
 
+TEST_CASE("metaballs: the normal is that of the point, not of where t led to") {
+    // From 1000 away t leads to 1e-4 from the surface.
+    const Metaballs balls = peanut();
+    Numbers n;
+    int hits = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const Point to = Point{0, 0, -4} + n.point(1);
+        const Vec3 from(to + 1000.0 * n.direction());
+        const Ray ray{.origin = from, .direction = Vec3(to) - from};
+        const auto t = intersect(ray, balls);
+        if (!t) continue;
+        ++hits;
+        const auto p = surface_point(balls, ray, as_hit(*t));
+        const Point right = -glm::normalize(gradient(balls, Point(p.position)));
+        REQUIRE(glm::length(Point(p.normal) - right) < 1e-5);
+    }
+    CHECK(hits > 300);
+}
+
 TEST_CASE("metaballs: where the gradient vanishes the normal faces the ray") {
     // Two tops of 1/8 meet in the middle: f = 0 and grad f = 0 there.
     const double s = std::sqrt(0.125);
@@ -572,6 +591,23 @@ TEST_CASE("metaballs: on the surface is inside, as far as numbers can say") {
     REQUIRE(in);
     CHECK(*out == doctest::Approx(0).epsilon(1e-6));
     CHECK(*in == doctest::Approx(1).epsilon(1e-6));
+}
+
+TEST_CASE("metaballs: a surface on the border of another blob is met there") {
+    // f of the large blob is exactly 0 at -1, where the small one begins.
+    for (const float weight : {0.5f, -0.25f}) {
+        const Metaballs balls{.blobs{{.radius = 2}, {.weight = weight}},
+                              .level = 0.5625f};
+        const Ray ray{.origin{-4, 0, 0}, .direction{1, 0, 0}};
+        const auto check = [&](const auto& solver) {
+            const auto t = intersect(ray, balls, solver);
+            REQUIRE(t);
+            CHECK(*t == doctest::Approx(3).epsilon(1e-6));
+        };
+        check(QuarticPieces{});
+        check(Bisection{});
+        check(SphereTracing{});
+    }
 }
 
 TEST_CASE("solvers: a field that is no number is met nowhere") {

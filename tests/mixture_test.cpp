@@ -236,8 +236,9 @@ TEST_CASE("mixture: it reports the parts that it has") {
     CHECK(lobes(Mixture{.color = grey, .transparency = 1}) == Lobes::specular);
     CHECK(lobes(Mixture{.color = grey, .transparency = 0.5f}) ==
           (Lobes::diffuse | Lobes::specular));
-    CHECK(lobes(Mixture{.color = grey, .specularity = 1}) ==
-          (Lobes::diffuse | Lobes::specular));
+    for (const float index : {0.8f, 1.5f}) // thinner than air reflects as well
+        CHECK(lobes(Mixture{.color = grey, .index = index, .specularity = 1}) ==
+              (Lobes::diffuse | Lobes::specular));
     CHECK(lobes(Mixture{.color = grey, .index = 1, .specularity = 1}) ==
           Lobes::diffuse);
     CHECK_FALSE(sample(Mixture{.color = black}, ljus::Vec3{0, 0, 1}, ljus::Vec3{0.5f},

@@ -148,6 +148,15 @@ TEST_CASE("pair_triangles: one that has its partner does not stand in another's 
     CHECK(found.triangles.empty());
 }
 
+TEST_CASE("pair_triangles: one that has its partner is not taken once more") {
+    // Of a strip, whose every two neighbours are a parallelogram, the first three; the
+    // middle one comes first.
+    const auto found = shapes({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}},
+                              {{0, 1, 3}, {0, 3, 2}, {1, 4, 3}});
+    CHECK(found.quads.size() == 1);
+    CHECK(found.triangles.size() == 1);
+}
+
 TEST_CASE("pair_triangles: how far a corner may be off grows with the coordinates") {
     // Sums of decimals, far from 0: off by a unit in the last place of 1e6.
     const std::vector<glm::dvec3> far{

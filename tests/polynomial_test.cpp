@@ -317,6 +317,17 @@ TEST_CASE("polynomial: the first change of sign") {
     CHECK(*detail::first_change(three) == doctest::Approx(0.1).epsilon(1e-12));
 }
 
+TEST_CASE("polynomial: a touch is met wherever it is, on either side by rounding") {
+    // (u - r)^2, which is within rounding of 0 as far as 1e-7 from r.
+    for (int i = 1; i < 1000; ++i) {
+        const double r = i / 1000.0, s = 1 - r;
+        const auto met =
+            detail::first_change(detail::BernsteinT<double, 2>{{r * r, -r * s, s * s}});
+        REQUIRE(met);
+        REQUIRE(std::abs(*met - r) < 1e-7);
+    }
+}
+
 TEST_CASE("polynomial: the bound of rounding is that of the largest coefficient") {
     const double eps = std::numeric_limits<double>::epsilon();
     using P = detail::BernsteinT<double, 3>;

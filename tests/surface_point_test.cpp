@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "ljus/geometry/solid_angle.hpp"
 #include "support/numbers.hpp"
@@ -233,6 +234,24 @@ TEST_CASE_TEMPLATE("surface: slivers do not meet again what leaves them", T, flo
             CHECK(at_lamp == 0);
             CHECK(at_floor == 0);
         }
+}
+
+TEST_CASE("surface: how badly the plane between two edges is known, by hand") {
+    using V = Vec3T<double>;
+    const auto between = [](const auto& e1, const auto& e2) {
+        SurfacePointT<std::remove_cvref_t<decltype(e1.x)>> point;
+        detail::add_tilt(point, e1, e2);
+        return point;
+    };
+    const SurfacePointT<double> square = between(V{2, 0, 0}, V{0, 3, 0});
+    CHECK(square.tilt == 1);
+    CHECK(square.error == V{detail::rounding_bound<double>(9) * 5});
+    CHECK(between(V{1, 0, 0}, V{1, 1e-6, 0}).tilt == doctest::Approx(1e6 + 1));
+    // No ray meets a shape of parallel edges; what is wider than its data is exact.
+    const SurfacePointT<double> parallel = between(V{1, 2, 3}, V{2, 4, 6});
+    CHECK((parallel.tilt == 0 && parallel.error == V{0}));
+    const SurfacePoint narrow = between(Vec3{1, 0, 0}, Vec3{1, 1e-6f, 0});
+    CHECK((narrow.tilt == 0 && narrow.error == Vec3{0}));
 }
 
 TEST_CASE_TEMPLATE("surface: a ray has the time that it is given, a copy all there is",

@@ -249,10 +249,18 @@ TEST_CASE("texture: what its colour is of each material, and what the base says"
     CHECK(next->wi == right->wi);
     CHECK(next->weight == right->weight);
     CHECK_FALSE(sample(board, wo, u, Transport::radiance, Lobes::specular));
-    const Textured<Mixture, Checker> mixed{
-        {.color = Rgb{0.5f}, .emissivity = 4, .absorption = Rgb{1, 2, 3}}, {}};
+    const Mixture clear{.color = Rgb{0.5f},
+                        .transparency = 1,
+                        .emissivity = 4,
+                        .absorption = Rgb{1, 2, 3}};
+    const Textured<Mixture, Checker> mixed{clear, {}};
     CHECK(absorption(mixed) == Rgb{1, 2, 3});
     CHECK(emission(mixed) == Rgb{2});
+    for (const Transport way : {Transport::radiance, Transport::flux}) {
+        const auto through = sample(mixed, wo, u, way);
+        REQUIRE(through);
+        CHECK(through->eta_scale == sample(clear, wo, u, way)->eta_scale);
+    }
     // A pane lets through its own colour, place by place.
     const ThinGlass pane{.index = 1.5f};
     const Textured<ThinGlass, Checker> window{

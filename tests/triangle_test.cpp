@@ -475,6 +475,31 @@ TEST_CASE("triangle: the border by hand, along each axis") {
     }
 }
 
+TEST_CASE("triangle: a hit in the border has coordinates that are not below 0") {
+    // Just below 0 an image would show its other end. The rays meet the middle of an
+    // edge exactly; the products of such large whole numbers are rounded.
+    Numbers n{31};
+    const auto whole = [&] {
+        const auto part = [&] { return float(n.below(1 << 21) - (1 << 20)); };
+        const float x = part(), y = part();
+        return Vec3{x, y, part()};
+    };
+    int on_edge = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const Vec3 v1 = whole(), half = whole(), other = v1 + whole(), way = whole();
+        const Vec3 far = v1 + 2.0f * half;
+        const Ray ray{.origin = v1 + half - way, .direction = way};
+        for (const Triangle& t : {Triangle{v1, other, far}, Triangle{v1, far, other}}) {
+            const auto hit = intersect(ray, t);
+            if (!hit) continue; // a sliver, whose border is open
+            REQUIRE(hit->u >= 0);
+            REQUIRE(hit->v >= 0);
+            on_edge += hit->u == 0 || hit->v == 0;
+        }
+    }
+    CHECK(on_edge > 1000);
+}
+
 TEST_CASE("triangle: u is within [0, 1] whatever the shape asks of it and of v") {
     const auto hit = [](float x, float y) {
         return moller_trumbore<double>(down_at(x, y), {0, 0, -4}, {1, 0, 0}, {0, 1, 0},

@@ -112,3 +112,9 @@ ljus_break_it(NAME few-shapes-behind HEADER accel/few_shapes.hpp TEST index
     FROM " && ray.t_min >= 0;"
     TO   ";"
     CASES "few shapes: a ray for which*")
+
+# From far away t is rounded by more than a ball's own place.
+ljus_break_it(NAME few-shapes-far HEADER geometry/detail/shape_lanes.hpp TEST index
+    FROM "(ball.radius.lane[i] + 32 * roundoff * r.reach) * r.inverse_d"
+    TO   "ball.radius.lane[i] * r.inverse_d"
+    CASES "few shapes: the loop's answers from far away*")

@@ -141,3 +141,9 @@ ljus_break_it(NAME flatland-dark-lamp HEADER flatland/light.hpp TEST flatland
     FROM "if (!(own > 0)) continue;"
     TO   ""
     CASES "flatland: of two lamps*")
+
+# Only the last surface is remembered.
+ljus_break_it(NAME flatland-forgets HEADER flatland/path.hpp TEST flatland
+    FROM "(next->specular ? path.met_specular : path.met_diffuse) = true;"
+    TO   "path.met_diffuse = !(path.met_specular = next->specular);"
+    CASES "flatland: a path does not forget*")

@@ -87,3 +87,9 @@ ljus_break_it(NAME polygon-ear-line HEADER geometry/detail/polygon.hpp TEST load
     FROM "turn(c, a, p) >= 0"
     TO   "turn(c, a, p) > 0"
     CASES "load_obj: a corner on the line*")
+
+# An ear is cut off though a corner touches its first side.
+ljus_break_it(NAME polygon-ear-side HEADER geometry/detail/polygon.hpp TEST load_obj
+    FROM "turn(a, b, p) >= 0"
+    TO   "turn(a, b, p) > 0"
+    CASES "load_obj: no ear is cut off*")

@@ -91,3 +91,16 @@ ljus_break_it(NAME isosurface-solver HEADER geometry/isosurface.hpp TEST metabal
     FROM "std::min(rounding / glm::length(g), std::sqrt(rounding))"
     TO   "0.0"
     CASES "isosurface: what it refuses*")
+
+# The normal of the point where t led to, not of the one on the surface.
+ljus_break_it(NAME isosurface-normal-there HEADER geometry/isosurface.hpp TEST metaballs
+    FROM "if (const Wide there = gradient(x); glm::dot(there, there) > 0) g = there;"
+    TO   ""
+    CASES "metaballs: the normal is that of the point*")
+
+# A surface exactly where a span ends is passed by.
+ljus_break_it(NAME metaballs-border-of-span HEADER geometry/detail/metaball_quartic.hpp
+    TEST metaballs
+    FROM "if ((p.c[0] >= C(0)) != inside) return a;"
+    TO   ""
+    CASES "metaballs: a surface on the border*")

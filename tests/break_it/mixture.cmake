@@ -32,3 +32,9 @@ ljus_break_it(NAME mixture-density HEADER materials/mixture.hpp TEST mixture
     FROM "if (matt && !(matt->pdf > T(0))) matt.reset();"
     TO   ""
     CASES "mixture: what is sampled and no delta*")
+
+# What is thinner than air reflects as well.
+ljus_break_it(NAME mixture-lobes-thin HEADER materials/mixture.hpp TEST mixture
+    FROM "(mixture.index < T(1) || mixture.index > T(1));"
+    TO   "(mixture.index > T(1));"
+    CASES "mixture: it reports*")

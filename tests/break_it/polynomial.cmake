@@ -31,3 +31,9 @@ ljus_break_it(NAME polynomial-first-touch HEADER math/polynomial.hpp TEST polyno
     FROM "if (value <= touch && before < u && u < T(1)) return u;"
     TO   ""
     CASES "polynomial: the first change*")
+
+# Only a touch that rounding does not lift off.
+ljus_break_it(NAME polynomial-lifted-touch HEADER math/polynomial.hpp TEST polynomial
+    FROM "if (value <= touch && before < u"
+    TO   "if (value <= T(0) && before < u"
+    CASES "polynomial: a touch is met*")

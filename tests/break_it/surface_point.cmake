@@ -51,3 +51,10 @@ ljus_break_it(NAME surface-tilt-area HEADER geometry/surface_point.hpp TEST surf
     FROM "size_of(e1) * size_of(e2) / std::sqrt(glm::dot(up, up))"
     TO   "T(1)"
     CASES "surface: slivers*")
+
+# An infinite tilt of parallel edges.
+ljus_break_it(NAME surface-tilt-parallel HEADER geometry/surface_point.hpp
+    TEST surface_point
+    FROM "if (!std::isfinite(tilt)) return;"
+    TO   ""
+    CASES "surface: how badly*")

@@ -71,3 +71,9 @@ ljus_break_it(NAME load-image-size HEADER io/load_image.hpp TEST texture
     FROM "std::size_t(width) * std::size_t(height) / most > bytes.size()"
     TO   "false"
     CASES "texture: a file of many pixels*")
+
+# Photons through a textured body as if they were radiance.
+ljus_break_it(NAME textured-transport HEADER materials/textured.hpp TEST texture
+    FROM "return sample(m.base, wo, u, transport, which);"
+    TO   "return (void)transport, sample(m.base, wo, u, Transport::radiance, which);"
+    CASES "texture: what its colour is*")

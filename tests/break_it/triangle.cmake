@@ -80,3 +80,9 @@ ljus_break_it(NAME triangle-no-area-rounded HEADER geometry/surface_point.hpp
     FROM "bound * (std::abs(p) + std::abs(q))"
     TO   "0 * bound"
     CASES "triangle: no area in data*")
+
+# A coordinate just below 0, where an image begins again from its other end.
+ljus_break_it(NAME triangle-below-0 HEADER geometry/triangle.hpp TEST triangle
+    FROM "static_cast<T>(glm::max(u, C(0)))"
+    TO   "static_cast<T>(u)"
+    CASES "triangle: a hit in the border*")
