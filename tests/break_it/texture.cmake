@@ -71,3 +71,15 @@ ljus_break_it(NAME load-image-size HEADER io/load_image.hpp TEST texture
     FROM "std::size_t(width) * std::size_t(height) / most > bytes.size()"
     TO   "false"
     CASES "texture: a file of many pixels*")
+
+# A picture is as high as wide.
+ljus_break_it(NAME picture-height HEADER image/texture.hpp TEST texture
+    FROM "(T(1) - repeat(at.y)) * T(image.height)"
+    TO   "(T(1) - repeat(at.y)) * T(image.width)"
+    CASES "texture: rows and columns*")
+
+# Behind one table among the coded pixels nobody looks for another.
+ljus_break_it(NAME jpeg-second-table HEADER io/load_image.hpp TEST texture
+    FROM "coded = coded || kind == 0xda;"
+    TO   "coded = kind == 0xda;"
+    CASES "texture: the tables of a JPEG*")
