@@ -87,3 +87,9 @@ ljus_break_it(NAME polygon-ear-line HEADER geometry/detail/polygon.hpp TEST load
     FROM "turn(c, a, p) >= 0"
     TO   "turn(c, a, p) > 0"
     CASES "load_obj: a corner on the line*")
+
+# A number that begins with a plus is taken for a name.
+ljus_break_it(NAME obj-plus-exponent HEADER io/detail/obj_text.hpp TEST load_obj
+    FROM "c == '.' || c == '-' || c == '+'));"
+    TO   "c == '.' || c == '-'));"
+    CASES "load_obj: an exponent*")
