@@ -464,6 +464,9 @@ TEST_CASE("adaptive: batches fit into what is left, and double at most") {
     for (const int rays : {10, 20, 40})
         CHECK(plan({{.rays = rays, .batches = rays / 5 - 1, .variance = 1}}, fives,
                    1e4) == Wanted{rays / 5});
+    // 2 / 0.1 are twenty rays, five more; a hair above them is rounding, and no batch.
+    CHECK(plan({{.rays = 15, .batches = 2, .variance = 2}},
+               {.first = 10, .more = 5, .target = 0.1}, 1e4) == Wanted{1});
     // Of two stages the second brings all of it at once, its first batch included.
     CHECK(plan({{.rays = 10, .batches = 1, .variance = 1}},
                {.first = 10, .more = 5, .two_stage = true}, 1000) == Wanted{200});
@@ -487,6 +490,11 @@ TEST_CASE(
             CHECK(near(seen.estimate, 0.085 / (1 + epsilon) / 64, 0.02));
             CHECK_FALSE(seen.reached); // no target, none reached
         }
+    // Where rays do not differ at all, even an error of 0 is reached.
+    const Halves even{.left = 0, .right = 0};
+    const auto seen = render_adaptive(even, Camera{}, square(4, 16));
+    CHECK(seen.estimate == 0);
+    CHECK(seen.reached);
 }
 
 TEST_CASE(

@@ -296,7 +296,8 @@ TEST_CASE("hdr: what is wrong with a header or a row is said, word by word") {
           "it ends before its last row does.");
     CHECK(message(start + "\n-Y 1 +X 3\n\1\1\1" + row.substr(3)) ==
           "it has the run-length coding of before 1991, which is not read.");
-    // A coded row of 8 that says 9, or whose runs are empty or too long.
+    // A coded row of 8 that says 9, or whose first run is empty or too long, with good
+    // ones behind it.
     const std::string coded = start + "\n-Y 1 +X 8\n\2\2";
     const auto bytes = [](std::initializer_list<int> values) {
         std::string text;
@@ -309,7 +310,7 @@ TEST_CASE("hdr: what is wrong with a header or a row is said, word by word") {
     CHECK(message(coded + bytes({0, 9}) + good.substr(2)) ==
           "a row says that its width is another than the header's.");
     for (const int run : {0, 9, 128, 128 + 9})
-        CHECK(message(coded + bytes({0, 8, run}) + good.substr(3)) ==
+        CHECK(message(coded + bytes({0, 8, run}) + good.substr(2)) ==
               "a run of its coded pixels is empty or leaves its row.");
     // The second run of a row ends with it, and no later.
     for (const int run : {4, 128 + 4, 8, 128 + 8})

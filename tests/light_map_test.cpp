@@ -274,6 +274,12 @@ TEST_CASE("light_map: it comes back, bit by bit, and gives the same picture") {
     save_light_map(path, all->map, {});
     const LightMap back = load_light_map(path, {});
     CHECK(same(all->map, back));
+    // Where so many patches are allowed, and not where one fewer is.
+    const std::size_t patches = back.irradiance.size();
+    CHECK(same(back, load_light_map(path, {}, patches)));
+    CHECK_THROWS_WITH_AS((void)load_light_map(path, {}, patches - 1),
+                         doctest::Contains("it holds more patches than are allowed"),
+                         std::runtime_error);
     CHECK(load_file(path, 1'000'000).size() ==
           56 + 20 * all->map.grids.size() + 24 * all->map.irradiance.size());
     const RenderSettings picture{.width = 24, .height = 24, .samples = 1};

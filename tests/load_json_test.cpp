@@ -208,6 +208,8 @@ TEST_CASE(
           "filter that there is.");
     CHECK(refusal("\"name\": \"four things\"", "\"name\": 4") ==
           "a.json: name is 4; it must be a text in quotation marks.");
+    CHECK(refusal("\"name\": \"ball\"", "\"name\": 4") ==
+          "a.json: objects[2].name is 4; it must be a text in quotation marks.");
 }
 
 TEST_CASE("load_json: numbers of vertices are checked") {
@@ -296,6 +298,10 @@ TEST_CASE("load_json: panes, soap and gloss that keeps its light") {
               .loss.mean > 0);
 
     CHECK(refusal(film(R"(, "scale": 2)")) == "a.json: materials.glass.up is missing.");
+    CHECK(refusal(film(R"(, "level": [1, 2, 3])")) ==
+          "a.json: materials.glass.up is missing.");
+    CHECK(refusal(film(R"(, "up": [0, 5, 0])")) ==
+          "a.json: materials.glass.scale is missing.");
     CHECK(refusal(film(R"(, "scale": 2, "level": [0, 0, 0], "up": [0, 0, 0])")) ==
           "a.json: materials.glass.up is [0,0,0]; it must be a vector that is not 0.");
     CHECK(refusal(with(R"({"type": "soap-film", "ior": 1.33, "thickness_nm": -1})")) ==

@@ -517,7 +517,7 @@ TEST_CASE("load_obj: a picture that cannot be read is named with its line") {
     const auto report = [&](const std::string& name) {
         ScratchFolder::write(folder.file("m.mtl"),
                              "newmtl other\n\nnewmtl painted\nKd 0.5 0.5 0.5\nmap_Kd " +
-                                 name + "\n");
+                                 name + "\nnewmtl unused\nmap_Kd " + name + "\n");
         const auto loaded = load_obj(folder.file("wall.obj"));
         CHECK(loaded.pictures.empty());
         Scene<Shapes<Mesh>, Materials<Lambertian, ObjPicture>> scene;
@@ -660,6 +660,7 @@ TEST_CASE("load_obj: an exponent that overflows is no number, a name stays a nam
     };
     CHECK(blunt("v 0E-2147483648 1e+9999999999 1e999999999\n") ==
           "v 0x-2147483648 1x+9999999999 1e999999999\n");
+    CHECK(blunt("v +1e2147483648 -1e2147483648") == "v +1x2147483648 -1x2147483648");
     CHECK(blunt("Ns\t.5e0000000001e1") == "Ns\t.5x0000000001e1");
     CHECK(blunt("usemtl stone1e1234567890\nmap_Kd a/1e1234567890.png") ==
           "usemtl stone1e1234567890\nmap_Kd a/1e1234567890.png");

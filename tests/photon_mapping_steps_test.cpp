@@ -250,6 +250,33 @@ TEST_CASE("photon mapping: a path goes both ways eight times, and loses nothing"
     }
 }
 
+TEST_CASE("photon mapping: behind a matt surface a path goes one way at glass") {
+    // A matt floor below a pane of glass, seen from between them: both ways at the pane
+    // would be a ray more.
+    Room room;
+    room.add(Sphere{.radius = 100}, room.add(Lambertian{.albedo = Rgb{0}}), Rgb{1},
+             true);
+    room.add(Quad{{-50, -50, -3}, {100, 0, 0}, {0, 100, 0}}, room.add(Lambertian{}));
+    const auto glass = room.add(Glass{});
+    room.add(Quad{{-50, -50, 0}, {100, 0, 0}, {0, 100, 0}}, glass);
+    room.add(Quad{{-50, -50, -1}, {0, 100, 0}, {100, 0, 0}}, glass);
+    const Ray ray{.origin{0, 0, -2}, .direction{0, 0, -1}};
+    const auto seen = [&](bool split) {
+        PhotonMappingSettings settings{.split_glass = split};
+        settings.caustics.photons = 0;
+        const auto maps = make_photon_maps(room, settings);
+        const auto mapper = make_photon_mapper(room, maps, settings);
+        Rgb sum{0};
+        Counts counts;
+        for (std::uint64_t i = 0; i < 100; ++i) {
+            auto stream = random_stream(3, Pass::user, 0, i);
+            sum += radiance(mapper, ray, stream, counts);
+        }
+        return std::tuple(sum, counts.bounce_rays);
+    };
+    CHECK(seen(true) == seen(false));
+}
+
 TEST_CASE("photon mapping: where a path ends that has gathered, and who shows a lamp") {
     // A matt room: an indirect ray that gathers where it ends goes no farther; a lamp
     // is seen by the camera alone.

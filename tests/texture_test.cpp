@@ -109,6 +109,28 @@ TEST_CASE("texture: an image stands upright, is smooth between pixels, and repea
     CHECK(is_finite(at(NAN, INFINITY)));
 }
 
+TEST_CASE("texture: rows and columns of a picture that is no square") {
+    for (const int width : {2, 5}) {
+        const int height = 7 - width;
+        PictureTexture texture{.image = make_image<float>(width, height),
+                               .map = flat()};
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                pixel(texture.image, x, y) = {float(x), float(y), 0};
+        const auto at = [&](float x, float y) { // in pixels from the upper left
+            return color_at(texture, Vec3{x / float(width), 1 - y / float(height), 0});
+        };
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                CHECK(glm::distance(at(float(x) + 0.5f, float(y) + 0.5f),
+                                    Rgb{float(x), float(y), 0}) < 1e-5f);
+        // At a border the mean of both sides.
+        const float last_x = float(width - 1), last_y = float(height - 1);
+        CHECK(glm::distance(at(0, 0.5f), Rgb{last_x / 2, 0, 0}) < 1e-5f);
+        CHECK(glm::distance(at(0.5f, 0), Rgb{0, last_y / 2, 0}) < 1e-5f);
+    }
+}
+
 TEST_CASE(
     "texture: the hook gives each material its colour, and plain ones themselves") {
     const Checker board{.map = flat(), .even = Rgb{0.5f}, .odd = Rgb{1}};
@@ -466,6 +488,14 @@ TEST_CASE("texture: the tables of a JPEG file, segment by segment") {
     const Bytes bad = tables({256});
     coded.insert(coded.end(), bad.begin() + 2, bad.end());
     CHECK(trouble(coded));
+    // A good one there ends nothing: behind it what looks like a long segment is none.
+    Bytes again = tables({3});
+    again.resize(again.size() - 310);
+    again.insert(again.begin() + 2, {0xff, 0xda});
+    add(again, {7, 0xff, 0xe0, 0x7f, 0xff});
+    CHECK_FALSE(trouble(again));
+    again.insert(again.end(), bad.begin() + 2, bad.end());
+    CHECK(trouble(again));
     CHECK_FALSE(trouble({0xff, 0xd8}));
     CHECK_FALSE(trouble({0xff, 0xd8, 0xff, 0xe0, 0xff}));
 }

@@ -9,3 +9,9 @@ ljus_break_it(NAME hdr-narrow-row HEADER io/hdr.hpp TEST hdr
     FROM "width >= 8 && width <= 0x7fff"
     TO   "width <= 0x7fff"
     CASES "hdr: a row too narrow*")
+
+# A run of no pixels is passed over.
+ljus_break_it(NAME hdr-empty-run HEADER io/hdr.hpp TEST hdr
+    FROM "count == 0 || count > row.size() - x"
+    TO   "count > row.size() - x"
+    CASES "hdr: what is wrong with a header*")

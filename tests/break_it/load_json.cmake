@@ -16,3 +16,9 @@ ljus_break_it(NAME json-absorption HEADER io/detail/json_materials.hpp TEST load
     FROM [[vector_field(member(field, "absorption"), 0,]]
     TO   [[vector_field(member(field, "absorption"), -1e12,]]
     CASES "load_json: the numbers that the table*")
+
+# A film that says where it hangs and not how it grows thicker is an even one.
+ljus_break_it(NAME json-film-level HEADER io/detail/json_materials.hpp TEST load_json
+    FROM [[in.has("scale") || in.has("level") || in.has("up")]]
+    TO   [[in.has("scale") || in.has("up")]]
+    CASES "load_json: panes, soap and gloss*")

@@ -93,3 +93,10 @@ ljus_break_it(NAME polygon-ear-side HEADER geometry/detail/polygon.hpp TEST load
     FROM "turn(a, b, p) >= 0"
     TO   "turn(a, b, p) > 0"
     CASES "load_obj: no ear is cut off*")
+
+# A number that begins with a plus is taken for a name.
+ljus_break_it(NAME obj-plus-exponent HEADER io/detail/obj_text.hpp TEST load_obj
+    FROM "c == '.' || c == '-' || c == '+'));"
+    TO   "c == '.' || c == '-'));"
+    CASES "load_obj: an exponent*")
+

@@ -75,3 +75,10 @@ ljus_break_it(NAME photon-mapping-cache-lobes HEADER render/photon_mapping.hpp
     FROM "Lobes::diffuse, stream));"
     TO   "Lobes::all, stream));"
     CASES "photon mapping: who answers*")
+
+# Both ways at glass behind a matt surface, too: the same light, for more rays.
+ljus_break_it(NAME photon-mapping-split HEADER render/photon_mapping.hpp
+    TEST photon_mapping_steps
+    FROM "settings.split_glass && !path.met_diffuse &&"
+    TO   "settings.split_glass &&"
+    CASES "photon mapping: behind a matt*")

@@ -141,3 +141,9 @@ ljus_break_it(NAME facet-width HEADER math/facet.hpp TEST form_factor
     FROM "std::abs(h) <= width ? 0.0 : h"
     TO   "h"
     CASES "facet: what only touches*")
+
+# A file of a few large grids holds more patches than were allowed.
+ljus_break_it(NAME light-map-most HEADER io/light_map_file.hpp TEST light_map
+    FROM "if (patches > most)"
+    TO   "if (false)"
+    CASES "light_map: it comes back*")

@@ -78,3 +78,10 @@ ljus_break_it(NAME adaptive-second-stage HEADER render/adaptive.hpp TEST adaptiv
     FROM "estimate() <= rule.target && !rule.two_stage"
     TO   "estimate() <= rule.target"
     CASES "adaptive: of two stages the second*")
+
+# Rounding in a share of rays is a batch more.
+ljus_break_it(NAME adaptive-rounding HEADER render/detail/adaptive_blocks.hpp
+    TEST adaptive
+    FROM "std::ceil(lacking / rule.more - 1e-6)"
+    TO   "std::ceil(lacking / rule.more)"
+    CASES "adaptive: batches fit*")

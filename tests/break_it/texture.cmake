@@ -77,3 +77,16 @@ ljus_break_it(NAME textured-transport HEADER materials/textured.hpp TEST texture
     FROM "return sample(m.base, wo, u, transport, which);"
     TO   "return (void)transport, sample(m.base, wo, u, Transport::radiance, which);"
     CASES "texture: what its colour is*")
+
+# A picture is as high as wide.
+ljus_break_it(NAME picture-height HEADER image/texture.hpp TEST texture
+    FROM "(T(1) - repeat(at.y)) * T(image.height)"
+    TO   "(T(1) - repeat(at.y)) * T(image.width)"
+    CASES "texture: rows and columns*")
+
+# Behind one table among the coded pixels nobody looks for another.
+ljus_break_it(NAME jpeg-second-table HEADER io/load_image.hpp TEST texture
+    FROM "coded = coded || kind == 0xda;"
+    TO   "coded = kind == 0xda;"
+    CASES "texture: the tables of a JPEG*")
+
