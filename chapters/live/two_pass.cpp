@@ -182,8 +182,8 @@ extern "C" {
     ljus::Counts ignored;
     const auto one = picture(width, height, seed);
     const auto pattern = make_pattern(one.sampling, one.samples);
-    (void)ljus::detail::sample_pixel(*mapper, room.camera, one, pattern, x, y, 0,
-                                     ignored, log);
+    (void)ljus::detail::trace_pixel(*mapper, room.camera, one, pattern, x, y, 0,
+                                    ignored, log);
     text = "[";
     for (const ljus::PathLogLine& line : log.lines) {
         const ljus::Vec3 position(line.position);
