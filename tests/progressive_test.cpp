@@ -670,6 +670,7 @@ void check_kills(long long passes, const RenderPass& pass, double longest) {
 } // namespace
 
 TEST_CASE("progressive: killed at any moment and resumed, the bytes are the same") {
+#if !(defined(__clang__) && defined(_OPENMP)) // whose locks crash in a forked process
     // Passes of photons, of some milliseconds each.
     const Stage room = window();
     const Camera camera = patch_camera();
@@ -681,6 +682,7 @@ TEST_CASE("progressive: killed at any moment and resumed, the bytes are the same
                 {.width = 16, .height = 12, .samples = 1, .threads = 1}, i, scale);
         },
         20000);
+#endif
     // Passes that cost nothing: it is always killed while it writes.
     check_kills(100, NoisyPass{.width = 160, .height = 100}, 30000);
 }
