@@ -670,7 +670,8 @@ void check_kills(long long passes, const RenderPass& pass, double longest) {
 } // namespace
 
 TEST_CASE("progressive: killed at any moment and resumed, the bytes are the same") {
-#if !(defined(__clang__) && defined(_OPENMP)) // whose locks crash in a forked process
+    // The locks of LLVM's OpenMP crash in a forked process.
+#if !(defined(__clang__) && defined(_OPENMP))
     // Passes of photons, of some milliseconds each.
     const Stage room = window();
     const Camera camera = patch_camera();

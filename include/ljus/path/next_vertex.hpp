@@ -104,7 +104,7 @@ template <SceneLike S, std::floating_point T>
         });
 }
 
-/// The most thin surfaces that a ray passes; then its way counts as blocked.
+/// How many thin surfaces a ray passes at most; then its way counts as blocked.
 inline constexpr int max_thin_surfaces = 1000;
 
 // visibility() in a scene with thin surfaces.

@@ -17,8 +17,8 @@ namespace ljus {
 /// Chapter: \ref ch_recursion_depth.
 ///
 /// Every pixel gets a few rays, which tell how much rays differ there; the others go
-/// where they take away most of the error. RenderSettings::samples is the largest
-/// number of rays per pixel, in the mean over the picture.
+/// where they take away most of the error. The mean number of rays per pixel is
+/// at most RenderSettings::samples.
 ///
 ///     // 2 rays; 8 more where their mean has a relative standard error above 0.2
 ///     render_adaptive(mapper, camera, {.samples = 10},
