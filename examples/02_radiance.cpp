@@ -761,7 +761,7 @@ int main(int argc, char** argv) {
                         .reference{.width = 480, .height = 320, .samples = 1024}});
         if (!line.given("--shots"))
             sizes.shots = options.pick(400000, 10000000, 100000000);
-        if (!line.given("--pixels")) sizes.pixels = options.pick(160, 320, 320);
+        if (!line.given("--pixels")) sizes.pixels = options.pick(160, 400, 400);
         const std::string folder = options.path("");
         draw_solid_angle(folder);
         draw_inverse_square(folder);

@@ -143,7 +143,7 @@ void truncations(const examples::Options& options) {
     save_table(options.path(""), table);
 }
 
-/// A room with nothing but matt surfaces: walls, two balls, a lamp.
+/// A room with nothing but diffuse surfaces: walls, two balls, a lamp.
 auto matt_room() {
     ljus::Scene<ljus::Shapes<ljus::Quad, ljus::Sphere>,
                 ljus::Materials<ljus::Lambertian>>
@@ -281,11 +281,11 @@ int main(int argc, char** argv) {
         int truth = 0;
         line.about("Chapter 4, light transport: figure 2, paths by class, and FLIP.");
         line.add("--photons", photons, "Of each map; 0: by the quality", 0, 100000000);
-        line.add("--truth", truth, "Rays a pixel of the truth; 0: by the quality", 0,
+        line.add("--truth", truth, "Rays per pixel of the truth; 0: by the quality", 0,
                  1000000);
         const examples::Options options =
             line.parse({.draft{.width = 96, .height = 96, .samples = 9},
-                        .report{.width = 300, .height = 300, .samples = 64},
+                        .report{.width = 400, .height = 400, .samples = 64},
                         .reference{.width = 400, .height = 400, .samples = 1024}});
         const long long seen =
             photons != 0 ? photons : options.pick(30000LL, 300000LL, 3000000LL);

@@ -284,7 +284,7 @@ Image ball_picture(int size, int rays, std::uint64_t seed, const Material& mater
 
 /// Pictures: one gloss after the other.
 void sweep_roughness(const examples::Options& options) {
-    const int size = options.pick(150, 300, 500), rays = options.pick(20, 400, 4000);
+    const int size = options.pick(150, 400, 500), rays = options.pick(20, 400, 4000);
     const auto save = [&](const std::string& name, const auto& material) {
         save_png(ball_picture(size, rays, options.seed, material, options.threads),
                  options.path(name + ".png"));
@@ -585,7 +585,7 @@ void check(const WrongMatt&) {}
 /// The same room with each mistake; three surfaces on a path, for with the first one
 /// light grows from wall to wall.
 void picture_mistakes(const examples::Options& options) {
-    const int size = options.pick(200, 300, 500), rays = options.pick(16, 256, 2048);
+    const int size = options.pick(200, 400, 500), rays = options.pick(16, 256, 2048);
     const auto picture = [&](const std::string& name, Mistake mistake) {
         const auto matt = [&](float r, float g, float b) {
             return WrongMatt{{r, g, b}, mistake};

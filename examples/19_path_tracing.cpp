@@ -49,7 +49,7 @@ struct Sizes {
 
 // --- Scenes ---------------------------------------------------------------------------
 
-/// A room with nothing but matt surfaces, its front open.
+/// A room with nothing but diffuse surfaces, its front open.
 auto matt_room() {
     ljus::Room<
         ljus::Scene<ljus::Shapes<Quad, Sphere>, ljus::Materials<ljus::Lambertian>>>
@@ -78,7 +78,7 @@ ljus::Camera low_camera() {
 /// differ in their seeds.
 struct Noise {
     double rms = 0;     ///< Of one picture.
-    double rays = 0;    ///< Of all kinds, a camera ray.
+    double rays = 0;    ///< Of all kinds, per camera ray.
     double seconds = 0; ///< Of processor time, for both.
     Image image{};      ///< The first.
     Image other{};      ///< The second.
@@ -124,7 +124,7 @@ const std::array ways{
     Way{"shadow rays alone", "shadow", {.heuristic = MisHeuristic::shadow_rays}},
     Way{"both by balance", "balance"},
     Way{"both by power", "power", {.heuristic = MisHeuristic::power}}};
-/// The matt room by each way, and its noise against rays.
+/// The diffuse room by each way, and its noise against rays.
 void in_the_room(const examples::Options& options, const Sizes& sizes) {
     const auto room = matt_room();
     const ljus::RenderSettings picture{options.width, options.height, options.samples,
@@ -329,7 +329,7 @@ void depths(const examples::Options& options, const Sizes& sizes) {
     examples::Plot plot{.name = "path_tracing-depth",
                         .columns = {"largest depth", "furnace of albedo 0.5",
                                     "furnace of albedo 0.75", "furnace of albedo 0.9",
-                                    "the matt room"},
+                                    "the diffuse room"},
                         .y_label = "share of the light that is missing",
                         .log_y = true,
                         .more = "set yrange [1e-5:1]\n"};
@@ -558,7 +558,7 @@ void speed(const examples::Options& options) {
                               text(double(seen.counts.camera_rays) / seconds, "%.2f")});
     };
     for (const int threads : {1, 2}) {
-        measure("matt", matt, threads);
+        measure("diffuse", matt, threads);
         measure("with mirror and glass", cornell, threads);
     }
     save_table(options.path(""), table);
@@ -580,7 +580,7 @@ int main(int argc, char** argv) {
         line.add("--paths", sizes.paths, "Paths per run; 0: by quality", 0, 10000000);
         const examples::Options options =
             line.parse({.draft{.width = 120, .height = 120, .samples = 9},
-                        .report{.width = 360, .height = 360, .samples = 64},
+                        .report{.width = 400, .height = 400, .samples = 64},
                         .reference{.width = 480, .height = 480, .samples = 1024}});
         if (sizes.most == 0) sizes.most = options.pick(16, 256, 1024);
         if (sizes.runs == 0) sizes.runs = options.pick(21, 101, 1001);

@@ -11,6 +11,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <ljus/image/flip.hpp>
@@ -62,7 +63,7 @@ struct Shot {
 struct Method {
     std::string name; ///< As in plots.
     std::string file; ///< As in names of files.
-    /// Renders a room. `effort` is a number of rays a pixel, or as much work; cameras:
+    /// Renders a room. `effort` is a number of rays per pixel, or as much work; cameras:
     /// one picture each from one solution.
     std::function<std::vector<Shot>(const Cornell&, const std::vector<Camera>&,
                                     double effort, std::uint64_t seed)>
@@ -226,7 +227,7 @@ struct Study {
     ImageT<double> truth{};                ///< By another renderer, with other seeds.
     double noise = 0;                      ///< Of the truth, as relMSE.
     double block_noise = 0;                ///< The same of its blocks.
-    std::vector<std::vector<Rung>> runs{}; ///< One list a method.
+    std::vector<std::vector<Rung>> runs{}; ///< One list per method.
 };
 
 /// Paths of which every number, at every surface, is shared out evenly among the rays of
@@ -274,33 +275,42 @@ Rgb radiance(const Judge& judge, const Ray& ray, StratifiedStream& stream,
 }
 // [judge]
 
+/// A room by the judge.
+/// \param photons  Of the caustics map.
+/// \param radius   Of its discs, m.
+/// \param options  Its size, and the number of threads.
+Image judged(const Room<Cornell>& room, int rays, long long photons, float radius,
+             std::uint64_t seed, const examples::Options& options) {
+    const PhotonMappingSettings settings{.indirect = IndirectLight::rays,
+                                         .caustics{.photons = photons, .seed = seed},
+                                         .caustics_estimate{.radius = radius}};
+    const auto maps = make_photon_maps(room.scene, settings);
+    examples::ProgressBar bar("reference", options.quiet);
+    const Judge judge{.scene = detail::IndexedT<Cornell>(room.scene),
+                      .caustics = maps.caustics,
+                      .gather = settings.caustics_estimate};
+    auto rendered = render(judge, room.camera,
+                           {.width = options.width,
+                            .height = options.height,
+                            .samples = rays,
+                            .seed = seed,
+                            .threads = options.threads,
+                            .progress = bar});
+    examples::stop_if_asked();
+    return std::move(rendered.image);
+}
+
 /// The truth: the mean of eight pictures, which tell its own error.
-void find_truth(Study& study, int rays, const examples::Options& options) {
+/// \param panels  As options, but with the size of what is shown.
+void find_truth(Study& study, int rays, const examples::Options& options,
+                const examples::Options& panels) {
     constexpr int parts = 8;
-    const Cornell& scene = study.room.scene;
+    const int part = std::max(1, rays / parts);
+    const float radius = 0.6f / float(options.width);
     std::vector<Image> runs;
-    for (std::uint64_t number = 0; number < parts; ++number) {
-        const int part = std::max(1, rays / parts);
-        const std::uint64_t seed = options.seed + 1000 + number;
-        const PhotonMappingSettings settings{
-            .indirect = IndirectLight::rays,
-            .caustics{.photons = 400LL * part, .seed = seed},
-            .caustics_estimate{.radius = 0.6f / float(options.width)}};
-        const auto maps = make_photon_maps(scene, settings);
-        examples::ProgressBar bar("reference", options.quiet);
-        runs.push_back(render(Judge{.scene = detail::IndexedT<Cornell>(scene),
-                                    .caustics = maps.caustics,
-                                    .gather = settings.caustics_estimate},
-                              study.room.camera,
-                              {.width = options.width,
-                               .height = options.height,
-                               .samples = part,
-                               .seed = seed,
-                               .threads = options.threads,
-                               .progress = bar})
-                           .image);
-        examples::stop_if_asked();
-    }
+    for (std::uint64_t number = 0; number < parts; ++number)
+        runs.push_back(judged(study.room, part, 400LL * part, radius,
+                              options.seed + 1000 + number, options));
     study.truth = {options.width, options.height,
                    std::vector<RgbT<double>>(runs[0].pixels.size())};
     for (const Image& run : runs)
@@ -309,7 +319,8 @@ void find_truth(Study& study, int rays, const examples::Options& options) {
     study.noise = examples::relative_split(runs, study.truth).variance / parts;
     study.block_noise =
         examples::relative_split(runs, study.truth, 0, 10).variance / parts;
-    save_png(study.truth, options.path("side_by_side-" + study.name + "-truth.png"));
+    save_png(judged(study.room, part, 400LL * rays, radius, options.seed + 900, panels),
+             options.path("side_by_side-" + study.name + "-truth.png"));
 }
 
 /// Runs all methods, rung by rung.
@@ -446,7 +457,7 @@ Shot panel(const Study& study, const Method& method, double effort,
 }
 
 /// The effort that takes a time: between rungs a straight line, beyond them the power law
-/// of the last two, or in proportion if that is less. At least 1 ray a pixel.
+/// of the last two, or in proportion if that is less. At least 1 ray per pixel.
 double effort_for(const std::vector<Rung>& rungs, double seconds) {
     const Rung &last = rungs.back(), &before = rungs[rungs.size() - 2];
     if (seconds >= last.seconds) {
@@ -464,9 +475,10 @@ double effort_for(const std::vector<Rung>& rungs, double seconds) {
     return 1;
 }
 
-/// All renderers, each as good as it gets in the same time.
+/// All renderers, each as good as it gets in the same time; `larger`: what is shown of the
+/// first of the times, in more pixels by the same effort.
 void equal_time(const Study& study, const std::vector<Method>& all,
-                const examples::Options& options) {
+                const std::vector<Method>& larger, const examples::Options& options) {
     examples::Table table{
         .name = "side_by_side-" + study.name + "-time",
         .columns = {"", "budget, s", "taken, s", "rays per pixel", "photons", "relMSE",
@@ -475,12 +487,12 @@ void equal_time(const Study& study, const std::vector<Method>& all,
         options.pick<std::vector<double>>({0.1}, {1, 10}, {1, 10, 100});
     for (std::size_t b = 0; b < budgets.size(); ++b)
         for (std::size_t k = 0; k < all.size(); ++k) {
-            const Shot shot =
-                panel(study, all[k],
-                      std::min(effort_for(study.runs[k], budgets[b]), 1e6), options);
-            std::string name = "side_by_side-" + study.name + "-time-" + all[k].file;
-            if (b > 0) name.append("-").append(std::to_string(b));
-            save_png(shot.image, options.path(name + ".png"));
+            const double effort = std::min(effort_for(study.runs[k], budgets[b]), 1e6);
+            const Shot shot = panel(study, all[k], effort, options);
+            if (b == 0)
+                save_png(panel(study, larger[k], effort, options).image,
+                         options.path("side_by_side-" + study.name + "-time-" +
+                                      all[k].file + ".png"));
             const double pixels = double(options.width) * options.height;
             const double error = rel_mse(shot.image, study.truth) - study.noise;
             table.rows.push_back(
@@ -496,9 +508,9 @@ void equal_time(const Study& study, const std::vector<Method>& all,
     save_table(options.out, table);
 }
 
-/// Time and rays that each needs for an error, and pictures that have one of them.
+/// Time and rays that each needs for an error, and pictures by the effort for one of them.
 void equal_error(const Study& study, const std::vector<Method>& all,
-                 const examples::Options& options) {
+                 const std::vector<Method>& larger, const examples::Options& options) {
     examples::Table table{.name = "side_by_side-" + study.name + "-error",
                           .columns = {""}};
     struct Target {
@@ -531,14 +543,11 @@ void equal_error(const Study& study, const std::vector<Method>& all,
         const double effort =
             examples::reach(column(rungs, [](const Rung& r) { return r.effort; }),
                             errors(rungs, targets[1].block), targets[1].error);
-        const Shot shot = panel(
-            study, all[k], std::isnan(effort) ? rungs.back().effort : effort, options);
+        const Shot shot =
+            panel(study, larger[k], std::isnan(effort) ? rungs.back().effort : effort,
+                  options);
         save_png(shot.image, options.path("side_by_side-" + study.name + "-error-" +
                                           all[k].file + ".png"));
-        if (!options.quiet)
-            std::printf("%s, equal error, %s: relMSE %.4f, %.3f s\n",
-                        study.name.c_str(), all[k].name.c_str(),
-                        rel_mse(shot.image, study.truth), shot.seconds());
     }
     save_table(options.out, table);
 }
@@ -682,7 +691,8 @@ void class_table(const Study& study, const examples::Options& options,
 
 /// What the first view costs, what each further one does, and what is kept for it.
 void views(const Study& study, const std::vector<Method>& all,
-           const examples::Options& options, const Sizes& sizes) {
+           const std::vector<Method>& larger, const examples::Options& options,
+           const Sizes& sizes) {
     constexpr int count = 5;
     std::vector<Camera> cameras;
     for (int i = 0; i < count; ++i) {
@@ -697,7 +707,8 @@ void views(const Study& study, const std::vector<Method>& all,
                                       "a further view over the first", "kept",
                                       "while it is made"}};
     const double effort = std::pow(4.0, sizes.rungs - 1);
-    for (const Method& method : all) {
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const Method& method = all[k];
         if (method.file == "whitted" || method.file == "distributed") continue;
         const auto shots =
             method.shoot(study.room.scene, cameras, effort, options.seed);
@@ -714,11 +725,14 @@ void views(const Study& study, const std::vector<Method>& all,
                               examples::text(view, "%.3f"),
                               examples::text(view / (solution + view), "%.2f"),
                               size(shots[0].memory), size(shots[0].working)});
-        if (method.file == "seen" || method.file == "radiosity")
+        if (method.file == "seen" || method.file == "radiosity") {
+            const auto shown =
+                larger[k].shoot(study.room.scene, cameras, effort, options.seed);
             for (int i = 0; i < count; i += 2)
-                save_png(shots[std::size_t(i)].image,
+                save_png(shown[std::size_t(i)].image,
                          options.path("side_by_side-" + study.name + "-view-" +
                                       method.file + "-" + std::to_string(i) + ".png"));
+        }
         if (!options.quiet)
             std::printf("%s, views, %s: solution %s s, view %s s, ratio %s, kept %s, "
                         "working %s\n",
@@ -753,18 +767,21 @@ int main(int argc, char** argv) {
         if (!line.given("--seeds")) sizes.seeds = options.pick(3, 6, 12);
         if (!line.given("--truth")) sizes.truth = options.pick(1000, 8000, 100000);
 
-        const auto all = methods(options);
+        examples::Options panels = options; // the size of what is shown
+        panels.width *= options.pick(1, 4, 2);
+        panels.height *= options.pick(1, 4, 2);
+        const auto all = methods(options), larger = methods(panels);
         for (const bool matt : {true, false}) {
             Study study{.name = matt ? "matt" : "glass",
                         .room = matt ? matt_cornell_box() : cornell_box()};
-            find_truth(study, sizes.truth, options);
+            find_truth(study, sizes.truth, options, panels);
             climb(study, all, options, sizes);
             plots(study, all, options);
             split_table(study, all, options);
-            equal_time(study, all, options);
-            equal_error(study, all, options);
+            equal_time(study, all, larger, options);
+            equal_error(study, all, larger, options);
             class_table(study, options, sizes);
-            views(study, all, options, sizes);
+            views(study, all, larger, options, sizes);
         }
     });
 }

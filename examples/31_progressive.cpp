@@ -514,15 +514,32 @@ void run_seeds(std::vector<Milestone>& milestones, const Box& box, const Camera&
             at.megabytes = peak_megabytes();
             at.estimate = estimate_error(state).pixels;
             at.radius = std::sqrt(state.shrink);
-            for (const long long shown : {1LL, 10LL, 100LL, 1000LL})
-                if (at.passes == shown)
-                    save_png(at.runs[0], options.path("progressive-" +
-                                                      std::to_string(shown) + ".png"));
         };
         run_to(milestones, seed == 1 ? milestones.back().passes : split_at, {}, pass,
                examples::ProgressBar("seed " + std::to_string(seed), options.quiet),
                keep);
     }
+}
+
+/// The passes as one looks at them, in larger pictures than those that are measured.
+void show_passes(const Box& box, const Camera& camera, examples::Options options,
+                 long long passes) {
+    options.width = options.height = options.pick(64, 400, 400);
+    const auto pass = [&](long long i, double scale) {
+        return photon_mapping_pass(box, camera, pass_settings(options, options.seed),
+                                   picture_settings(options, 1, options.seed), i,
+                                   scale);
+    };
+    std::vector<Milestone> shown;
+    for (const long long count : {1LL, 10LL, 100LL, passes})
+        if (count <= passes) shown.push_back({count});
+    run_to(shown, passes, {}, pass, examples::ProgressBar("pictures", options.quiet),
+           [&](const Milestone& at, const ProgressiveState& state) {
+               const bool last = &at == &shown.back();
+               const std::string name = last ? "last" : std::to_string(at.passes);
+               save_png(mean_image(state),
+                        options.path("progressive-" + name + ".png"));
+           });
 }
 
 /// The same passes with the exponent that edges like better.
@@ -648,10 +665,9 @@ void pictures(const examples::Options& options, const Sizes& sizes) {
     const long long split_at = options.pick(4, 64, 256);
     std::vector<Milestone> all;
     for (const long long passes : milestones(sizes.passes)) all.push_back({passes});
+    show_passes(box, room.camera, options, sizes.passes);
     run_seeds(all, box, room.camera, options, sizes.seeds, split_at);
     run_faster(all, box, room.camera, options, truth);
-    save_png(all.back().runs[0], options.path("progressive-last.png"));
-    save_png(truth.image, options.path("progressive-reference.png"));
     save_errors(all, truth, options);
 
     long long compared = all.front().passes; // the last milestone of all seeds

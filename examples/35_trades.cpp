@@ -336,8 +336,8 @@ double promises(Sweep& sweep, const std::string& name, const Room& room,
 template <typename Room>
 void panels(Sweep& sweep, const Room& room, float unit) {
     const examples::Options& options = sweep.options;
-    const int size = options.pick(60, 200, 300);
-    const double seconds = options.pick(0.5, 5.0, 20.0);
+    const int size = options.pick(60, 400, 400);
+    const double seconds = options.pick(0.5, 20.0, 20.0);
     for (const Setting& way : settings_of("preset", unit, size, true)) {
         sweep.add(seconds);
         if (!sweep.bar) continue;
