@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
         const auto* from = static_cast<unsigned char*>(data);
         bytes.insert(bytes.end(), from, from + size);
     };
-    for (int quality = 95; quality >= 40; quality -= 5) {
+    for (int quality = 90; quality >= 40; quality -= 5) {
         file.clear();
         stbi_write_jpg_to_func(append, &file, width, height, 3, pixels, quality);
         if (file.size() <= most) break;
