@@ -443,7 +443,7 @@ ljusLive.define("two_pass", figure => {
             shownError.value = e >= 0 ? e.toPrecision(2) : "…";
             shownRays.value = perPixel.toFixed(perPixel < 10 ? 1 : 0);
             const seconds = (performance.now() - since) / 1000;
-            shownSpeed.value = (rays / seconds / 1e6).toFixed(2);
+            shownSpeed.value = seconds > 0 ? (rays / seconds / 1e6).toFixed(2) : "…";
             rays = 0;
             since = performance.now();
         }
