@@ -182,7 +182,7 @@ void other_rooms(const Run& run) {
     };
     surface("albedo 0", {.albedo = 0});
     surface("albedo 1", {.albedo = 1});
-    surface("matt, roughness 1", {.matt = 1});
+    surface("diffuse, roughness 1", {.matt = 1});
     surface("mirror, roughness 0.01", {.gloss = 0.01});
     surface("mirror, roughness 1", {.gloss = 1});
     for (const double index : {1.0, 1.0 + 1e-6, 1.5, 10.0, 1000.0})

@@ -225,7 +225,7 @@ template <SceneLike S>
     detail::say(all, static_cast<long long>(scene.lights.size()) - lamps,
                 " light is no surface", " lights are no surfaces");
     require(!all.patches.empty(), "the number of patches", 0LL,
-            "at least 1: a matt quad, triangle or ball that sees another");
+            "at least 1: a diffuse quad, triangle or ball that sees another");
     return all;
 }
 
