@@ -125,8 +125,8 @@ TEST_CASE("patches: what there is, and what is left out") {
     const auto white = odd.add(Lambertian{});
     odd.add(Quad{}, white);
     CHECK(refusal([&] { (void)make_patches(odd); }) ==
-          "the number of patches is 0; it must be at least 1: a matt quad, triangle or "
-          "ball that sees another.");
+          "the number of patches is 0; it must be at least 1: a diffuse quad, triangle "
+          "or ball that sees another.");
     odd.add(Quad{.corner{0, 0, 1}, .edge_u{1, 0, 0}, .edge_v{1, 0, 0}}, white);
     odd.add(Triangle{{0, 0, 2}, {0, 1, 2}, {1, 0, 2}}, white);
     const Patches two = make_patches(odd, {.size = 10});
