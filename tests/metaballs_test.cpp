@@ -231,6 +231,23 @@ TEST_CASE("metaballs: more than 16 blobs on a ray go to the heap and stay the sa
         REQUIRE(a.has_value() == b.has_value());
         if (a) CHECK(*a == doctest::Approx(double(*b)).epsilon(1e-5));
     }
+    // And so do those that differ, in whatever order they stand.
+    Metaballs one_way{};
+    for (int i = 0; i < 40; ++i)
+        one_way.blobs.push_back({.center = Vec3(Point{0, 0, -4} + n.point(0.3)),
+                                 .weight = float(n.between(-0.05, 0.1))});
+    const Metaballs other_way{.blobs{one_way.blobs.rbegin(), one_way.blobs.rend()}};
+    int hits = 0;
+    for (int i = 0; i < 300; ++i) {
+        const Ray ray{.direction = Vec3(Point{0, 0, -4} + n.point(0.6))};
+        const auto a = intersect(ray, one_way), b = intersect(ray, other_way);
+        REQUIRE(a.has_value() == b.has_value());
+        if (!a) continue;
+        ++hits;
+        CHECK(*a == doctest::Approx(double(*b)).epsilon(1e-6));
+        CHECK(std::abs(field(one_way, Point(point_at(ray, *a)))) < 1e-5);
+    }
+    CHECK(hits > 100);
 }
 
 TEST_CASE("metaballs: the bounding sphere holds every hit, and is tight for one blob") {
@@ -346,8 +363,10 @@ TEST_CASE("metaballs: refused are those without a surface, with a sentence") {
     CHECK(message(Metaballs{}).find("the sum of the positive weights") == 0);
     CHECK(message({.blobs{{.weight = 0.25f}}}).find("above metaballs.level") !=
           std::string::npos);
-    // What a carving blob takes away is no part of the sum.
+    // What a carving blob takes away is no part of the sum, nor does it add to it.
     CHECK(message({.blobs{{}, {.weight = -0.9f}}}) == "accepted");
+    CHECK(message({.blobs{{.weight = 0.2f}, {.weight = -9}}}).find("is 0.2;") !=
+          std::string::npos);
     CHECK(message({.blobs{{.weight = 3e38f}, {.weight = 3e38f}}}).find("finite") !=
           std::string::npos);
     CHECK(message({.blobs{{}}, .level = 0}) ==

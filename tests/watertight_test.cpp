@@ -165,6 +165,20 @@ TEST_CASE("watertight: the range of the ray decides") {
     CHECK_FALSE(hit(0, not_a_number));
 }
 
+TEST_CASE("watertight: a direction so short that float has no inverse of it") {
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float length : {1e-40f, -1e-44f}) {
+            Ray ray{.direction = Vec3{0}};
+            ray.direction[axis] = length;
+            Triangle t{Vec3{-1e-9f}, Vec3{-1e-9f}, Vec3{-1e-9f}};
+            t.v1[axis] = t.v2[axis] = t.v3[axis] = length * 0x1p30f;
+            t.v2[(axis + 1) % 3] = t.v3[(axis + 2) % 3] = 1e-8f;
+            const auto hit = intersect<Watertight>(ray, t);
+            REQUIRE(hit);
+            CHECK(hit->t == 0x1p30f);
+        }
+}
+
 TEST_CASE_TEMPLATE("watertight: invalid data are a miss", T, float, double) {
     constexpr T infinity = std::numeric_limits<T>::infinity();
     constexpr T not_a_number = std::numeric_limits<T>::quiet_NaN();
