@@ -5,6 +5,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
@@ -734,4 +736,36 @@ TEST_CASE("metaballs: the sphere around one blob is rounded up, never down") {
         CHECK((long double)(ball.radius) <= right * (1 + 1e-6L));
         CHECK(glm::distance(ball.center, blob.center) <= 1e-6f * ball.radius);
     }
+}
+
+TEST_CASE("metaballs: what the ray leaves last may stand first in the list") {
+    const Metaballs two{.blobs{{.center{0, 0, -6}}, {.center{0, 0, -3}}}};
+    with_all_solvers([&](auto solver) {
+        const auto second = intersect(Ray{.t_min = 4}, two, solver);
+        REQUIRE(second);
+        CHECK(*second == doctest::Approx(6 - std::sqrt(0.5)).epsilon(1e-6));
+    });
+}
+
+TEST_CASE("metaballs: the formula's roots, leaning to either side, and the first") {
+    for (const bool mirrored : {false, true}) {
+        std::array<double, 4> right{0.1, 0.3, 0.4, 0.9};
+        if (mirrored) right = {0.1, 0.6, 0.7, 0.9};
+        std::array<double, 5> c{1, 0, 0, 0, 0}; // the product of x - root
+        for (const double root : right)
+            for (std::size_t i = 5; i-- > 0;)
+                c[i] = (i > 0 ? c[i - 1] : 0) - root * c[i];
+        const auto found = detail::quartic_formula(c);
+        REQUIRE(found.count == 4);
+        std::array<double, 4> sorted = found.at;
+        std::sort(sorted.begin(), sorted.end());
+        for (std::size_t i = 0; i < 4; ++i)
+            CHECK(sorted[i] == doctest::Approx(right[i]).epsilon(1e-6));
+    }
+    // (x - 0.2) (x - 0.4) (x - 0.6) (x - 0.8), in Bernstein's form.
+    const detail::BernsteinT<double, 4> p{
+        .c{0.0384, -0.0616, 0.0384 - 0.2 + 1.4 / 6, -0.0616, 0.0384}};
+    const auto first = detail::first_change(Radicals{}, p);
+    REQUIRE(first);
+    CHECK(*first == doctest::Approx(0.2).epsilon(1e-6));
 }
