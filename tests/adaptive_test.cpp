@@ -127,6 +127,10 @@ TEST_CASE("adaptive: rays are shared out by the root of the variance") {
     const auto rest = detail::ray_shares(Parts{{3, 1, 1000}, {1, 16, 1}}, 0.01, 1e9);
     CHECK(rest[0] == 1000);
     CHECK(rest[1] == doctest::Approx(16 / (0.04 - 0.003)));
+    // If what is settled alone is above the target, the rest gets all that is left.
+    const auto all = detail::ray_shares(Parts{{1, 4, 1000}, {1, 1, 1}}, 0.001, 700);
+    CHECK(all[0] == 1000);
+    CHECK(all[1] == doctest::Approx(400));
     // Nothing to gain, and nothing at all.
     CHECK(detail::ray_shares(Parts{{1, 0, 7}}, 0.01, 100) == std::vector<double>{7});
     CHECK(detail::ray_shares({}, 0.01, 100).empty());

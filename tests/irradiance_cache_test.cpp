@@ -150,6 +150,16 @@ TEST_CASE("irradiance cache: what is known is taken, what is not is gathered") {
     CHECK(find(0.8f, counts) == doctest::Approx(1)); // neither reaches: 0.5 times 2
     CHECK(counts.bounce_rays == 9);
     CHECK(counts.map_queries == 11);
+    // From below it is the points of that side that answer.
+    const Ray from_below{.origin{0, 0, -1}, .direction{0, 0, 1}};
+    const Vertex other_side =
+        vertex_at(scene, from_below, *closest_hit(scene, from_below));
+    cache = cache_of({{0, 0, 0}, {0, 0, 0}}, {{Rgb{1}, up, 9, 1}, {Rgb{3}, -up, 9, 1}});
+    auto stream = random_stream(1, Pass::user, 0, 0);
+    counts = {};
+    CHECK(irradiance_between(scene, points, cache, other_side, {}, stream, counts).x ==
+          3);
+    CHECK(counts.bounce_rays == 0);
 }
 
 TEST_CASE("irradiance cache: points where a camera ray meets something matt") {

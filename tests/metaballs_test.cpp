@@ -5,6 +5,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
@@ -231,6 +233,23 @@ TEST_CASE("metaballs: more than 16 blobs on a ray go to the heap and stay the sa
         REQUIRE(a.has_value() == b.has_value());
         if (a) CHECK(*a == doctest::Approx(double(*b)).epsilon(1e-5));
     }
+    // And so do those that differ, in whatever order they stand.
+    Metaballs one_way{};
+    for (int i = 0; i < 40; ++i)
+        one_way.blobs.push_back({.center = Vec3(Point{0, 0, -4} + n.point(0.3)),
+                                 .weight = float(n.between(-0.05, 0.1))});
+    const Metaballs other_way{.blobs{one_way.blobs.rbegin(), one_way.blobs.rend()}};
+    int hits = 0;
+    for (int i = 0; i < 300; ++i) {
+        const Ray ray{.direction = Vec3(Point{0, 0, -4} + n.point(0.6))};
+        const auto a = intersect(ray, one_way), b = intersect(ray, other_way);
+        REQUIRE(a.has_value() == b.has_value());
+        if (!a) continue;
+        ++hits;
+        CHECK(*a == doctest::Approx(double(*b)).epsilon(1e-6));
+        CHECK(std::abs(field(one_way, Point(point_at(ray, *a)))) < 1e-5);
+    }
+    CHECK(hits > 100);
 }
 
 TEST_CASE("metaballs: the bounding sphere holds every hit, and is tight for one blob") {
@@ -346,8 +365,10 @@ TEST_CASE("metaballs: refused are those without a surface, with a sentence") {
     CHECK(message(Metaballs{}).find("the sum of the positive weights") == 0);
     CHECK(message({.blobs{{.weight = 0.25f}}}).find("above metaballs.level") !=
           std::string::npos);
-    // What a carving blob takes away is no part of the sum.
+    // What a carving blob takes away is no part of the sum, nor does it add to it.
     CHECK(message({.blobs{{}, {.weight = -0.9f}}}) == "accepted");
+    CHECK(message({.blobs{{.weight = 0.2f}, {.weight = -9}}}).find("is 0.2;") !=
+          std::string::npos);
     CHECK(message({.blobs{{.weight = 3e38f}, {.weight = 3e38f}}}).find("finite") !=
           std::string::npos);
     CHECK(message({.blobs{{}}, .level = 0}) ==
@@ -715,4 +736,36 @@ TEST_CASE("metaballs: the sphere around one blob is rounded up, never down") {
         CHECK((long double)(ball.radius) <= right * (1 + 1e-6L));
         CHECK(glm::distance(ball.center, blob.center) <= 1e-6f * ball.radius);
     }
+}
+
+TEST_CASE("metaballs: what the ray leaves last may stand first in the list") {
+    const Metaballs two{.blobs{{.center{0, 0, -6}}, {.center{0, 0, -3}}}};
+    with_all_solvers([&](auto solver) {
+        const auto second = intersect(Ray{.t_min = 4}, two, solver);
+        REQUIRE(second);
+        CHECK(*second == doctest::Approx(6 - std::sqrt(0.5)).epsilon(1e-6));
+    });
+}
+
+TEST_CASE("metaballs: the formula's roots, leaning to either side, and the first") {
+    for (const bool mirrored : {false, true}) {
+        std::array<double, 4> right{0.1, 0.3, 0.4, 0.9};
+        if (mirrored) right = {0.1, 0.6, 0.7, 0.9};
+        std::array<double, 5> c{1, 0, 0, 0, 0}; // the product of x - root
+        for (const double root : right)
+            for (std::size_t i = 5; i-- > 0;)
+                c[i] = (i > 0 ? c[i - 1] : 0) - root * c[i];
+        const auto found = detail::quartic_formula(c);
+        REQUIRE(found.count == 4);
+        std::array<double, 4> sorted = found.at;
+        std::sort(sorted.begin(), sorted.end());
+        for (std::size_t i = 0; i < 4; ++i)
+            CHECK(sorted[i] == doctest::Approx(right[i]).epsilon(1e-6));
+    }
+    // (x - 0.2) (x - 0.4) (x - 0.6) (x - 0.8), in Bernstein's form.
+    const detail::BernsteinT<double, 4> p{
+        .c{0.0384, -0.0616, 0.0384 - 0.2 + 1.4 / 6, -0.0616, 0.0384}};
+    const auto first = detail::first_change(Radicals{}, p);
+    REQUIRE(first);
+    CHECK(*first == doctest::Approx(0.2).epsilon(1e-6));
 }

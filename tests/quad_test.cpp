@@ -173,3 +173,42 @@ TEST_CASE("quad: without an area in exact arithmetic it is never hit") {
         REQUIRE_FALSE(intersect(ray, quad));
     }
 }
+
+TEST_CASE("quad: what meets an edge or a corner exactly is a hit") {
+    // Whole numbers so large that the products of three are rounded, in double too.
+    Numbers n{31};
+    const auto whole = [&] {
+        const auto part = [&] { return float(n.below(1 << 21) - (1 << 20)); };
+        const float x = part(), y = part();
+        return Vec3{x, y, part()};
+    };
+    int rays = 0, open = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const Vec3 corner = whole(), half_u = whole(), half_v = whole(), way = whole();
+        const Quad quad{corner, 2.0f * half_u, 2.0f * half_v};
+        for (const float x : {0.0f, 1.0f, 2.0f})
+            for (const float y : {0.0f, 1.0f, 2.0f}) {
+                const Vec3 at = corner + x * half_u + y * half_v;
+                const auto hit =
+                    intersect(Ray{.origin = at - way, .direction = way}, quad);
+                ++rays;
+                open += !hit; // slivers alone: the border of all others is closed
+                if (!hit) continue;
+                REQUIRE(hit->u >= 0);
+                REQUIRE(hit->v >= 0);
+            }
+    }
+    CHECK(open < rays / 100);
+}
+
+TEST_CASE("quad: a point of doubles tells how badly the plane is known") {
+    const auto tilt = [](auto one) {
+        const QuadT<decltype(one)> quad{{5, 6, 7}, {2, 0, 0}, {4, one / 1024, 0}};
+        CHECK(sample_area(quad, {one / 4, one / 2}).tilt ==
+              point_at(quad, one, one).tilt);
+        return point_at(quad, one / 4, one / 2).tilt;
+    };
+    // The sizes of the edges over the area between them: 2 (4 + 1/1024) 1024 / 2.
+    CHECK(tilt(1.0) == 4097);
+    CHECK(tilt(1.0f) == 0); // a test in double does not turn it
+}

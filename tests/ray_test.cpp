@@ -12,6 +12,18 @@
 
 using namespace ljus;
 
+namespace {
+
+/// A shape that is met as far away as its test is large.
+struct AsTold {};
+
+template <typename Test = char, std::floating_point T>
+std::optional<T> intersect(const RayT<T>&, const AsTold&) {
+    return T(sizeof(Test));
+}
+
+} // namespace
+
 TEST_CASE("ray: the point at t is O + tD, whatever the length of D") {
     constexpr Ray ray{.origin = {1, 2, 3}, .direction = {0, 0, -2}};
     static_assert(point_at(ray, 0.0f) == Vec3{1, 2, 3});
@@ -82,4 +94,11 @@ TEST_CASE("ray: what is no ray meets nothing") {
     CHECK_FALSE(meets(ray));
     ray = down, ray.t_max = not_a_number;
     CHECK_FALSE(meets(ray));
+}
+
+TEST_CASE(
+    "ray: what has no use for what was prepared is still asked by the same test") {
+    const Ray ray;
+    CHECK(*intersect<float>(ray, AsTold{}, prepare<float>(ray)) == 4);
+    CHECK(*intersect<double>(ray, AsTold{}, prepare<double>(ray)) == 8);
 }

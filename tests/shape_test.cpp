@@ -326,6 +326,8 @@ TEST_CASE_TEMPLATE("shape: a moving one is where its time says, and in its bound
                          "moving.way is (0, NaN, 0); it must be finite in every "
                          "component.",
                          std::invalid_argument);
+    const S nowhere = translated(any(), Vec3{0, infinity, 0}); // refused as it is
+    CHECK_THROWS_AS(check(Moving<S>{nowhere, {1, 2, 3}}), std::invalid_argument);
     CHECK(detail::is_moving<Moving<S>>);
     CHECK_FALSE(detail::is_moving<S>);
     CHECK(detail::is_flat<S> == !std::is_same_v<S, Sphere>);

@@ -272,6 +272,7 @@ TEST_CASE("survey: settings that give no picture are refused") {
     refused(
         [](PhotonMappingSettings& s) { s.general_estimate.nearest = max_nearest + 1; });
     refused([](PhotonMappingSettings& s) { s.caustics_estimate.thickness = -1; });
+    refused([](PhotonMappingSettings& s) { s.skip.risk = 0; });
 }
 
 TEST_CASE("survey: a hook that is misspelt shows") {

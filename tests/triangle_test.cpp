@@ -484,20 +484,38 @@ TEST_CASE("triangle: a hit in the border has coordinates that are not below 0") 
         const float x = part(), y = part();
         return Vec3{x, y, part()};
     };
-    int on_edge = 0;
+    int on_edge = 0, open = 0;
     for (int i = 0; i < 2000; ++i) {
         const Vec3 v1 = whole(), half = whole(), other = v1 + whole(), way = whole();
         const Vec3 far = v1 + 2.0f * half;
-        const Ray ray{.origin = v1 + half - way, .direction = way};
-        for (const Triangle& t : {Triangle{v1, other, far}, Triangle{v1, far, other}}) {
-            const auto hit = intersect(ray, t);
-            if (!hit) continue; // a sliver, whose border is open
-            REQUIRE(hit->u >= 0);
-            REQUIRE(hit->v >= 0);
-            on_edge += hit->u == 0 || hit->v == 0;
+        for (const Vec3& at : {v1 + half, far}) {
+            const Ray ray{.origin = at - way, .direction = way};
+            for (const Triangle& t :
+                 {Triangle{v1, other, far}, Triangle{v1, far, other},
+                  Triangle{other, far, v1}}) {
+                const auto hit = intersect(ray, t);
+                open += !hit; // slivers alone: the border of all others is closed
+                if (!hit) continue;
+                REQUIRE(hit->u >= 0);
+                REQUIRE(hit->v >= 0);
+                on_edge += hit->u == 0 || hit->v == 0;
+            }
         }
     }
     CHECK(on_edge > 1000);
+    CHECK(open < 60);
+}
+
+TEST_CASE("triangle: a point of doubles tells how badly the plane is known") {
+    const auto tilt = [](auto one) {
+        const TriangleT<decltype(one)> t{{0, 0, 0}, {2, 0, 0}, {4, one / 1024, 0}};
+        CHECK(sample_area(t, {one / 4, one / 2}).tilt ==
+              point_at(t, one, 0 * one).tilt);
+        return point_at(t, one / 4, one / 2).tilt;
+    };
+    // The sizes of the edges over the area between them: 2 (4 + 1/1024) 1024 / 2.
+    CHECK(tilt(1.0) == 4097);
+    CHECK(tilt(1.0f) == 0); // a test in double does not turn it
 }
 
 TEST_CASE("triangle: u is within [0, 1] whatever the shape asks of it and of v") {

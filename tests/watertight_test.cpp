@@ -165,6 +165,20 @@ TEST_CASE("watertight: the range of the ray decides") {
     CHECK_FALSE(hit(0, not_a_number));
 }
 
+TEST_CASE("watertight: a direction so short that float has no inverse of it") {
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float length : {1e-40f, -1e-44f}) {
+            Ray ray{.direction = Vec3{0}};
+            ray.direction[axis] = length;
+            Triangle t{Vec3{-1e-9f}, Vec3{-1e-9f}, Vec3{-1e-9f}};
+            t.v1[axis] = t.v2[axis] = t.v3[axis] = length * 0x1p30f;
+            t.v2[(axis + 1) % 3] = t.v3[(axis + 2) % 3] = 1e-8f;
+            const auto hit = intersect<Watertight>(ray, t);
+            REQUIRE(hit);
+            CHECK(hit->t == 0x1p30f);
+        }
+}
+
 TEST_CASE_TEMPLATE("watertight: invalid data are a miss", T, float, double) {
     constexpr T infinity = std::numeric_limits<T>::infinity();
     constexpr T not_a_number = std::numeric_limits<T>::quiet_NaN();
@@ -204,6 +218,9 @@ TEST_CASE_TEMPLATE("watertight: invalid data are a miss", T, float, double) {
             const RayT<T> down{.origin = {x, 0, 0}, .direction = {0, 0, -1}};
             CHECK_FALSE(intersect<Watertight>(down, thin));
         }
+    const TriangleT<T> on_a_line{{-8, -2, 1}, {-11, 0, 2}, {-17, 4, 4}};
+    const RayT<T> across{.origin = {T(-11.5), 3, T(8.5)}, .direction = {-1, -2, -6}};
+    CHECK_FALSE(intersect<Watertight>(across, on_a_line));
     for (const T y : {T(-1), T(0), T(0.25), T(1)}) {
         const RayT<T> ray{.origin = {-2, y, -4}, .direction = {1, 0, 0}};
         CHECK_FALSE(intersect<Watertight>(ray, good_triangle));
@@ -219,6 +236,19 @@ TEST_CASE("watertight: what takes a precision for all its shapes takes it too") 
     CHECK(*t(ball) == *intersect(down_at(0.25f, 0.25f), ball));
     CHECK(t(square)->t == 4.0f);
     CHECK(t(square)->u == 0.25f);
+    // A quad in double, also where float would decide otherwise: at its edges.
+    Numbers n{7};
+    int differ = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const Quad quad{Vec3(n.point(3)), Vec3(n.point(3)), Vec3(n.point(3))};
+        const Vec3 origin(n.point(6));
+        const Vec3 at = quad.corner + float(n.next()) * quad.edge_u;
+        const Ray ray{.origin = origin, .direction = at - origin};
+        const bool hit = intersect<Watertight>(ray, quad).has_value();
+        REQUIRE(hit == intersect<double>(ray, quad).has_value());
+        differ += hit != intersect<float>(ray, quad).has_value();
+    }
+    CHECK(differ > 100);
     // And so does a loop that prepares a ray once, for each of them.
     const auto prepared = [](auto test, const auto& shape) {
         using Test = decltype(test);

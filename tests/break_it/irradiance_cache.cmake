@@ -60,3 +60,10 @@ ljus_break_it(NAME irradiance-cache-order HEADER render/irradiance_cache.hpp
     FROM "cache.records.push_back(records[i]);"
     TO   "(void)i; cache.records.push_back(records[cache.records.size()]);"
     CASES "irradiance cache: each point has*")
+
+# Points of the other side answer for a surface that is seen from behind.
+ljus_break_it(NAME irradiance-cache-behind HEADER render/irradiance_cache.hpp
+    TEST irradiance_cache
+    FROM "detail::seen_normal(vertex), T(settings.reach)"
+    TO   "vertex.frame.normal, T(settings.reach)"
+    CASES "irradiance cache: what is known*")

@@ -104,3 +104,15 @@ ljus_break_it(NAME metaballs-border-of-span HEADER geometry/detail/metaball_quar
     FROM "if ((p.c[0] >= C(0)) != inside) return a;"
     TO   ""
     CASES "metaballs: a surface on the border*")
+
+# On the heap the first sixteen blobs are all the first one.
+ljus_break_it(NAME metaballs-heap-order HEADER geometry/detail/metaball_line.hpp TEST metaballs
+    FROM "many.assign(few.begin(), few.end())"
+    TO   "many.assign(few.size(), few.front())"
+    CASES "metaballs: more than 16*")
+
+# What carves counts as if it filled.
+ljus_break_it(NAME metaballs-sum HEADER geometry/metaballs.hpp TEST metaballs
+    FROM "if (blob.weight > T(0)) most += blob.weight;"
+    TO   "most += std::abs(blob.weight);"
+    CASES "metaballs: refused are*")

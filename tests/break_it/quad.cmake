@@ -11,3 +11,14 @@ ljus_break_it(NAME quad-default HEADER geometry/quad.hpp TEST tree_leaks
     FROM "using C = ComputeT<Compute, WideT<T>>;"
     TO   "using C = ComputeT<Compute, T>;"
     CASES "tree leaks: a room of loose quads*")
+
+# Open on one of its four sides, where the next quad may be missed as well.
+ljus_break_it(NAME quad-open-side HEADER geometry/quad.hpp TEST quad
+    FROM "v >= -border &&"
+    TO   "v >= C(0) &&"
+    CASES "quad: what meets an edge*")
+
+ljus_break_it(NAME quad-tilt HEADER geometry/quad.hpp TEST quad
+    FROM "detail::add_tilt(point, quad.edge_u, quad.edge_v);"
+    TO   ""
+    CASES "quad: a point of doubles*")

@@ -15,3 +15,9 @@ ljus_break_it(NAME ray-stay HEADER geometry/surface_point.hpp TEST ray
             .direction = direction,"
     TO   "return {.origin = point.position, .direction = direction,"
     CASES "ray: t >= 0 hits*")
+
+# The test that was asked for is forgotten where it has nothing to prepare.
+ljus_break_it(NAME ray-prepared-test HEADER geometry/ray.hpp TEST ray
+    FROM "return intersect<Test>(ray, shape);"
+    TO   "return intersect(ray, shape);"
+    CASES "ray: what has no use*")

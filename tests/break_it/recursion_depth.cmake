@@ -85,3 +85,9 @@ ljus_break_it(NAME adaptive-rounding HEADER render/detail/adaptive_blocks.hpp
     FROM "std::ceil(lacking / rule.more - 1e-6)"
     TO   "std::ceil(lacking / rule.more)"
     CASES "adaptive: batches fit*")
+
+# A target that cannot be met any more takes rays away.
+ljus_break_it(NAME adaptive-target-missed HEADER render/detail/ray_shares.hpp TEST adaptive
+    FROM "if (target > 0 && allowed > 0)"
+    TO   "if (target > 0)"
+    CASES "adaptive: rays are shared out*")

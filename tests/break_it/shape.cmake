@@ -14,3 +14,9 @@ ljus_break_it(NAME shape-moving-bound HEADER geometry/moving.hpp TEST shape
     FROM "sphere.radius += glm::length(moving.way) / T(2);"
     TO   ""
     CASES "shape: a moving one*")
+
+# Only the way of a moving shape is looked at.
+ljus_break_it(NAME shape-moving-check HEADER geometry/moving.hpp TEST shape
+    FROM "    check(moving.shape);"
+    TO   ""
+    CASES "shape: a moving one*")

@@ -15,3 +15,10 @@ ljus_break_it(NAME survey-narrower HEADER render/detail/scene_remarks.hpp TEST s
     FROM "> T(1000)"
     TO   "> T(10000)"
     CASES "survey: a lobe*")
+
+# The settings of what is skipped are taken as they come.
+ljus_break_it(NAME survey-skip-unchecked HEADER render/photon_mapping_settings.hpp
+    TEST survey
+    FROM "    check(settings.skip);"
+    TO   ""
+    CASES "survey: settings that give no picture*")

@@ -86,3 +86,15 @@ ljus_break_it(NAME triangle-below-0 HEADER geometry/triangle.hpp TEST triangle
     FROM "static_cast<T>(glm::max(u, C(0)))"
     TO   "static_cast<T>(u)"
     CASES "triangle: a hit in the border*")
+
+# Open on the third side alone.
+ljus_break_it(NAME triangle-open-side HEADER geometry/triangle.hpp TEST triangle
+    FROM "u + v <= C(1) + border"
+    TO   "u + v <= C(1)"
+    CASES "triangle: a hit in the border*")
+
+# Open at the far end of the first edge.
+ljus_break_it(NAME triangle-open-end HEADER geometry/triangle.hpp TEST triangle
+    FROM "u <= C(1) + near)"
+    TO   "u <= C(1))"
+    CASES "triangle: a hit in the border*")

@@ -38,3 +38,9 @@ ljus_break_it(NAME watertight-no-area HEADER geometry/watertight.hpp TEST triang
     FROM "if (!detail::has_area(triangle)) return std::nullopt;"
     TO   ""
     CASES "triangle: rays aimed at where*")
+
+# The inverse of a denormal is infinite in float.
+ljus_break_it(NAME watertight-short HEADER geometry/watertight.hpp TEST watertight
+    FROM "1 / static_cast<double>(d[z])"
+    TO   "static_cast<double>(T(1) / d[z])"
+    CASES "watertight: a direction so short*")
