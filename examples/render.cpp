@@ -20,6 +20,7 @@
 #include <cinttypes>
 #include <cstdio>
 #include <filesystem>
+#include <sstream>
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
@@ -128,11 +129,34 @@ const std::vector<std::string> patterns{"random", "jittered", "multi-jittered",
 const std::vector<std::string> path_lights{"balance", "power", "rays", "paths"};
 using examples::chosen;
 
+/// Refuses what lies between the numbers that an option takes: one photon, whose own
+/// distance would be the radius, and a disc so small that no float holds its radiance.
+void check_estimates(const Request& request) {
+    const auto ask = [](const char* option, auto value, bool good, const char* right) {
+        std::ostringstream sentence;
+        sentence << option << " is " << value << "; it must be " << right;
+        if (!good) throw std::invalid_argument(sentence.str());
+    };
+    const auto ask_nearest = [&](const char* option, int nearest) {
+        ask(option, nearest, nearest != 1,
+            "0 for all in the radius, or 2 to 512: one photon sets the radius");
+    };
+    const auto ask_radius = [&](const char* option, double radius) {
+        ask(option, radius, radius == 0 || radius >= 1e-15,
+            "0 to take it from the photons, or 1e-15 to 1e6");
+    };
+    ask_nearest("--caustic-nearest", request.caustic_nearest);
+    ask_nearest("--general-nearest", request.general_nearest);
+    ask_radius("--radius", request.radius);
+    ask_radius("--general-radius", request.general_radius);
+}
+
 /// The settings of a request: those of its preset, and what was given by name.
 PhotonMappingSettings settings_of(const Request& request,
                                   const examples::CommandLine& line,
                                   const examples::Options& options,
                                   const RenderSettings& picture) {
+    check_estimates(request);
     PhotonMappingSettings settings;
     if (!request.preset.empty())
         settings = preset_settings(chosen<Preset>(presets, request.preset),

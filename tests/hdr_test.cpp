@@ -290,6 +290,8 @@ TEST_CASE("hdr: what is wrong with a header or a row is said, word by word") {
     for (const char* const exposure : {"0", "-1", "1e999", "nan"})
         CHECK(message(start + "EXPOSURE=" + exposure + "\n\n-Y 1 +X 3\n" + row)
                   .find("which is no number above 0") != std::string::npos);
+    CHECK(message(start + "\n-Y 30000 +X 20000\n" + row) ==
+          "it has 20000 x 30000 pixels; there can be at most 268435456.");
     CHECK(message(start + "\n-Y 2 +X 3\n" + row) ==
           "it ends before its last row does.");
     CHECK(message(start + "\n-Y 1 +X 3\n" + row.substr(1)) ==

@@ -561,6 +561,9 @@ TEST_CASE("load_json: broken JSON is refused with line and column") {
     place("{\n \"name\": \"x\",\n", "line 3, column 1: unexpected end of input");
     place("{\n \"name\": x}", "line 2, column 10: invalid literal");
     place(changed("\"radius\": 0.75", "\"radius\": NaN"), "line 22, column 14: ");
+    const std::string word = refusal("\"radius\": 0.75", "\"radius\": NaN");
+    CHECK(word.find("; a value is a number, a text in quotation marks, a list, an "
+                    "object, true, false or null.") != std::string::npos);
     place(good + "x", "line 26, column 2: ");
     place("{\"a\": \"\xff\"}", "line 1, column 8: ");
     place("{\"a\": \"\\x\"}", "line 1, column 9: ");
@@ -570,6 +573,15 @@ TEST_CASE("load_json: broken JSON is refused with line and column") {
     CHECK(refusal("\"albedo\": [0.5, 0.5, 0.5]", "\"albedo\": [0.5, -1e999, 0.5]")
               .find("materials.rough.albedo[1] is -1e999; it must be finite.") !=
           std::string::npos);
+    // However long the number is, what would be right is said.
+    const std::string digits(5000, '4');
+    const std::string endless = refusal("\"radius\": 0.75", "\"radius\": " + digits);
+    CHECK(endless.size() < 300);
+    CHECK(endless.find("objects[2].radius is 444") != std::string::npos);
+    CHECK(endless.find("44...; it must be finite.") != std::string::npos);
+    for (const char* const begin : {"\xff\xfe{", "\xfe\xff"})
+        CHECK(refusal(begin) ==
+              "a.json: the text is UTF-16; it must be saved as UTF-8.");
     const std::string deep(100'000, '[');
     CHECK(refusal(deep).find("is nested too deeply; at most 32 levels are allowed.") !=
           std::string::npos);

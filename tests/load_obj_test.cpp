@@ -260,6 +260,8 @@ TEST_CASE("load_obj: a plus sign, and a normal that is none") {
     CHECK(data.positions[1] == Vec3{1.5f, 0, 0});
     CHECK(data.normals.empty()); // the face is flat
     CHECK(loaded.report[ObjTrouble::bad_normal].count == 1);
+    CHECK(to_text(loaded.report).find("1 normals are 0 or no finite numbers; faces") !=
+          std::string::npos);
     CHECK(loaded.report[ObjTrouble::bad_number].count == 0);
 }
 

@@ -121,6 +121,9 @@ TEST_CASE("pfm: a truncated, longer or foreign file is refused in a sentence") {
         ScratchFolder::write(path, header + std::string(72, '\0'));
         CHECK(message_of_load(path) != "loaded");
     }
+    ScratchFolder::write(path, "PF\n20000 30000\n-1.0\n");
+    CHECK(message_of_load(path) ==
+          "it has 20000 x 30000 pixels; there can be at most 268435456.");
 }
 
 TEST_CASE("pfm: a file without end is refused at once") {

@@ -428,14 +428,33 @@ TEST_CASE("texture: of pictures only those are read whose reader is trusted, and
     CHECK(refusal_of(jpeg) != "a is damaged: a table has more than 255 entries.");
     jpeg[7 + 15] = 1;
     CHECK(refusal_of(jpeg) == "a is damaged: a table has more than 255 entries.");
-    // A size that would take gigabytes.
-    Bytes large = whole;
-    for (const std::size_t at : {18u, 22u}) large[at] = 0x40; // 16386 x 16386
-    const std::uint32_t new_sum = detail::png_sum(large, 12, 29);
-    for (std::size_t i = 0; i < 4; ++i)
-        large[29 + i] = static_cast<unsigned char>(new_sum >> (24 - 8 * i) & 255u);
-    CHECK(refusal_of(large) ==
-          "a has 16386 x 16386 pixels; there can be at most 33554432.");
+    // A header with another byte and the right sum.
+    const auto with = [&](std::initializer_list<std::size_t> places,
+                          unsigned char byte) {
+        Bytes other_file = whole;
+        for (const std::size_t at : places) other_file[at] = byte;
+        const std::uint32_t new_sum = detail::png_sum(other_file, 12, 29);
+        for (std::size_t i = 0; i < 4; ++i)
+            other_file[29 + i] =
+                static_cast<unsigned char>(new_sum >> (24 - 8 * i) & 255u);
+        return other_file;
+    };
+    // Sizes that would take gigabytes; stb_image knows the larger ones for no picture.
+    CHECK(refusal_of(with({18, 22}, 0x40)) ==
+          "a has 16386 x 16386 pixels; there must be 1 to 33554432.");
+    CHECK(refusal_of(with({18, 22}, 0xff)) ==
+          "a has 65282 x 65282 pixels; there must be 1 to 33554432.");
+    CHECK(refusal_of(with({16, 20}, 0xff)) ==
+          "a has 4278190082 x 4278190082 pixels; there must be 1 to 33554432.");
+    CHECK(refusal_of(with({19}, 0)) ==
+          "a has 0 x 2 pixels; there must be 1 to 33554432.");
+    CHECK(refusal_of(with({24}, 3)) == // bits of a channel
+          "a is no picture that can be read: its header is damaged or rare.");
+    // Another chunk where the header must be.
+    Bytes late = whole;
+    late.erase(late.begin() + 8, late.begin() + 33);
+    CHECK(refusal_of(late) ==
+          "a is no picture that can be read: its header is damaged or rare.");
 }
 
 TEST_CASE("texture: the tables of a JPEG file, segment by segment") {

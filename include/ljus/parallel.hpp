@@ -86,18 +86,29 @@ LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
 
 // What several threads change, they change in turn. OpenMP's lock comes without a
 // further header; <atomic> would make each header here an eighth longer to compile.
+// One thread alone asks nothing of OpenMP: LLVM's crashes in a forked process.
 #ifdef _OPENMP
 struct Mutex {
-    omp_lock_t lock;
-    Mutex() noexcept { omp_init_lock(&lock); }
-    ~Mutex() { omp_destroy_lock(&lock); }
+    const bool shared; // by more than one thread
+    omp_lock_t lock{};
+    explicit Mutex(bool many) noexcept : shared(many) {
+        if (shared) omp_init_lock(&lock);
+    }
+    ~Mutex() {
+        if (shared) omp_destroy_lock(&lock);
+    }
     Mutex(const Mutex&) = delete;
     Mutex& operator=(const Mutex&) = delete;
-    void take() noexcept { omp_set_lock(&lock); }
-    void give() noexcept { omp_unset_lock(&lock); }
+    void take() noexcept {
+        if (shared) omp_set_lock(&lock);
+    }
+    void give() noexcept {
+        if (shared) omp_unset_lock(&lock);
+    }
 };
 #else
 struct Mutex {
+    explicit Mutex(bool) noexcept {}
     void take() noexcept {}
     void give() noexcept {}
 };
@@ -118,7 +129,7 @@ struct BlockLoop {
     const BlockBody body;
     const Progress& progress;
 
-    Mutex turns{};
+    Mutex turns;
     long long next = 0;             // the block to begin next
     long long done = 0;             // blocks that have run to their end
     bool stop = false;              // no further block shall begin
@@ -188,10 +199,10 @@ LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
             "the number of threads", static_cast<long long>(options.threads),
             "within [0, 1024]");
 
-    BlockLoop loop{count, body, options.progress};
-#ifdef _OPENMP
     const long long wanted = options.threads == 0 ? max_threads() : options.threads;
     const int threads = static_cast<int>(wanted < count ? wanted : count);
+    BlockLoop loop{count, body, options.progress, Mutex(threads > 1)};
+#ifdef _OPENMP
     if (threads > 1) {
         // At the end of the region all wait for the last. libgomp's threads do so by
         // spinning for milliseconds, and if another program has the processor of the

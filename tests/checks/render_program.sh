@@ -171,6 +171,10 @@ refused "--explain is 1,2,3; it must be X,Y" "$scene" "${few[@]}" --explain 1,2,
 refused "--rays" "$scene" --rays 0
 refused "--width" "$scene" --width -5
 refused "--radius" "$scene" --radius nan
+refused "--radius is 1e-30; it must be 0" "$scene" --radius 1e-30
+refused "--general-radius is 1e-30; it must be 0" "$scene" --general-radius 1e-30
+refused "--caustic-nearest is 1; it must be 0" "$scene" --caustic-nearest 1
+refused "--general-nearest is 1; it must be 0" "$scene" --general-nearest 1
 refused "--caustic-kernel" "$scene" --caustic-kernel hat
 refused "--precision" "$scene" --precision half
 refused "--nope" "$scene" --nope

@@ -167,7 +167,7 @@ template <std::floating_point T = float>
     if (y_word != "-Y" || x_word != "+X")
         reader.fail("its rows go " + detail::shown(y_word) + " " +
                     detail::shown(x_word) + "; only -Y +X is read");
-    if (width > detail::max_pixels / height) reader.fail("its image is too large");
+    reader.require_pixels(width, height);
 
     // The image grows by rows, so that a short file with a large size takes no memory.
     ImageT<T> image{.width = width, .height = height, .pixels = {}};

@@ -178,22 +178,21 @@ DecodedBytes decode_bytes(const Bytes& bytes, Refuse refuse) {
                                 : jpeg ? jpeg_trouble(bytes)
                                        : nullptr)
         refuse(join({"is damaged: ", why}));
-    // Chunks of a file's own have names of any bytes, which stb_image repeats.
-    const auto reason = [](std::string_view what) {
-        const char* const why = stbi_failure_reason();
-        return join({what, why == nullptr ? "unknown" : shown(std::string(why))});
+    const auto require_size = [&](long long wide, long long high) {
+        if (wide < 1 || high < 1 || wide > max_image_pixels / high)
+            refuse(join({"has ", to_text(wide), " x ", to_text(high),
+                         " pixels; there must be 1 to ", to_text(max_image_pixels)}));
     };
+    // Of a PNG file that is too large for it stb_image says that it is none.
+    if (png && png_number(bytes, 12) == 0x49484452u)
+        require_size(png_number(bytes, 16), png_number(bytes, 20));
     DecodedBytes picture;
-    int channels = 0;
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const auto size = static_cast<int>(bytes.size());
-    int &width = picture.width, &height = picture.height;
+    int &width = picture.width, &height = picture.height, channels = 0;
     if (!stbi_info_from_memory(data, size, &width, &height, &channels))
-        refuse(reason("is no picture that can be read: "));
-    if (width < 1 || height < 1) refuse("has no pixels");
-    if (width > max_image_pixels / height)
-        refuse(join({"has ", to_text(width), " x ", to_text(height),
-                     " pixels; there can be at most ", to_text(max_image_pixels)}));
+        refuse("is no picture that can be read: its header is damaged or rare");
+    require_size(width, height);
     // Pixels in a byte at best: PNG packs a thousand bytes of eight into one, JPEG
     // takes a bit for 64, BMP packs nothing. stb_image takes what lacks for zeros.
     const std::size_t most = png ? 8256 : jpeg ? 1024 : 8;
@@ -201,7 +200,8 @@ DecodedBytes decode_bytes(const Bytes& bytes, Refuse refuse) {
         refuse("is damaged: it ends in the middle of its pixels");
     picture.pixels.reset(
         stbi_load_from_memory(data, size, &width, &height, &channels, 3));
-    if (!picture.pixels) refuse(reason("is damaged: "));
+    const char* const why = stbi_failure_reason(); // it may repeat bytes of the file
+    if (!picture.pixels) refuse(join({"is damaged: ", shown(why ? why : "error", 48)}));
     return picture;
 }
 #endif

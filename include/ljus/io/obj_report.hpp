@@ -73,7 +73,7 @@ struct ObjReport {
     constexpr std::array<const char*, detail::obj_troubles> words{
         "vertices have coordinates that are no finite numbers; faces there are left "
         "out",
-        "normals are no finite numbers; faces there are flat",
+        "normals are 0 or no finite numbers; faces there are flat",
         "texture coordinates are no finite numbers; (0, 0) is taken",
         "faces have no texture coordinates, others of their mesh do; (0, 0) is taken",
         "faces name a vertex, a texture coordinate or a normal that is not there; they "

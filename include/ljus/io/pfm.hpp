@@ -62,7 +62,7 @@ template <std::floating_point T = float>
     const double scale = detail::to_number(reader.word());
     if (!std::isfinite(scale) || scale == 0.0)
         reader.fail("the third line of its header is not a finite number other than 0");
-    if (width > detail::max_pixels / height) reader.fail("its image is too large");
+    reader.require_pixels(width, height);
 
     // Compared before any memory is taken for the pixels.
     const std::size_t channels = kind == "PF" ? 3 : 1;

@@ -101,8 +101,15 @@ struct ByteReader {
         return static_cast<int>(value);
     }
 
+    // Refuses an image of more pixels than one can have.
+    void require_pixels(int width, int height) const {
+        if (width > max_size / height)
+            fail("it has " + std::to_string(width) + " x " + std::to_string(height) +
+                 " pixels; there can be at most " + std::to_string(max_size));
+    }
+
 private:
-    static constexpr long long max_size = 1LL << 28;
+    static constexpr long long max_size = 1LL << 28; // max_pixels
     static char to_char(unsigned char byte) noexcept { return static_cast<char>(byte); }
     static bool is_space(char c) noexcept {
         return c == ' ' || c == '\n' || c == '\t' || c == '\r';

@@ -63,14 +63,21 @@ struct JsonBuilder {
                               ", column " + std::to_string(column == 0 ? 1 : column) +
                               ": ";
         std::string why = error.what();
+        std::string right;     // what would be, where the parser does not say it
         if (error.id == 406) { // a number beyond the range of double
-            why = path() + " is " + token + "; it must be finite";
+            why = path() + " is " + token;
+            right = "; it must be finite";
         } else { // "... while parsing value - unexpected end of input"
             why.erase(0, why.find(" - ") + 3);
+            if (why.starts_with("invalid literal") &&
+                why.find("expected") == std::string::npos)
+                right = "; a value is a number, a text in quotation marks, a list, an "
+                        "object, true, false or null";
         }
         for (char& c : why)
             if (static_cast<unsigned char>(c) >= 0x80) c = '?';
-        throw std::runtime_error(message.append(shown(why, 160)).append("."));
+        throw std::runtime_error(
+            message.append(shown(why, 160)).append(right).append("."));
     }
 
 private:
@@ -139,6 +146,9 @@ private:
                                                const std::string& file) {
     if (source.find_first_not_of(" \t\r\n") == std::string_view::npos)
         throw std::runtime_error(shown_path(file) + ": the file is empty.");
+    if (source.starts_with("\xff\xfe") || source.starts_with("\xfe\xff"))
+        throw std::runtime_error(shown_path(file) +
+                                 ": the text is UTF-16; it must be saved as UTF-8.");
     JsonBuilder builder{.source = source, .file = file};
     nlohmann::json::sax_parse(source.begin(), source.end(), &builder);
     return std::move(builder.root);
