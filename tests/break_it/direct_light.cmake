@@ -12,13 +12,13 @@ ljus_break_it(NAME direct-light-distance HEADER scene/light.hpp TEST direct_ligh
 
 # The density of the point of a lamp.
 ljus_break_it(NAME direct-light-pdf HEADER scene/light.hpp TEST direct_light
-    FROM ".weight = light.emission / seen.pdf"
-    TO   ".weight = light.emission"
+    FROM "sample->weight = light.emission / pdf;"
+    TO   "sample->weight = light.emission;"
     CASES "direct light: lamps give*")
 
 # A lamp that shines on both sides.
 ljus_break_it(NAME direct-light-side HEADER scene/light.hpp TEST direct_light
-    FROM "glm::dot(wi, seen.point.normal) < T(0) && "
+    FROM "glm::dot(sample->wi, point.normal) < T(0) && "
     TO   ""
     CASES "direct light: no ray*")
 

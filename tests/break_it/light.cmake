@@ -1,6 +1,6 @@
 # Light from behind the lamp.
 ljus_break_it(NAME light-one-sided HEADER scene/light.hpp TEST light
-    FROM "glm::dot(wi, seen.point.normal) < T(0) && "
+    FROM "glm::dot(sample->wi, point.normal) < T(0) && "
     TO   ""
     CASES "light: a square lamp*")
 
@@ -24,7 +24,7 @@ ljus_break_it(NAME light-sun-disc HEADER scene/make_light.hpp TEST light
 
 # A density beyond all numbers, and 0/0 behind it.
 ljus_break_it(NAME light-density HEADER scene/light.hpp TEST light
-    FROM "std::isfinite(seen.pdf)"
+    FROM "std::isfinite(pdf)"
     TO   "true"
     CASES "light: what no picture*")
 
@@ -36,6 +36,7 @@ ljus_break_it(NAME light-time HEADER scene/light.hpp TEST light
 
 # The density of a sample is forgotten.
 ljus_break_it(NAME light-pdf HEADER scene/light.hpp TEST light
-    FROM ".pdf = seen.pdf};"
-    TO   ".pdf = T(0)};"
+    FROM "const T pdf = sample->pdf;"
+    TO   "const T pdf = sample->pdf;
+    sample->pdf = T(0);"
     CASES "light: a sample says its density*")

@@ -35,7 +35,10 @@ struct NearestHitT {
     /// \return Whether it was nearer.
     bool offer(const FlatHitT<T>& hit, std::uint32_t of, RayT<T>& ray) noexcept {
         if (found && !(hit.t < at.t || (hit.t == at.t && of < number))) return false;
-        at = hit;
+        at.t = hit.t; // one by one: a wide copy waits for what was just written
+        at.u = hit.u;
+        at.v = hit.v;
+        at.part = hit.part;
         number = of;
         found = true;
         const T beyond = hit.t + hit.t * std::numeric_limits<T>::epsilon() +

@@ -62,15 +62,16 @@ public:
     /// Asks the shapes that a ray may meet, the nearer ones first: test(number, ray)
     /// may shorten the ray, as for BvhT::closest().
     template <typename Test>
-    void closest(Ray ray, Test&& test) const {
+    void closest(const Ray& whole, Test&& test) const {
         // Numbers from 0 on have the order of their bits: the nearest is the least.
         std::array<std::uint64_t, most> waiting;
         std::size_t count = 0;
-        each(ray, [&](float entry, std::uint32_t number) {
+        each(whole, [&](float entry, std::uint32_t number) {
             waiting[count++] =
                 std::uint64_t{std::bit_cast<std::uint32_t>(entry)} << 32 | number;
             return false;
         });
+        Ray ray = whole;
         for (; count > 0; --count) {
             const auto nearest =
                 std::min_element(waiting.begin(), waiting.begin() + count);

@@ -162,7 +162,8 @@ template <std::floating_point T>
 [[nodiscard]] RayT<T> spawn_ray_to(const SurfacePointT<T>& from,
                                    const SurfacePointT<T>& to, T time = T(0)) noexcept {
     const Vec3T<T> way = to.position - from.position;
-    SurfacePointT<T> seen = to;
+    SurfacePointT<T> seen;
+    detail::set_point(seen, to);
     seen.error += detail::rounding_bound<T>(8) * max_component(detail::sizes(way));
     if constexpr (sizeof(WideT<T>) == sizeof(T))
         seen.error += detail::rounding_bound<T>(18) * detail::size_of(way) * to.tilt;

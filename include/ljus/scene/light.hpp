@@ -126,6 +126,42 @@ struct LightSampleT {
     T pdf = T(0);             ///< Per steradian; 0 for what no path can meet.
 };
 
+namespace detail {
+
+/// sample_light() of an emissive object. The sample is filled where it will stand: a
+/// copy of numbers that have just been written, in wider pieces, makes a processor
+/// wait.
+template <typename S, std::floating_point T>
+[[nodiscard]] std::optional<LightSampleT<T>>
+sample_lamp(const S& scene, const LightT<T>& light, const Vec3T<T>& from,
+            const Vec2T<T>& u, T time) {
+    std::optional<LightSampleT<T>> sample(std::in_place);
+    SurfacePointT<T>& point = sample->point;
+    scene.visit_shape(*light.object, [&]<typename G>(const G& shape) {
+        if constexpr (is_plane<G>)
+            if (light.area > T(0)) { // what add() has worked out once
+                set_point(point, sample_area(shape, u, light.direction));
+                sample->pdf = pdf_from_area(from, point, light.area);
+                return;
+            }
+        const SeenPointT<T> seen = sample_towards(at_time(shape, time), from, u);
+        set_point(point, seen.point);
+        sample->pdf = seen.pdf;
+    });
+    if (scene.object(*light.object).inside_out) point.normal = -point.normal;
+
+    const T pdf = sample->pdf;
+    sample->wi = glm::normalize(point.position - from);
+    sample->weight = light.emission / pdf;
+    // Written so that NaN, from an observer on the light itself, is no light.
+    if (!(glm::dot(sample->wi, point.normal) < T(0) && pdf > T(0) &&
+          std::isfinite(pdf)))
+        sample.reset();
+    return sample;
+}
+
+} // namespace detail
+
 /// Samples a point of a light, for a shadow ray.
 /// \param scene  The scene of the light.
 /// \param light  One of its lights.
@@ -161,28 +197,7 @@ sample_light(const S& scene, const LightT<T>& light, const Vec3T<T>& from,
                                .wi = wi,
                                .weight = share * light.emission / distance2};
     }
-    SeenPointT<T> seen =
-        scene.visit_shape(*light.object, [&]<typename G>(const G& shape) {
-            if constexpr (detail::is_plane<G>)
-                if (light.area > T(0)) { // what add() has worked out once
-                    const SurfacePointT<T> point =
-                        sample_area(shape, u, light.direction);
-                    return SeenPointT<T>{
-                        point, detail::pdf_from_area(from, point, light.area)};
-                }
-            return sample_towards(at_time(shape, time), from, u);
-        });
-    if (scene.object(*light.object).inside_out) seen.point.normal = -seen.point.normal;
-
-    const Vec3T<T> wi = glm::normalize(seen.point.position - from);
-    // Written so that NaN, from an observer on the light itself, is no light.
-    if (!(glm::dot(wi, seen.point.normal) < T(0) && seen.pdf > T(0) &&
-          std::isfinite(seen.pdf)))
-        return std::nullopt;
-    return LightSampleT<T>{.point = seen.point,
-                           .wi = wi,
-                           .weight = light.emission / seen.pdf,
-                           .pdf = seen.pdf};
+    return detail::sample_lamp(scene, light, from, u, time);
 }
 
 /// \}

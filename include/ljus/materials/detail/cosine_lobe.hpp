@@ -39,12 +39,18 @@ template <std::floating_point T, typename Weight>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample_cosine_lobe(const Vec3T<T>& wo, const Vec3T<T>& u, Lobes which,
                    Weight weight) noexcept {
-    if (!has(which, Lobes::diffuse)) return std::nullopt;
-    if (!(wo.z > T(0) || wo.z < T(0))) return std::nullopt;
-    Vec3T<T> wi = sample_cosine_hemisphere(Vec2T<T>{u.x, u.y});
-    const T density = pdf_cosine_hemisphere(wi);
+    // Filled where it will stand: a copy of what has just been written is slow.
+    std::optional<BsdfSampleT<T>> next(std::in_place);
+    if (!has(which, Lobes::diffuse) || !(wo.z > T(0) || wo.z < T(0))) {
+        next.reset();
+        return next;
+    }
+    Vec3T<T>& wi = next->wi;
+    wi = sample_cosine_hemisphere(Vec2T<T>{u.x, u.y});
+    next->pdf = pdf_cosine_hemisphere(wi);
     wi.z = std::copysign(wi.z, wo.z);
-    return diffuse_sample(wi, weight(wi), density);
+    next->weight = weight(wi);
+    return next;
 }
 
 /// \}
