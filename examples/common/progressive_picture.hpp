@@ -46,7 +46,8 @@ inline void add_pass_options(CommandLine& line, PassOptions& how) {
 /// Makes sure that the files of the passes can be written, before any work is done.
 /// \param how      What the user asked for.
 /// \param picture  The file of the picture, which is none of them.
-/// \throws std::invalid_argument  for names that do not go together.
+/// \throws std::invalid_argument  for names that do not go together, and for a checkpoint
+///                                that would be lost.
 inline void require_pass_files(const PassOptions& how, const std::string& picture) {
     if (how.resume && how.checkpoint.empty())
         throw std::invalid_argument("--resume needs --checkpoint FILE.");
@@ -62,6 +63,11 @@ inline void require_pass_files(const PassOptions& how, const std::string& pictur
             if (!file.empty() && place(file) == place(how.checkpoint))
                 throw std::invalid_argument("--checkpoint is " + how.checkpoint +
                                             "; it must be a file of its own.");
+    if (!how.resume && !how.checkpoint.empty() &&
+        std::filesystem::exists(how.checkpoint)) // it may hold hours of passes
+        throw std::invalid_argument("--checkpoint is " + how.checkpoint +
+                                    ", which is there already; it must be a new file, "
+                                    "or go on from it with --resume.");
     for (const std::string& file : {how.checkpoint, how.preview})
         if (!file.empty()) require_writable(file);
 }

@@ -68,6 +68,7 @@ refused "--resume needs --checkpoint" --picture c.pfm --resume
 refused "are for --picture" --checkpoint a.check
 refused "alpha is 0.5; it must be that of the passes so far, 0.666" "${few[@]}" --alpha 0.5 --picture c.pfm --checkpoint a.check --resume
 refused "it must be a file of its own" "${few[@]}" --picture c.pfm --checkpoint c.pfm
+refused "a.check, which is there already" "${few[@]}" --picture c.pfm --checkpoint a.check
 refused "its name must end with .png" "${few[@]}" --picture c.pfm --preview c.jpg
 [ ! -e c.pfm ] || wrong "a picture of a refused checkpoint"
 

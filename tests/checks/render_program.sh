@@ -212,6 +212,7 @@ refused "its name must end with .png" "$scene" --passes 2 --preview a.jpg
 refused "it must be a file of its own" "$scene" --passes 2 --out a.pfm --checkpoint a.pfm
 refused "cannot write" "$scene" --passes 2 --checkpoint /proc/none/a.check
 refused "cannot read 'none.check'" "$scene" --passes 2 --checkpoint none.check --resume
+refused "which is there already" "${passes[@]}" --passes 9 --checkpoint part.check
 refused "of another picture" "${passes[@]}" --passes 9 --seed 3 --checkpoint part.check --resume
 refused "alpha is 0.75; it must be that" "${passes[@]}" --passes 9 --alpha 0.75 \
     --checkpoint part.check --resume

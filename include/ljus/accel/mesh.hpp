@@ -46,7 +46,7 @@ public:
             area_up_to_.push_back(area);
         }
         const bool fits = static_cast<T>(area) > T(0) && std::isfinite(T(area));
-        require(fits, "the area of the mesh", area, "above 0 and within the range");
+        require(fits, "the area of the mesh", area, "above 0 and finite");
         const auto at = [this](std::uint32_t i) { return triangle(i); };
         if constexpr (std::is_same_v<T, float>) {
             tree_ = Tree(size(), at, threads);
