@@ -481,9 +481,7 @@ TEST_CASE("mesh: what is wrong is said with its place") {
           "its positions, 12.");
     bad = good;
     for (auto& p : bad.positions) p = {1, 2, 3};
-    CHECK(message(bad) ==
-          "the area of the mesh is 0; it must be above 0 and within the "
-          "range.");
+    CHECK(message(bad) == "the area of the mesh is 0; it must be above 0 and finite.");
     bad = good;
     bad.uv.resize(3);
     CHECK(message(bad).find("the number of a mesh's texture coordinates is 3; it must "
