@@ -502,7 +502,7 @@ TEST_CASE("texture: the tables of a JPEG file, segment by segment") {
         CHECK(trouble(with_table));
     }
     // After the pixels begin it may stand anywhere.
-    Bytes coded{0xff, 0xd8, 0xff, 0xda, 0, 8, 1, 2, 3, 0xff, 0, 7, 0xff, 0xe0, 0xff};
+    Bytes coded{0xff, 0xd8, 0xff, 0xda, 0, 8, 0, 2, 3, 0xff, 0, 7, 0xff, 0xe0, 0xff};
     CHECK_FALSE(trouble(coded));
     const Bytes bad = tables({256});
     coded.insert(coded.end(), bad.begin() + 2, bad.end());
@@ -517,6 +517,38 @@ TEST_CASE("texture: the tables of a JPEG file, segment by segment") {
     CHECK(trouble(again));
     CHECK_FALSE(trouble({0xff, 0xd8}));
     CHECK_FALSE(trouble({0xff, 0xd8, 0xff, 0xe0, 0xff}));
+}
+
+TEST_CASE("texture: a JPEG file has the tables that its scans use") {
+    // A file of a kind with an empty table of each number, 0x10 and more for AC, and a
+    // scan of two components that use some: DC in the upper half of a byte.
+    const auto good = [](int kind, std::initializer_list<int> there,
+                         std::array<int, 2> used, int first = 0, int high = 0) {
+        Bytes file{0xff, 0xd8, 0xff, static_cast<unsigned char>(kind), 0, 2};
+        const auto add = [&](std::initializer_list<int> values) {
+            for (const int v : values) file.push_back(static_cast<unsigned char>(v));
+        };
+        for (const int number : there) {
+            add({0xff, 0xc4, 0, 19, number});
+            file.insert(file.end(), 16, 0);
+        }
+        add({0xff, 0xda, 0, 10, 2, 1, used[0], 2, used[1], first, 63, high << 4, 0, 0});
+        return detail::jpeg_trouble(file) == nullptr;
+    };
+    constexpr int baseline = 0xc0, progressive = 0xc2;
+    CHECK(good(baseline, {0x00, 0x10, 0x01, 0x11}, {0x00, 0x11}));
+    CHECK(good(baseline, {0x00, 0x11}, {0x01, 0x01}));
+    CHECK_FALSE(good(baseline, {0x00, 0x10, 0x01}, {0x00, 0x11}));
+    CHECK_FALSE(good(baseline, {0x00, 0x10, 0x11}, {0x00, 0x11}));
+    CHECK_FALSE(good(baseline, {0x01, 0x10, 0x11}, {0x00, 0x11}));
+    CHECK_FALSE(good(baseline, {}, {0x00, 0x00}));
+    // A part of a progressive file uses tables of one kind, or none to refine DC.
+    CHECK(good(progressive, {0x00}, {0x00, 0x01}));
+    CHECK_FALSE(good(progressive, {0x10, 0x11}, {0x00, 0x01}));
+    CHECK(good(progressive, {0x12}, {0x32, 0x32}, 1));
+    CHECK(good(progressive, {0x12}, {0x32, 0x32}, 1, 1));
+    CHECK_FALSE(good(progressive, {0x02, 0x03}, {0x22, 0x22}, 1));
+    CHECK(good(progressive, {}, {0x00, 0x00}, 0, 1));
 }
 #endif
 

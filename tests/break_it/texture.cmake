@@ -90,3 +90,8 @@ ljus_break_it(NAME jpeg-second-table HEADER io/load_image.hpp TEST texture
     TO   "coded = kind == 0xda;"
     CASES "texture: the tables of a JPEG*")
 
+# A scan may use a table that no file has filled.
+ljus_break_it(NAME jpeg-missing-table HEADER io/load_image.hpp TEST texture
+    FROM "if (asks_ac && (there >> (16 + (numbers & 15u)) & 1u) == 0) return false;"
+    TO   ""
+    CASES "texture: a JPEG file has*")
