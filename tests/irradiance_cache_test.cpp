@@ -1,7 +1,12 @@
 // long: pictures of four rooms, by two renderers
+// The statistical cases were run with 20 further seeds: none failed. For others:
+// `./scripts/test --seeds 20`.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 
 #include "ljus/materials/glossy.hpp"
@@ -10,6 +15,7 @@
 #include "ljus/render/photon_mapping.hpp"
 #include "support/mean.hpp"
 #include "support/rooms.hpp"
+#include "support/student.hpp"
 
 using namespace ljus;
 using namespace ljus_test;
@@ -226,10 +232,11 @@ TEST_CASE("irradiance cache: a point in each square of pixels") {
     const Hall scene = hall();
     const IrradiancePoints points = known(Rgb{2});
     const Camera camera = look_at({.position{0, 0, 3}, .target{0, 0, 0}, .up{0, 1, 0}});
+    double aside = 0, squares = 0;
     for (const int tile : {1, 3, 4})
         for (const int threads : {1, 3}) {
             const RenderSettings picture{
-                .width = 10, .height = 7, .seed = 3, .threads = threads};
+                .width = 10, .height = 7, .seed = test_seed(3), .threads = threads};
             const auto cache =
                 make_irradiance_cache(scene, points, camera, picture,
                                       {.rays = 5, .tile = tile, .nearest = 4});
@@ -239,20 +246,21 @@ TEST_CASE("irradiance cache: a point in each square of pixels") {
             CHECK_FALSE(cache.empty());
             CHECK(cache.counts.bounce_rays == std::uint64_t(5 * columns * rows));
             std::vector<int> seen(std::size_t(columns * rows));
-            double aside = 0;
             for (std::size_t i = 0; i < cache.records.size(); ++i) {
                 const auto pixel = project(camera, cache.tree.point(i), 10, 7);
                 REQUIRE(pixel);
                 const int x = int(pixel->x) / tile, y = int(pixel->y) / tile;
                 ++seen[std::size_t(y * columns + x)];
                 aside += double(pixel->x / float(tile)) - x;
+                squares += 1;
                 CHECK(cache.records[i].spacing > 0);
                 CHECK(cache.records[i].irradiance.x == doctest::Approx(1).epsilon(0.2));
             }
             for (const int count : seen) CHECK(count == 1);
-            CHECK(aside / double(columns * rows) > 0.2); // not at their corners
-            CHECK(aside / double(columns * rows) < 0.8);
         }
+    // Not at their corners: 88 numbers, each twice, whose mean scatters by 0.03.
+    CHECK(aside / squares > 0.3);
+    CHECK(aside / squares < 0.7);
     // Stopped, it says so.
     const auto stop = [](long long, long long) { return false; };
     RenderSettings picture{.width = 10, .height = 30, .threads = 1};
@@ -269,7 +277,7 @@ TEST_CASE("irradiance cache: each square has numbers of its own, with each seed"
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
         const auto cache = make_irradiance_cache(
             scene, known(Rgb{2}), camera,
-            {.width = 40, .height = 30, .seed = seed, .threads = 1},
+            {.width = 40, .height = 30, .seed = test_seed(seed), .threads = 1},
             {.rays = 1, .tile = 10});
         REQUIRE(cache.records.size() == 12);
         for (std::size_t i = 0; i < 12; ++i) {
@@ -309,10 +317,11 @@ TEST_CASE("irradiance cache: each point has what was gathered there") {
 }
 
 TEST_CASE("irradiance cache: it equals path tracing, block by block") {
-    // Balls of each kind under a lamp. Blocks of 10 x 10 pixels, 6 seeds against 6 of
-    // the path tracer; what is allowed beside 4 standard errors is the bias of radius
-    // and interpolation: 4 % of a block and 1 % of the picture.
-    constexpr int size = 60, blocks = 36, seeds = 6;
+    // Balls of each kind under a lamp. Blocks of 10 x 10 pixels, 12 seeds against 24 of
+    // the path tracer; what is allowed beside chance is the bias of radius and
+    // interpolation: 4 % of a block and 1 % of the picture. One of the 144 blocks or
+    // the 4 pictures is a false alarm in 60 000 runs.
+    constexpr int size = 60, blocks = 36;
     const Camera camera = room_camera<float>();
     for (const Ball ball :
          {Ball::lambertian, Ball::oren_nayar, Ball::mirror, Ball::glass}) {
@@ -332,31 +341,44 @@ TEST_CASE("irradiance cache: it equals path tracing, block by block") {
             for (const double s : sum) total += s / blocks;
             all.add(total);
         };
-        for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-            const RenderSettings picture{.width = size,
-                                         .height = size,
-                                         .samples = 9,
-                                         .seed = seed,
-                                         .threads = 1};
-            const auto settings = cached(seed);
+        for (std::uint64_t run = 1; run <= 24; ++run) {
+            RenderSettings picture{.width = size,
+                                   .height = size,
+                                   .samples = 6,
+                                   .seed = test_seed(run),
+                                   .threads = 1};
+            add(render(make_path_tracer(room), camera, picture).image, traced,
+                all_traced);
+            if (run > 12) continue;
+            picture.samples = 4;
+            const auto settings = cached(picture.seed);
             auto maps = make_photon_maps(room, settings);
             add_irradiance_cache(maps, room, camera, picture, settings);
             CHECK(maps.cache.records.size() > 100);
             const auto mapper =
                 make_photon_mapper<StratifiedStream>(room, maps, settings);
             add(render(mapper, camera, picture).image, mapped, all_mapped);
-            RenderSettings more = picture;
-            more.samples = 25;
-            add(render(make_path_tracer(room), camera, more).image, traced, all_traced);
         }
         CAPTURE(int(ball));
-        CHECK(std::abs(all_mapped.mean / all_traced.mean - 1) < 0.01);
+        double squared = 0, largest = 0, worst = 1;
+        CHECK(chance_of(all_mapped, all_traced, 0.01 * all_traced.mean) > 1e-7);
         for (std::size_t i = 0; i < blocks; ++i) {
             CAPTURE(i);
+            const double right = traced[i].mean;
             const double error = std::hypot(mapped[i].error(), traced[i].error());
-            CHECK(std::abs(mapped[i].mean - traced[i].mean) <
-                  4 * error + 0.04 * traced[i].mean);
+            squared += error * error / (right * right) / blocks;
+            largest = std::max(largest, std::abs(mapped[i].mean / right - 1));
+            const double chance = chance_of(mapped[i], traced[i], 0.04 * right);
+            worst = std::min(worst, chance);
+            CHECK(chance > 1e-7);
         }
+        if (std::getenv("SHOW"))
+            std::printf("ball %d: %+.4f+-%.4f, blocks +-%.4f, largest %.4f, %.1e\n",
+                        int(ball), all_mapped.mean / all_traced.mean - 1,
+                        std::hypot(all_mapped.error(), all_traced.error()) /
+                            all_traced.mean,
+                        std::sqrt(squared), largest, worst);
+        CHECK(squared < 0.02 * 0.02); // it is a comparison
     }
 }
 

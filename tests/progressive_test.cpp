@@ -1,12 +1,16 @@
 /// \file progressive_test.cpp
 /// \brief Progressive passes against their laws, and checkpoints against kills.
 ///
-/// Statistical checks state how often they would fail by chance, were the seeds new.
+/// Of 3 means of 1500 runs, 6 of 64 and 2 of 48, each against its closed form, one is a
+/// false alarm in 70 000 runs; by how much they scatter, the runs tell. The statistical
+/// cases were run with 20 further seeds: none failed. For others:
+/// `./scripts/test --seeds 20`.
 
 #include <doctest/doctest.h>
 
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <string>
@@ -23,6 +27,8 @@
 #include "support/mean.hpp"
 #include "support/refusal.hpp"
 #include "support/rooms.hpp"
+#include "support/student.hpp"
+#include "support/within.hpp"
 
 // A child of a program with threads is more than the thread sanitizer can follow; g++
 // and clang say by different names that it is there.
@@ -45,9 +51,12 @@
 
 using namespace ljus;
 using ljus_test::apart;
+using ljus_test::chance_of;
 using ljus_test::Draws;
 using ljus_test::Mean;
+using ljus_test::once_in_a_million;
 using ljus_test::refusal;
+using ljus_test::test_seed;
 
 namespace {
 
@@ -198,7 +207,8 @@ TEST_CASE("progressive: the estimated error is the scatter of many runs") {
     for (const double x : expected) drift += (x - middle) * (x - middle) / 8 / 7;
     Mean pixels, blocks, scatter;
     for (std::uint64_t seed = 1; seed <= 1500; ++seed) {
-        const auto state = state_after(8, NoisyPass{.bias = 0.3, .seed = seed});
+        const auto state =
+            state_after(8, NoisyPass{.bias = 0.3, .seed = test_seed(seed)});
         const auto error = estimate_error(state);
         pixels.add(error.pixels * error.pixels);
         blocks.add(error.blocks * error.blocks);
@@ -209,10 +219,11 @@ TEST_CASE("progressive: the estimated error is the scatter of many runs") {
     CAPTURE(drift);
     CAPTURE(pixels.mean);
     CHECK(drift < 0.02 * exact);
-    CHECK(std::abs(apart(pixels, exact + drift)) < 4.1); // three of 1 in 10 000
+    CHECK(std::abs(apart(pixels, exact + drift)) < once_in_a_million);
     // One block of 15 pixels that share nothing.
-    CHECK(std::abs(apart(blocks, exact / 15 + drift)) < 4.1);
-    CHECK(std::abs(apart(scatter, exact)) < 4.1);
+    CHECK(std::abs(apart(blocks, exact / 15 + drift)) < once_in_a_million);
+    CHECK(std::abs(apart(scatter, exact)) < once_in_a_million);
+    CHECK(pixels.error() < 0.01 * exact); // an error that is 3 % off is found
 }
 
 TEST_CASE("progressive: the error of blocks has what their pixels share") {
@@ -251,10 +262,11 @@ TEST_CASE("progressive: photons follow the closed form of the blur, pass by pass
     for (const double alpha : {1.0 / 3, 2.0 / 3}) {
         std::array<Mean, 3> found;
         constexpr std::array counts{1LL, 16LL, 128LL};
-        for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+        for (std::uint64_t run = 1; run <= 64; ++run) {
+            const std::uint64_t seed = test_seed(run);
             const auto pass = [&](long long i, double scale) {
                 return photon_mapping_pass(
-                    room, camera, mirror_light(radius, 1500, seed),
+                    room, camera, mirror_light(radius, 400, seed),
                     {.width = 2, .height = 1, .samples = 1, .seed = seed, .threads = 1},
                     i, scale);
             };
@@ -276,8 +288,11 @@ TEST_CASE("progressive: photons follow the closed form of the blur, pass by pass
             CAPTURE(found[k].mean);
             CAPTURE(found[k].error());
             CAPTURE(right);
-            // Student's t with 15 degrees: six of 1 in 6000. The patch is not a point.
-            CHECK(std::abs(apart(found[k], right, 1e-4)) < 4.9);
+            if (std::getenv("SHOW"))
+                std::printf("%lld passes: %+.4f+-%.4f%%, chance %.1e\n", i,
+                            100 * (found[k].mean / right - 1),
+                            100 * found[k].error() / right, chance_of(found[k], right));
+            CHECK(chance_of(found[k], right) > 1e-6);
             CHECK(found[k].error() < 0.01 * right);
             ++k;
         }
@@ -287,10 +302,20 @@ TEST_CASE("progressive: photons follow the closed form of the blur, pass by pass
 TEST_CASE("progressive: variance and squared bias fall with the predicted slopes") {
     const Stage room = window();
     const Camera camera = patch_camera();
-    // Variance: a small disc, so that almost all photons lie outside of it.
+    // Variance: a small disc, so that almost all photons lie outside of it. Of each of
+    // 48 runs the ratio that the radii say, of what two estimates of the error say.
     for (const double alpha : {1.0 / 3, 2.0 / 3}) {
-        Mean few, many;
-        for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        double sum_few = 0, sum_many = 0;
+        for (int i = 1; i <= 128; ++i) {
+            const double scatter = 1 / closed_shrink(i, alpha);
+            sum_many += scatter;
+            if (i <= 16) sum_few += scatter;
+        }
+        const double right = sum_many / (128 * 128) / (sum_few / (16 * 16));
+        CHECK(std::abs(std::log(right) / std::log(8.0) + alpha) < 0.03);
+        Mean few, more;
+        for (std::uint64_t run = 1; run <= 48; ++run) {
+            const std::uint64_t seed = test_seed(run);
             const auto pass = [&](long long i, double scale) {
                 return photon_mapping_pass(
                     room, camera, mirror_light(0.2f, 200, seed),
@@ -298,28 +323,24 @@ TEST_CASE("progressive: variance and squared bias fall with the predicted slopes
                     i, scale);
             };
             ProgressiveState state{.alpha = alpha};
-            const auto add = [&](Mean& to, long long passes) {
+            const auto variance = [&](long long passes) {
                 (void)run_progressive(state, passes, pass, go_on);
                 const double error = estimate_error(state).pixels;
-                to.add(error * error);
+                return error * error;
             };
-            add(few, 64);
-            add(many, 512);
+            const double of_few = variance(16);
+            few.add(of_few);
+            more.add(variance(128) - right * of_few);
         }
-        double sum_few = 0, sum_many = 0;
-        for (int i = 1; i <= 512; ++i) {
-            const double scatter = 1 / closed_shrink(i, alpha);
-            sum_many += scatter;
-            if (i <= 64) sum_few += scatter;
-        }
-        const double right = sum_many / (512 * 512) / (sum_few / (64 * 64));
         CAPTURE(alpha);
-        CAPTURE(many.mean / few.mean);
+        CAPTURE(more.mean / few.mean);
+        CAPTURE(more.error() / few.mean);
         CAPTURE(right);
-        // 8 runs know the ratio to 7 %, and 1 in the disc is 4 % less random at first.
-        CHECK(many.mean / few.mean == doctest::Approx(right).epsilon(0.3));
-        const double slope = std::log(many.mean / few.mean) / std::log(8.0);
-        CHECK(std::abs(slope + alpha) < 0.12);
+        if (std::getenv("SHOW"))
+            std::printf("alpha %.2f: variance %+.4f+-%.4f of %.4f\n", alpha,
+                        more.mean / few.mean, more.error() / few.mean, right);
+        CHECK(chance_of(more, 0) > 1e-6);
+        CHECK(more.error() < 0.1 * right * few.mean); // it is a comparison
     }
     // The bias that the blur predicts, which the case above has found: its slope.
     for (const double alpha : {1.0 / 3, 2.0 / 3}) {
@@ -341,9 +362,10 @@ TEST_CASE("progressive: both radii shrink, and no pass repeats another") {
     ljus_test::add_lamps(room, ljus_test::Lamp::quad, 1);
     const auto camera = ljus_test::room_camera<float>();
     PhotonMappingSettings settings{.indirect = IndirectLight::photons};
-    settings.caustics = {.photons = 2000};
-    settings.general = {.photons = 2000};
-    const RenderSettings picture{.width = 12, .height = 9, .samples = 1};
+    settings.caustics = {.photons = 2000, .seed = test_seed(1)};
+    settings.general = {.photons = 2000, .seed = test_seed(1)};
+    const RenderSettings picture{
+        .width = 12, .height = 9, .samples = 1, .seed = test_seed(1)};
     const auto pass = [&](const PhotonMappingSettings& how, long long i, double scale) {
         return photon_mapping_pass(room, camera, how, picture, i, scale);
     };
@@ -372,7 +394,9 @@ TEST_CASE("progressive: both radii shrink, and no pass repeats another") {
     const double large = gathered(0.5), small = gathered(0.25);
     CAPTURE(large);
     CAPTURE(small);
-    CHECK(small / large == doctest::Approx(0.25).epsilon(0.2));
+    if (std::getenv("SHOW")) std::printf("photons %g %g\n", small, large);
+    // 0.262 by 21 seeds, which scatter by 0.009.
+    CHECK(small / large == ljus_test::within(0.25, 0.25));
     // Each map by itself.
     for (const bool caustics : {false, true}) {
         PhotonMappingSettings one = settings;

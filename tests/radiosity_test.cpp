@@ -6,6 +6,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/scenes/furnaces.hpp"
@@ -268,14 +270,21 @@ TEST_CASE("radiosity: the same light as path tracing, as patches shrink") {
                     at, to_world(frame_around(at.normal), sample_cosine_hemisphere(v)));
             };
             const auto traced = ljus_test::mean_radiance(
-                tracer, 6000, 100 * grid + std::uint64_t(quarter), ray);
+                tracer, 14000, 100 * grid + std::uint64_t(quarter), ray);
             const double error = std::numbers::pi * traced.error();
             const double h2 = mean_of(*coarse, grid, quarter).x;
             const double h4 = mean_of(*middle, grid, quarter).x;
             const double h8 = mean_of(*fine, grid, quarter).x;
-            // What patches of 1/8 still lack is less than the noise of 6000 paths.
+            if (std::getenv("SHOW"))
+                std::printf("%u %d: traced %+.4f+-%.4f, quarter %+.4f\n", grid, quarter,
+                            std::numbers::pi * traced.mean / h8 - 1, error / h8,
+                            h4 / h8 - 1);
+            // What patches of 1/8 still lack is far less than the noise of 14000 paths,
+            // some 1.2 %. One of the eight is a false alarm in 60 000 runs; with 20
+            // further seeds there was none.
             CHECK(std::abs(h8 - h4) < error);
-            CHECK(std::abs(std::numbers::pi * traced.mean - h8) < 3.5 * error);
+            CHECK(std::abs(std::numbers::pi * traced.mean - h8) <
+                  ljus_test::once_in_a_million * error);
             worst =
                 std::max(worst, std::abs(std::numbers::pi * traced.mean - h8) / error);
             first += std::abs(h4 - h2);

@@ -1,5 +1,6 @@
 // Furnaces, whose light is known to all depths. Comparisons of random numbers are at 5
-// standard errors: fresh seeds would fail one of the four in half a million runs.
+// standard errors: one of the four is a false alarm in half a million runs. Run with
+// 20 further seeds: none failed. For others: `./scripts/test --seeds 20`.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -19,8 +20,12 @@ namespace {
 /// What the pixels of a picture have found, green.
 template <typename Renderer>
 ljus_test::Mean pixels_of(const Renderer& renderer, const Camera& camera, int rays) {
-    const auto seen = render(
-        renderer, camera, {.width = 16, .height = 16, .samples = rays, .threads = 1});
+    const auto seen = render(renderer, camera,
+                             {.width = 16,
+                              .height = 16,
+                              .samples = rays,
+                              .seed = ljus_test::test_seed(1),
+                              .threads = 1});
     ljus_test::Mean mean;
     for (const Rgb& c : seen.image.pixels) mean.add(double(c.y));
     return mean;

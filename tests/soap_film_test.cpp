@@ -1,12 +1,18 @@
 /// \file soap_film_test.cpp
 /// \brief A soap bubble in rooms: what it reflects, what goes through, and who sees it.
+///
+/// The cases of thin sheets were run with 20 further seeds: none failed. For others:
+/// `./scripts/test --seeds 20`.
 
 #include "ljus/inspect/survey.hpp"
 #include "ljus/materials/soap_film.hpp"
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -21,6 +27,7 @@
 #include "support/draws.hpp"
 #include "support/mean.hpp"
 #include "support/refusal.hpp"
+#include "support/student.hpp"
 
 using namespace ljus;
 using namespace ljus_test;
@@ -175,7 +182,7 @@ TEST_CASE("thin sheets: a lamp is seen through a bubble by T of each wall") {
     const SoapFilm film{.thickness = 300, .scale = 0.7f};
     const Room room = room_with(&film);
     const detail::IndexedT<Room> indexed(room);
-    Draws draws;
+    Draws draws{test_seed(1)};
     int hits = 0;
     for (int i = 0; i < 2000; ++i) {
         const Vec3 a = Vec3{0, 0, -0.2f} + 0.75f * draws.direction<float>();
@@ -216,8 +223,8 @@ TEST_CASE("thin sheets: what a path meets, by chance, is in the mean what light 
     const Room room = room_with(&film);
     const Ray ray{.origin{0.2f, -0.9f, -0.2f}, .direction{0, 1, 0}};
     Mean stopped[3], through[3];
-    for (std::uint64_t path = 0; path < 50000; ++path) {
-        auto stream = random_stream(1, Pass::user, 0, path);
+    for (std::uint64_t path = 0; path < 70000; ++path) {
+        auto stream = random_stream(test_seed(1), Pass::user, 0, path);
         PathState state{.ray = ray};
         const auto met = next_vertex(room, state, stream);
         REQUIRE(met);
@@ -233,9 +240,11 @@ TEST_CASE("thin sheets: what a path meets, by chance, is in the mean what light 
     const float cosine = std::sqrt(0.36f - 0.04f) / 0.6f;
     const Rgb t = pass_through(film, {}, Vec3{0, 0, cosine});
     for (int k = 0; k < 3; ++k) {
-        // Divided by the chance: 1, of which sample() then reflects R.
-        CHECK(std::abs(apart(stopped[k], 1.0)) < 4);
-        CHECK(std::abs(apart(through[k], double(t[k]) * double(t[k]))) < 4);
+        // Divided by the chance: 1, of which sample() then reflects R. One of six is a
+        // false alarm in 80 000 runs.
+        CHECK(std::abs(apart(stopped[k], 1.0)) < once_in_a_million);
+        CHECK(std::abs(apart(through[k], double(t[k]) * double(t[k]))) <
+              once_in_a_million);
     }
 }
 
@@ -249,7 +258,7 @@ TEST_CASE("thin sheets: a bubble in a furnace cannot be seen") {
         room.add(Sphere{}, room.add(film));
         const auto tracer = make_path_tracer(room);
         PhotonMappingSettings settings;
-        settings.caustics.photons = 20000;
+        settings.caustics = {.photons = 20000, .seed = test_seed(1)};
         settings.caustics_estimate.radius = 0.8f;
         const auto maps = make_photon_maps(room, settings);
         const auto mapper = make_photon_mapper(room, maps, settings);
@@ -262,7 +271,12 @@ TEST_CASE("thin sheets: a bubble in a furnace cannot be seen") {
         for (int channel = 0; channel < 3; ++channel) {
             const Mean traced = mean_radiance(tracer, 20000, 3, ray, channel);
             const Mean mapped = mean_radiance(mapper, 2000, 5, ray, channel);
-            CHECK(std::abs(apart(traced, 1.0)) < 4); // one false alarm in 1700 runs
+            if (std::getenv("SHOW"))
+                std::printf("furnace %d %d: %+.4f+-%.4f, mapped %+.4f+-%.4f\n",
+                            int(color), channel, traced.mean - 1, traced.error(),
+                            mapped.mean - 1, mapped.error());
+            // One of nine is a false alarm in 50 000 runs.
+            CHECK(std::abs(apart(traced, 1.0)) < once_in_a_million);
             CHECK(traced.error() < 0.006);
             CHECK(mapped.mean == doctest::Approx(1).epsilon(0.02));
         }
@@ -317,9 +331,8 @@ TEST_CASE("thin sheets: who owns which path") {
     CHECK(caustics.photons.size() > 100);
 }
 
-// 12 means (4 bands, 3 channels) are asked for 4 standard errors, by 16 seeds of each
-// renderer: with 30 degrees of freedom one false alarm in 2600 a mean, in 200 runs with
-// new seeds.
+// 12 means (4 bands, 3 channels) by 16 seeds of each renderer; one of them is a false
+// alarm in 80 000 runs.
 TEST_CASE("thin sheets: photon mapping equals path tracing in a room with a bubble") {
     // A mirror in the bubble: caustics of both, and of the one through the other.
     const SoapFilm film = strong();
@@ -335,7 +348,8 @@ TEST_CASE("thin sheets: photon mapping equals path tracing in a room with a bubb
             for (int k = 0; k < 3; ++k) bands[band][k].add(sum[k] / (high * size));
         }
     };
-    for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+    for (std::uint64_t run = 1; run <= 16; ++run) {
+        const std::uint64_t seed = test_seed(run);
         RenderSettings picture{
             .width = size, .height = size, .samples = 25, .seed = seed, .threads = 1};
         take(render(make_path_tracer(room), camera, picture).image, traced);
@@ -348,15 +362,19 @@ TEST_CASE("thin sheets: photon mapping equals path tracing in a room with a bubb
         take(render(make_photon_mapper(room, maps, settings), camera, picture).image,
              mapped);
     }
-    double worst = 0, relative = 0;
+    double worst = 1, squared = 0;
     for (int band = 0; band < 4; ++band)
         for (int k = 0; k < 3; ++k) {
             const auto& a = mapped[band][k];
             const auto& b = traced[band][k];
-            worst = std::max(worst, std::abs(apart(a, b)));
-            relative = std::max(relative, std::abs(a.mean / b.mean - 1));
-            CHECK(std::abs(apart(a, b)) < 4);
+            const double error = std::hypot(a.error(), b.error()) / b.mean;
+            if (std::getenv("SHOW"))
+                std::printf("band %d %d: %+.4f+-%.4f, chance %.1e\n", band, k,
+                            a.mean / b.mean - 1, error, chance_of(a, b));
+            worst = std::min(worst, chance_of(a, b));
+            squared += error * error / 12;
         }
-    MESSAGE("largest distance ", worst, " standard errors, ", relative);
-    CHECK(relative < 0.05);
+    MESSAGE("least chance ", worst, ", errors ", std::sqrt(squared));
+    CHECK(worst > 1e-6);
+    CHECK(squared < 0.03 * 0.03); // it is a comparison, of 1.6 %
 }

@@ -1,3 +1,6 @@
+// Of 12 means at 4.75 standard errors and 16 means and counts at 5 one is a false alarm
+// in 30 000 runs. The statistical cases were run with 20 further seeds: none failed.
+// For others: `./scripts/test --seeds 20`.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -59,13 +62,13 @@ TEST_CASE("vertex: what a path is in after a surface") {
 }
 
 TEST_CASE("vertex: roulette leaves the mean as it was") {
-    // Survivors are divided by the probability of surviving: 3 standard errors of 20000
-    // games, three channels and four throughputs.
+    // Survivors are divided by the probability of surviving: three channels and four
+    // throughputs, of which one is a false alarm in 40 000 runs.
     for (const Rgb before : {Rgb{0.9f, 0.5f, 0.1f}, Rgb{0.01f, 0.02f, 0}, Rgb{0.3f},
                              Rgb{2.25f, 1, 0.5f}}) {
         Mean after[3];
-        auto stream = random_stream(1, Pass::user, 0, 0);
-        for (int i = 0; i < 20000; ++i) {
+        auto stream = random_stream(test_seed(1), Pass::user, 0, 0);
+        for (int i = 0; i < 50000; ++i) {
             Rgb throughput = before;
             const bool alive = survives(throughput, 1.0f, next_1d<float>(stream));
             for (int c = 0; c < 3; ++c)
@@ -73,7 +76,8 @@ TEST_CASE("vertex: roulette leaves the mean as it was") {
             if (alive) CHECK(max_component(throughput) >= 1.0f - 1e-6f);
         }
         for (int c = 0; c < 3; ++c)
-            CHECK(std::abs(apart(after[c], double(before[c]), 1e-6)) < 3);
+            CHECK(std::abs(apart(after[c], double(before[c]), 1e-6)) <
+                  once_in_a_million);
     }
     // Above 1 nobody dies, and nothing is changed: inside glass throughputs are 2.25.
     Rgb bright{2.25f, 1, 0.5f};
@@ -144,7 +148,7 @@ TEST_CASE("vertex: a path through glass carries what its ways and Snell say") {
     int inside_reflections = 0, left = 0;
     for (const Transport transport : {Transport::radiance, Transport::flux})
         for (std::uint64_t seed = 0; seed < 400; ++seed) {
-            auto stream = random_stream(seed, Pass::user, 0, 0);
+            auto stream = random_stream(test_seed(seed), Pass::user, 0, 0);
             const RayT<double> ray{.origin{0, 0, 1},
                                    .direction = glm::normalize(D3{0.6, 0.2, -0.8}),
                                    .time = 0.25};
@@ -247,7 +251,8 @@ TEST_CASE("vertex: a matt surface sends a path on by the cosine, times its albed
             D3 mean{0};
             const int count = 4000;
             for (int i = 0; i < count; ++i) {
-                auto stream = random_stream(2, Pass::user, 0, std::uint64_t(i));
+                auto stream =
+                    random_stream(test_seed(2), Pass::user, 0, std::uint64_t(i));
                 PathStateT<double> path{
                     .ray{.origin{0, 0, side}, .direction{0, 0, -side}, .time = 0.5}};
                 auto vertex = next_vertex(room, path, stream);
@@ -339,8 +344,8 @@ TEST_CASE("vertex: with two normals, radiance by the one and flux by both") {
     const LambertianT<double> matt{.albedo{0.8, 0.5, 0.2}};
     int ended = 0, went_on = 0;
     for (const double x : {-0.9, -0.3, 0.4, 0.9})
-        for (std::uint64_t i = 0; i < 500; ++i) {
-            auto stream = random_stream(3, Pass::user, 0, i);
+        for (std::uint64_t i = 0; i < 2000; ++i) {
+            auto stream = random_stream(test_seed(3), Pass::user, 0, i);
             const D3 back = glm::normalize(D3{x, 0.6, 0.2});
             const auto vertex = leaning(back);
             const auto u = next_3d<double>(stream);
@@ -361,8 +366,10 @@ TEST_CASE("vertex: with two normals, radiance by the one and flux by both") {
             CHECK(glm::distance(flux->sample.weight, matt.albedo * factor) <
                   1e-12 * factor);
         }
-    CHECK(ended > 20);
-    CHECK(went_on > 1000);
+    // The normals are 16.7 degrees apart: 42 of 2000 directions are below the surface,
+    // for each of the four ways the same; fewer than 10 are once in a thousand million.
+    CHECK(ended >= 40);
+    CHECK(went_on > 7000);
 
     // A mirror: about the leaning normal, where that stays above the surface; else
     // about the surface's own.
@@ -410,7 +417,7 @@ TEST_CASE("vertex: panes in the way let a path pass, or stop it by what they ref
     int stopped[3] = {};
     const int paths = 20000;
     for (int i = 0; i < paths; ++i) {
-        auto stream = random_stream(8, Pass::user, 0, std::uint64_t(i));
+        auto stream = random_stream(test_seed(8), Pass::user, 0, std::uint64_t(i));
         PathStateT<double> path{
             .ray{.origin{0, 0, 4}, .direction{0, 0, -1}, .time = 0.75},
             .throughput{2, 3, 4},
@@ -439,7 +446,7 @@ TEST_CASE("vertex: panes in the way let a path pass, or stop it by what they ref
     // Out of the scene through both panes: no vertex. And how much of a lamp is seen.
     bool left = false;
     for (std::uint64_t i = 0; i < 50; ++i) {
-        auto stream = random_stream(9, Pass::user, 0, i);
+        auto stream = random_stream(test_seed(9), Pass::user, 0, i);
         PathStateT<double> path{.ray{.origin{0, 0, 0.5}, .direction{0, 0, 1}}};
         left = left || !next_vertex(scene, path, stream);
     }
@@ -513,7 +520,8 @@ TEST_CASE("vertex: a path has a time if something can move, and draws it once") 
     const Room still;
     double sum = 0;
     for (std::uint64_t i = 0; i < 1000; ++i) {
-        auto stream = random_stream(5, Pass::user, 0, i), twin = stream, other = stream;
+        auto stream = random_stream(test_seed(5), Pass::user, 0, i), twin = stream,
+             other = stream;
         const Ray ray{.origin{1, 2, 3}, .time = 0.75f};
         const PathState path = detail::camera_path(moving, ray, stream);
         REQUIRE(path.ray.time == next_1d<float>(twin));
@@ -540,7 +548,7 @@ TEST_CASE("vertex: an index knows the frames of flat shapes") {
                  inside_out);
     }
     const auto indexed = index_scene(room);
-    RandomStream numbers = random_stream(7, Pass::user, 0, 0);
+    RandomStream numbers = random_stream(test_seed(7), Pass::user, 0, 0);
     int hits = 0;
     for (int i = 0; i < 400; ++i) {
         const Vec2 u = next_2d(numbers);
