@@ -67,7 +67,7 @@ inline void require_pass_files(const PassOptions& how, const std::string& pictur
         std::filesystem::exists(how.checkpoint)) // it may hold hours of passes
         throw std::invalid_argument("--checkpoint is " + how.checkpoint +
                                     ", which is there already; it must be a new file, "
-                                    "or go on from it with --resume.");
+                                    "unless --resume goes on from it.");
     for (const std::string& file : {how.checkpoint, how.preview})
         if (!file.empty()) require_writable(file);
 }

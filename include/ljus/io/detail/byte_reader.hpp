@@ -109,7 +109,7 @@ struct ByteReader {
     }
 
 private:
-    static constexpr long long max_size = 1LL << 28; // max_pixels
+    static constexpr long long max_size = 1LL << 28; // as max_pixels of an image
     static char to_char(unsigned char byte) noexcept { return static_cast<char>(byte); }
     static bool is_space(char c) noexcept {
         return c == ' ' || c == '\n' || c == '\t' || c == '\r';
