@@ -550,6 +550,33 @@ TEST_CASE("texture: a JPEG file has the tables that its scans use") {
     CHECK_FALSE(good(progressive, {0x02, 0x03}, {0x22, 0x22}, 1));
     CHECK(good(progressive, {}, {0x00, 0x00}, 0, 1));
 }
+
+TEST_CASE("texture: the sums of a damaged JPEG file wrap, and are clamped") {
+    // 64 x 8 pixels of one channel. Each block is 32 767 units of 65 535 brighter than
+    // the one before it, so that the second one overflows an int. The sanitizers judge.
+    Bytes file{0xff, 0xd8};
+    const auto segment = [&](int kind, std::initializer_list<int> values) {
+        for (const int v : {0xff, kind, 0, int(values.size()) + 2})
+            file.push_back(static_cast<unsigned char>(v));
+        for (const int v : values) file.push_back(static_cast<unsigned char>(v));
+    };
+    segment(0xdb, {0x10}); // the units, 16 bits each
+    file[5] = 131;
+    file.insert(file.end(), 128, 0xff);
+    segment(0xc0, {8, 0, 8, 0, 64, 1, 1, 0x11, 0});
+    // One code in each table, 0: a step of 15 bits, and nothing but it in the block.
+    segment(0xc4, {0x00, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 15});
+    segment(0xc4, {0x10, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+    segment(0xda, {1, 1, 0x00, 0, 63, 0});
+    // 0 111111111111111 0, eight times; a zero byte follows each byte of ones.
+    for (const int half : {0x7f, 0x3f, 0x9f, 0xcf, 0xe7, 0xf3, 0xf9, 0xfc, 0xfe})
+        for (const int v : {half, 0xff, 0})
+            file.push_back(static_cast<unsigned char>(v));
+    file.back() = 0xd9;
+    const Image image = detail::decode_image(file, "a");
+    CHECK(image.width == 64);
+    for (const Rgb& color : image.pixels) CHECK((color.x >= 0 && color.x <= 1));
+}
 #endif
 
 TEST_CASE("texture: a file of many pixels and few bytes is refused") {
