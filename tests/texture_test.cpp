@@ -501,20 +501,23 @@ TEST_CASE("texture: the tables of a JPEG file, segment by segment") {
         with_table.insert(with_table.end(), bad.begin() + 2, bad.end());
         CHECK(trouble(with_table));
     }
-    // After the pixels begin it may stand anywhere.
-    Bytes coded{0xff, 0xd8, 0xff, 0xda, 0, 8, 0, 2, 3, 0xff, 0, 7, 0xff, 0xe0, 0xff};
-    CHECK_FALSE(trouble(coded));
+    // Behind coded pixels, among which 0xff is followed by 0 or numbers a restart.
+    Bytes coded{0xff, 0xd8, 0xff, 0xda, 0, 8, 0, 0, 0, 0, 0, 0};
+    add(coded, {7, 0xff, 0, 0xc4, 0xff, 0xd0, 0xff, 0xd7, 0xc4, 0xff});
     const Bytes bad = tables({256});
-    coded.insert(coded.end(), bad.begin() + 2, bad.end());
-    CHECK(trouble(coded));
-    // A good one there ends nothing: behind it what looks like a long segment is none.
-    Bytes again = tables({3});
-    again.resize(again.size() - 310);
-    again.insert(again.begin() + 2, {0xff, 0xda});
-    add(again, {7, 0xff, 0xe0, 0x7f, 0xff});
-    CHECK_FALSE(trouble(again));
-    again.insert(again.end(), bad.begin() + 2, bad.end());
-    CHECK(trouble(again));
+    const auto with_bad = [&](std::initializer_list<int> before) {
+        Bytes file = coded;
+        add(file, before);
+        file.insert(file.end(), bad.begin() + 2, bad.end());
+        return trouble(file);
+    };
+    CHECK_FALSE(trouble(coded));
+    CHECK(with_bad({}));
+    CHECK(with_bad({0xff, 0xff}));                   // padding
+    CHECK(with_bad({0xff, 0xc4, 0, 2}));             // no tables, then these
+    CHECK(with_bad({0xff, 0xfe, 0, 4, 0xff, 0xd9})); // a comment
+    CHECK_FALSE(with_bad({0xff, 0xfe, 0, 4}));       // in one: its end is in the table
+    CHECK_FALSE(with_bad({0xff, 0xd9}));             // behind the end of the picture
     CHECK_FALSE(trouble({0xff, 0xd8}));
     CHECK_FALSE(trouble({0xff, 0xd8, 0xff, 0xe0, 0xff}));
 }
@@ -523,7 +526,8 @@ TEST_CASE("texture: a JPEG file has the tables that its scans use") {
     // A file of a kind with an empty table of each number, 0x10 and more for AC, and a
     // scan of two components that use some: DC in the upper half of a byte.
     const auto good = [](int kind, std::initializer_list<int> there,
-                         std::array<int, 2> used, int first = 0, int high = 0) {
+                         std::array<int, 2> used, int first = 0, int high = 0,
+                         std::initializer_list<int> before = {}) {
         Bytes file{0xff, 0xd8, 0xff, static_cast<unsigned char>(kind), 0, 2};
         const auto add = [&](std::initializer_list<int> values) {
             for (const int v : values) file.push_back(static_cast<unsigned char>(v));
@@ -532,6 +536,7 @@ TEST_CASE("texture: a JPEG file has the tables that its scans use") {
             add({0xff, 0xc4, 0, 19, number});
             file.insert(file.end(), 16, 0);
         }
+        add(before);
         add({0xff, 0xda, 0, 10, 2, 1, used[0], 2, used[1], first, 63, high << 4, 0, 0});
         return detail::jpeg_trouble(file) == nullptr;
     };
@@ -549,6 +554,15 @@ TEST_CASE("texture: a JPEG file has the tables that its scans use") {
     CHECK(good(progressive, {0x12}, {0x32, 0x32}, 1, 1));
     CHECK_FALSE(good(progressive, {0x02, 0x03}, {0x22, 0x22}, 1));
     CHECK(good(progressive, {}, {0x00, 0x00}, 0, 1));
+    // What looks like a table within a comment, here behind a first scan, is none.
+    const auto second_scan = [&](int kind) {
+        return good(progressive, {0x00}, {0x02, 0x02}, 1, 0,
+                    {0xff, 0xda, 0, 8,  1,    1, 0, 0, 0, 0, 7, // pixels: 7
+                     0xff, kind, 0, 19, 0x12, 0, 0, 0, 0, 0, 0, //
+                     0,    0,    0, 0,  0,    0, 0, 0, 0, 0});
+    };
+    CHECK(second_scan(0xc4));
+    CHECK_FALSE(second_scan(0xfe));
 }
 
 TEST_CASE("texture: the sums of a damaged JPEG file wrap, and are clamped") {

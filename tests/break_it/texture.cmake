@@ -49,7 +49,7 @@ ljus_break_it(NAME texture-scale HEADER image/texture.hpp TEST texture
     CASES "texture: a UvMap*")
 
 # A chunk's sum is not asked.
-ljus_break_it(NAME png-sum HEADER io/load_image.hpp TEST texture
+ljus_break_it(NAME png-sum HEADER io/detail/picture_damage.hpp TEST texture
     FROM "if (png_number(file, at + 8 + size) != png_sum(file, at + 4, at + 8 + size))"
     TO   "if (size > 1u << 30)"
     CASES "texture: of pictures only*")
@@ -61,7 +61,7 @@ ljus_break_it(NAME image-kinds HEADER io/load_image.hpp TEST texture
     CASES "texture: of pictures only*")
 
 # A table of more entries than there are places.
-ljus_break_it(NAME jpeg-tables HEADER io/load_image.hpp TEST texture
+ljus_break_it(NAME jpeg-tables HEADER io/detail/picture_damage.hpp TEST texture
     FROM "entries > 255"
     TO   "entries > 4080"
     CASES "texture: of pictures only*")
@@ -84,14 +84,14 @@ ljus_break_it(NAME picture-height HEADER image/texture.hpp TEST texture
     TO   "(T(1) - repeat(at.y)) * T(image.width)"
     CASES "texture: rows and columns*")
 
-# Behind one table among the coded pixels nobody looks for another.
-ljus_break_it(NAME jpeg-second-table HEADER io/load_image.hpp TEST texture
-    FROM "coded = coded || kind == 0xda;"
-    TO   "coded = kind == 0xda;"
+# Nobody looks for the marker behind the coded pixels.
+ljus_break_it(NAME jpeg-second-table HEADER io/detail/picture_damage.hpp TEST texture
+    FROM "if (kind == scan) at = behind_pixels(file, at);"
+    TO   ""
     CASES "texture: the tables of a JPEG*")
 
 # A scan may use a table that no file has filled.
-ljus_break_it(NAME jpeg-missing-table HEADER io/load_image.hpp TEST texture
+ljus_break_it(NAME jpeg-missing-table HEADER io/detail/picture_damage.hpp TEST texture
     FROM "if (asks_ac && (there >> (16 + (numbers & 15u)) & 1u) == 0) return false;"
     TO   ""
     CASES "texture: a JPEG file has*")

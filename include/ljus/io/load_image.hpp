@@ -82,6 +82,7 @@
 
 #include "ljus/image/color.hpp"
 #include "ljus/image/image.hpp"
+#include "ljus/io/detail/picture_damage.hpp"
 #include "ljus/io/file.hpp"
 
 namespace ljus {
@@ -98,108 +99,6 @@ inline constexpr std::size_t max_image_file = std::size_t(1) << 27;
 
 /// The most pixels that it takes: 8192 x 4096.
 inline constexpr int max_image_pixels = 1 << 25;
-
-// The number in four bytes of a PNG file, the highest first.
-inline std::uint32_t png_number(const Bytes& file, std::size_t at) noexcept {
-    return std::uint32_t(file[at]) << 24 | std::uint32_t(file[at + 1]) << 16 |
-           std::uint32_t(file[at + 2]) << 8 | std::uint32_t(file[at + 3]);
-}
-
-// The sum, CRC-32, that ends each chunk of a PNG file: of its name and its bytes.
-inline std::uint32_t png_sum(const Bytes& file, std::size_t first, std::size_t last) {
-    static constexpr auto table = [] {
-        std::array<std::uint32_t, 256> sums{};
-        for (std::uint32_t i = 0; i < 256; ++i) {
-            sums[i] = i;
-            for (int bit = 0; bit < 8; ++bit)
-                sums[i] = sums[i] >> 1 ^ (sums[i] & 1u ? 0xedb88320u : 0u);
-        }
-        return sums;
-    }();
-    std::uint32_t sum = 0xffffffffu;
-    for (std::size_t i = first; i < last; ++i)
-        sum = table[(sum ^ file[i]) & 255u] ^ sum >> 8;
-    return ~sum;
-}
-
-// What is wrong with a PNG file, which stb_image does not ask: the chunks must follow
-// one another up to IEND, each with its own sum.
-inline const char* png_trouble(const Bytes& file) {
-    for (std::size_t at = 8; file.size() - at >= 12;) {
-        const std::size_t size = png_number(file, at);
-        if (size > file.size() - at - 12) return "it ends in the middle of a chunk";
-        if (png_number(file, at + 8 + size) != png_sum(file, at + 4, at + 8 + size))
-            return "the sum of a chunk is wrong";
-        if (png_number(file, at + 4) == 0x49454e44u) return nullptr; // IEND
-        at += 12 + size;
-    }
-    return "it ends before its last chunk";
-}
-
-// A byte of a file; 0 behind its end, as stb_image has it.
-inline std::size_t byte_at(const Bytes& file, std::size_t at) {
-    return at < file.size() ? std::size_t(file[at]) : std::size_t(0);
-}
-
-// Whether stb_image may read the tables of a JPEG file whose length stands at `at`: it
-// has room for 256 entries, does not count them, and takes number 255 for none. Notes
-// the tables in `there`: bit n is number n for DC, bit 16 + n for AC.
-inline bool good_huffman_tables(const Bytes& file, std::size_t at,
-                                std::uint32_t& there) {
-    const auto byte = [&](std::size_t i) { return byte_at(file, i); };
-    auto left = static_cast<long long>(byte(at) * 256 + byte(at + 1)) - 2;
-    for (at += 2; left > 0;) {
-        std::size_t entries = 0;
-        for (std::size_t i = 1; i <= 16; ++i) entries += byte(at + i);
-        if (entries > 255) return false;
-        there |= std::uint32_t{1} << (byte(at) & 31u);
-        at += 17 + entries;
-        left -= static_cast<long long>(17 + entries);
-    }
-    return true;
-}
-
-// Whether a scan whose length stands at `at` finds its tables: stb_image reads whatever
-// is in the place of one that no file has filled.
-inline bool finds_tables(const Bytes& file, std::size_t at, bool progressive,
-                         std::uint32_t there) {
-    const std::size_t components = byte_at(file, at + 2);
-    const std::size_t behind = at + 3 + 2 * components;
-    const bool begins_at_dc = byte_at(file, behind) == 0;
-    const bool refines = byte_at(file, behind + 2) >> 4 != 0;
-    const bool asks_dc = !progressive || (begins_at_dc && !refines);
-    const bool asks_ac = !progressive || !begins_at_dc;
-    for (std::size_t i = 0; i < components; ++i) {
-        const std::size_t numbers = byte_at(file, at + 4 + 2 * i);
-        if (asks_dc && (there >> (numbers >> 4) & 1u) == 0) return false;
-        if (asks_ac && (there >> (16 + (numbers & 15u)) & 1u) == 0) return false;
-    }
-    return true;
-}
-
-// What is wrong with a JPEG file, which stb_image does not ask.
-inline const char* jpeg_trouble(const Bytes& file) {
-    std::uint32_t there = 0; // tables
-    bool progressive = false;
-    bool coded = false; // from the first coded pixels on a table may stand anywhere
-    for (std::size_t at = 2; file.size() - at >= 4;) {
-        const unsigned char kind = file[at + 1];
-        if (file[at] != 0xff || kind == 0xff ||
-            (coded && kind != 0xc4 && kind != 0xda)) {
-            ++at;
-            continue;
-        }
-        if (kind == 0xc4 && !good_huffman_tables(file, at + 2, there))
-            return "a table has more than 255 entries";
-        progressive = progressive || kind == 0xc2;
-        if (kind == 0xda && !finds_tables(file, at + 2, progressive, there))
-            return "a scan uses a table that is not there";
-        coded = coded || kind == 0xda;
-        at += coded ? 2 : 2 + std::size_t(file[at + 2]) * 256 + file[at + 3];
-        if (at > file.size()) break;
-    }
-    return nullptr;
-}
 
 #ifdef LJUS_HAS_STB_IMAGE
 // A picture as a file has it: sRGB, three bytes per pixel.

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "ljus/image/image.hpp"
 #include "ljus/io/file.hpp"
 
 namespace ljus::detail {
@@ -92,24 +93,23 @@ struct ByteReader {
     int size(const std::string& text) const {
         long long value = 0;
         for (const char c : text)
-            value = c < '0' || c > '9' || value > max_size ? 2 * max_size
-                                                           : 10 * value + (c - '0');
-        if (value < 1 || value > max_size)
+            value = c < '0' || c > '9' || value > max_pixels ? 2 * max_pixels
+                                                             : 10 * value + (c - '0');
+        if (value < 1 || value > max_pixels)
             fail("its width or height is '" + shown(text) +
                  "', which must be a whole number of at least 1, and not above " +
-                 std::to_string(max_size));
+                 std::to_string(max_pixels));
         return static_cast<int>(value);
     }
 
     // Refuses an image of more pixels than one can have.
     void require_pixels(int width, int height) const {
-        if (width > max_size / height)
+        if (width > max_pixels / height)
             fail("it has " + std::to_string(width) + " x " + std::to_string(height) +
-                 " pixels; there can be at most " + std::to_string(max_size));
+                 " pixels; there can be at most " + std::to_string(max_pixels));
     }
 
 private:
-    static constexpr long long max_size = 1LL << 28; // as max_pixels of an image
     static char to_char(unsigned char byte) noexcept { return static_cast<char>(byte); }
     static bool is_space(char c) noexcept {
         return c == ' ' || c == '\n' || c == '\t' || c == '\r';
