@@ -180,7 +180,7 @@ std::array<Errors, way_count> all_errors(const std::vector<Case>& cases) {
             errors<bisection>(cases, truths), errors<tracing>(cases, truths)};
 }
 
-/// Nanoseconds a ray, the best of some runs.
+/// Nanoseconds per ray, the best of some runs.
 template <Way way>
 double nanoseconds(const std::vector<Case>& cases) {
     return examples::nanoseconds_a_call(
@@ -231,7 +231,7 @@ void plot_grazing(const examples::Options& options, int count) {
 void plot_time(const examples::Options& options, int count) {
     examples::Plot plot{.name = "metaballs-time",
                         .columns = {"blobs"},
-                        .y_label = "ns a ray",
+                        .y_label = "ns per ray",
                         .rows = {},
                         .log_x = true,
                         .log_y = true};

@@ -490,9 +490,7 @@ void knobs(const examples::Options& options, const Sizes& sizes) {
         .name = "irradiance_cache-knobs-plot",
         .columns = {"processor seconds", "tile", "gather rays", "nearest", "reach"},
         .y_label = "relMSE of indirect light",
-        .log_x = true,
-        .log_y = true,
-        .more = "set format x '%g'\n"};
+        .rows = {}};
     for (const Knob& knob : all_knobs()) {
         const Turned found = turn(bench, knob);
         const auto& [bias, noise] = found.from_twin;
