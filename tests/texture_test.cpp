@@ -550,6 +550,25 @@ TEST_CASE("texture: a JPEG file has the tables that its scans use") {
     CHECK_FALSE(good(progressive, {0x02, 0x03}, {0x22, 0x22}, 1));
     CHECK(good(progressive, {}, {0x00, 0x00}, 0, 1));
 }
+
+TEST_CASE("texture: the sums of a damaged JPEG file wrap, and are clamped") {
+    // 64 x 8 pixels of one channel. Each block is 32 767 units of 65 535 brighter than
+    // the one before it, so that the second one overflows an int. The sanitizers judge.
+    Bytes file{0xff, 0xd8, 0xff, 0xdb, 0, 131, 0x10};
+    file.insert(file.end(), 128, 0xff);
+    for (const int byte : {0xff, 0xc0, 0, 11, 8, 0, 8, 0, 64, 1, 1, 0x11, 0,   // size
+                           0xff, 0xc4, 0, 20, 0x00, 1, 0, 0, 0, 0, 0, 0, 0, 0, // DC
+                           0, 0, 0, 0, 0, 0, 0, 15,                            //
+                           0xff, 0xc4, 0, 20, 0x10, 1, 0, 0, 0, 0, 0, 0, 0, 0, // AC
+                           0, 0, 0, 0, 0, 0, 0, 0,                             //
+                           0xff, 0xda, 0, 8, 1, 1, 0x00, 0, 63, 0, 0x7f, 0xff, 0, 0x3f,
+                           0xff, 0, 0x9f, 0xff, 0, 0xcf, 0xff, 0, 0xe7, 0xff, 0, 0xf3,
+                           0xff, 0, 0xf9, 0xff, 0, 0xfc, 0xff, 0, 0xfe, 0xff, 0xd9})
+        file.push_back(static_cast<unsigned char>(byte));
+    const Image image = detail::decode_image(file, "a");
+    CHECK(image.width == 64);
+    for (const Rgb& color : image.pixels) CHECK((color.x >= 0 && color.x <= 1));
+}
 #endif
 
 TEST_CASE("texture: a file of many pixels and few bytes is refused") {

@@ -26,6 +26,15 @@
 #pragma warning(push, 0)
 #pragma warning(disable : 4505 4996)
 #endif
+// A damaged JPEG file can overflow the sums of int from which its colours are clamped:
+// they wrap here, and releases of stb_image before 2.28 do not look for it.
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((no_sanitize("signed-integer-overflow"))), \
+                             apply_to = function)
+#elif defined(__GNUC__)
+#pragma GCC push_options
+#pragma GCC optimize("wrapv")
+#endif
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_ONLY_PNG
@@ -51,6 +60,11 @@
 #undef STBI_NO_PNM
 #undef STBI_NO_PSD
 #undef STBI_NO_TGA
+#if defined(__clang__)
+#pragma clang attribute pop
+#elif defined(__GNUC__)
+#pragma GCC pop_options
+#endif
 #if defined(__GNUC__)
 #pragma GCC diagnostic pop
 #elif defined(_MSC_VER)
