@@ -81,3 +81,15 @@ ljus_break_it(NAME wide-kd-tree-balls HEADER accel/detail/kd_tree8_traverse.hpp 
     FROM "found.blocks.clear();"
     TO   "(void)0;"
     CASES "kd_tree8: many balls*")
+
+# Many balls at once: the root is asked again in place of its children.
+ljus_break_it(NAME wide-kd-tree-levels HEADER accel/detail/kd_tree8_traverse.hpp TEST kd_tree8
+    FROM "std::swap(found.here, found.below);"
+    TO   "(void)0;"
+    CASES "kd_tree8: many balls*")
+
+# Many balls at once: a radius that is none finds points.
+ljus_break_it(NAME wide-kd-tree-no-radius HEADER accel/detail/kd_tree8_traverse.hpp TEST kd_tree8
+    FROM "if (!(radius >= T(0))) return;"
+    TO   "(void)0;"
+    CASES "kd_tree8: many balls*")

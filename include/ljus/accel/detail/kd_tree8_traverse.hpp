@@ -141,17 +141,19 @@ struct BallBlock {
 };
 /// What a search for many balls finds: room that is kept from one to the next.
 struct BallBlocks {
-    /// A leaf that a ball reaches.
-    struct Leaf {
-        std::uint32_t ball;  ///< Which ball.
-        std::uint32_t first; ///< Its first block,
-        std::uint32_t last;  ///< and one past its last.
+    /// A node of the tree that a ball reaches, or a leaf.
+    struct Place {
+        std::uint32_t ball;   ///< Which ball.
+        std::uint32_t number; ///< Which node of its level, or which leaf.
     };
-    std::vector<Leaf> leaves{};      ///< Those of the first ball, of the second, ...
-    std::vector<BallBlock> blocks{}; ///< In the same order.
+    std::vector<Place> here{};       ///< Of one level: of the first ball, the second...
+    std::vector<Place> below{};      ///< Of the next level, in the same order.
+    std::vector<BallBlock> blocks{}; ///< What is found, in the same order.
 };
 /// Finds the points within many balls together, by one step for all of them at a time:
-/// what the next step reads is on its way from memory meanwhile.
+/// a level of the tree after the other, then the leaves. Within a ball each step waits
+/// for the one before; those of different balls do not, and a processor works on some
+/// at once. What the next step reads is on its way from memory meanwhile.
 /// \param tree    The tree.
 /// \param balls   How many; below 2^32.
 /// \param center  Called as center(ball).
@@ -165,24 +167,38 @@ template <std::floating_point T, typename Center, typename Expect>
 void find_in_balls(const KdTree8PartsT<T>& tree, std::size_t balls, Center center,
                    T radius, Expect expect, BallBlocks& found) {
     const auto reach = ReachT<T>::up_to(double(radius) * double(radius), false);
-    found.leaves.clear();
+    const auto& [shape, nodes, blocks] = tree;
+    found.here.clear();
     found.blocks.clear();
-    for (std::size_t ball = 0; ball < balls; ++ball)
-        in_ball(tree, center(ball), radius, reach, [&](auto first, auto last) {
-            prefetch<KdTree8Shape::leaf_blocks * sizeof(Lanes3T<T>) / 64>(
-                tree.blocks.data() + first);
-            found.leaves.push_back({static_cast<std::uint32_t>(ball),
-                                    static_cast<std::uint32_t>(first),
-                                    static_cast<std::uint32_t>(last)});
-            return false;
-        });
-    for (const BallBlocks::Leaf& leaf : found.leaves) {
-        std::uint32_t some =
-            in_leaf(tree, leaf.first, leaf.last, center(leaf.ball), reach);
-        for (std::uint32_t block = leaf.first; some != 0; ++block, some >>= 8)
+    if (!(radius >= T(0))) return;
+    for (std::uint32_t ball = 0; ball < balls; ++ball) found.here.push_back({ball, 0});
+    for (int level = 0; level < shape.levels; ++level) {
+        const std::uint32_t all = level == 0 ? (1u << shape.root_children()) - 1 : 255u;
+        found.below.clear();
+        for (const auto& [ball, number] : found.here) {
+            const KdTree8NodeT<T>& node =
+                nodes[shape.first[std::size_t(level)] + number];
+            std::uint32_t children =
+                lanes_up_to(near2<Expect>(node, center(ball)), reach.last) & all;
+            for (; children != 0; children &= children - 1)
+                found.below.push_back(
+                    {ball, 8 * number +
+                               static_cast<std::uint32_t>(std::countr_zero(children))});
+        }
+        std::swap(found.here, found.below);
+    }
+    for (const auto& [ball, leaf] : found.here)
+        prefetch<KdTree8Shape::leaf_blocks * sizeof(Lanes3T<T>) / 64>(
+            blocks.data() + shape.first_block(shape.halvings, leaf));
+    for (const auto& [ball, leaf] : found.here) {
+        const std::size_t first = shape.first_block(shape.halvings, leaf);
+        const std::size_t last = shape.first_block(shape.halvings, leaf + 1);
+        std::uint32_t some = in_leaf(tree, first, last, center(ball), reach);
+        for (std::size_t block = first; some != 0; ++block, some >>= 8)
             if ((some & 255) != 0) {
                 expect(block);
-                found.blocks.push_back({leaf.ball, block, some & 255});
+                found.blocks.push_back(
+                    {ball, static_cast<std::uint32_t>(block), some & 255});
             }
     }
 }
