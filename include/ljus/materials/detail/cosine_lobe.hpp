@@ -39,12 +39,9 @@ template <std::floating_point T, typename Weight>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample_cosine_lobe(const Vec3T<T>& wo, const Vec3T<T>& u, Lobes which,
                    Weight weight) noexcept {
-    // Filled where it will stand: a copy of what has just been written is slow.
-    std::optional<BsdfSampleT<T>> next(std::in_place);
-    if (!has(which, Lobes::diffuse) || !(wo.z > T(0) || wo.z < T(0))) {
-        next.reset();
-        return next;
-    }
+    std::optional<BsdfSampleT<T>> next;
+    if (!has(which, Lobes::diffuse) || !(wo.z > T(0) || wo.z < T(0))) return next;
+    next.emplace(); // filled where it stands: a copy of what was just written is slow
     Vec3T<T>& wi = next->wi;
     wi = sample_cosine_hemisphere(Vec2T<T>{u.x, u.y});
     next->pdf = pdf_cosine_hemisphere(wi);
