@@ -338,10 +338,12 @@ TEST_CASE("photon mapping: behind a glossy surface all answer who gather there")
     room.add(Quad{{-9, -1, -9}, {0, 0, 18}, {18, 0, 0}}, gloss);
     room.add(Quad{{-9, 1, -9}, {18, 0, 0}, {0, 0, 18}}, gloss);
     room.add(PointLight{.position{0, 0.5f, 0}, .intensity = Rgb{1}});
-    for (const auto& [indirect, who] : {std::pair{IndirectLight::rays, "shadow ray"},
-                                        {IndirectLight::map, "general map"},
-                                        {IndirectLight::gather, "irradiance points"},
-                                        {IndirectLight::cache, "irradiance points"}}) {
+    for (const auto& [indirect, owner] :
+         {std::pair{IndirectLight::rays, "shadow ray"},
+          {IndirectLight::map, "general map"},
+          {IndirectLight::gather, "irradiance points"},
+          {IndirectLight::cache, "irradiance points"}}) {
+        const std::string who = owner; // captured below
         CAPTURE(who);
         const auto settings = distinct(indirect, DirectLight::sampled);
         const auto maps = make_photon_maps(room, settings);
