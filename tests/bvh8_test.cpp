@@ -537,13 +537,21 @@ TEST_CASE("wide bvh: the filter errs on one side only, at the ends of rays and o
         const double size = n.power(-4, 7), away = size * n.power(-1, 3);
         const double length = repeat % 4 == 0 ? n.power(-6, 6) : 1.0;
         const Vec3 at(n.point(repeat % 3 ? size : 10 * size));
-        const Triangle triangle{at, at + Vec3(n.point(size)), at + Vec3(n.point(size))};
+        // Of two edges one may be far shorter; and rays come from along an axis, too.
+        const auto edge = [&] {
+            return Vec3((n.below(4) ? 1.0 : n.power(-3, 0)) * n.point(size));
+        };
+        const Triangle triangle{at, at + edge(), at + edge()};
         const float u = repeat % 2 ? 0.0f : float(n.between(0, 1));
         const Vec3 target = triangle.v1 +
                             (repeat % 5 == 0 ? 0.0f : float(n.between(0, 1))) *
                                 (triangle.v2 - triangle.v1) * (1 - u) +
                             u * (triangle.v3 - triangle.v1);
-        const Vec3 origin = target + Vec3(n.point(away));
+        Vec3 from(n.point(away));
+        const int along = n.below(6);
+        for (int axis = 0; axis < 3 && along < 3; ++axis)
+            if (axis != along) from[axis] *= 1e-3f;
+        const Vec3 origin = target + from;
         Ray ray{.origin = origin,
                 .direction = float(length / away) * (target - origin)};
         if (const auto hit = intersect<double>(ray, triangle)) {

@@ -661,6 +661,9 @@ TEST_CASE("caustic_budget: what cannot be is refused, and extremes are none") {
               (void)traced({0.5, 0.6});
           }) == "the sum of all shares is 1.1; it must be 1.");
     CHECK(refusal([&] {
+              (void)traced({0.5, 0.25});
+          }) == "the sum of all shares is 0.75; it must be 1.");
+    CHECK(refusal([&] {
               (void)traced({1.5, -0.5});
           }) == "a share of the photons is 1.5; it must be within [0, 1].");
     CHECK(refusal([&] {

@@ -220,6 +220,47 @@ TEST_CASE(
     CHECK(hits > 2000);
 }
 
+TEST_CASE("few shapes: the loop's answers about small ones far from where rays begin") {
+    // What is rounded there is the place of the shapes, in no number of the ray.
+    Numbers n{3};
+    int hits = 0, scenes = 0;
+    for (int repeat = 0; repeat < 80; ++repeat) {
+        const double far = n.power(1, 5), size = far * n.power(-4, -1);
+        CrowdT<float> scene;
+        const auto grey = scene.add(Lambertian{});
+        for (int i = 0; i < 4; ++i) {
+            const auto at = [&] { return Vec3(far * n.direction()); };
+            const auto edge = [&] { return Vec3(n.point(size)); };
+            scene.add(Sphere{at(), float(size)}, grey);
+            scene.add(Quad{at(), edge(), edge()}, grey);
+            const Vec3 corner = at();
+            scene.add(Triangle{corner, corner + edge(), corner + edge()}, grey);
+        }
+        const auto indexed = index_scene(scene);
+        if (indexed.few.empty()) continue; // a sliver among them
+        ++scenes;
+        for (int k = 0; k < 240; ++k) {
+            const auto j = std::size_t(n.below(4));
+            const Vec3 to =
+                k % 6 == 0   ? std::get<0>(scene.shapes)[j].center // t of all the least
+                : k % 3 == 0 ? place_on(n, std::get<0>(scene.shapes)[j])
+                : k % 3 == 1 ? place_on(n, std::get<1>(scene.shapes)[j])
+                             : place_on(n, std::get<2>(scene.shapes)[j]);
+            Ray ray{.origin = Vec3(n.point(1e-3 * far))};
+            ray.direction = to - ray.origin;
+            const auto hit = closest_hit(scene, ray);
+            hits += same(scene, indexed, ray);
+            if (!hit) continue;
+            ray.t_max = hit->at.t; // a range of this hit alone
+            hits += same(scene, indexed, ray);
+            ray.t_min = hit->at.t;
+            hits += same(scene, indexed, ray);
+        }
+    }
+    CHECK(scenes > 40);
+    CHECK(hits > 10000);
+}
+
 TEST_CASE("few shapes: which scenes a tree is made for") {
     Numbers n;
     const auto few = [](const auto& scene) {
@@ -407,6 +448,8 @@ TEST_CASE("few shapes: what has room there") {
     CHECK_FALSE(few.add(Sphere{}, 32));
     CHECK_FALSE(few.add(Quad{}, 32));
     CHECK_FALSE(FewShapes{}.add(Sphere{{1e9f, 0, 0}, 1}, 0));
+    CHECK_FALSE(FewShapes{}.add(Sphere{{0, 0, 0}, 1e-10f}, 0)); // too small
+    CHECK_FALSE(FewShapes{}.add(Quad{{0, 0, 0}, {1e-10f, 0, 0}, {0, 1e-10f, 0}}, 0));
     // Numbers go on from list to list; another kind of shape has no place.
     std::tuple<std::vector<Sphere>, std::vector<Quad>> lists{
         {Sphere{{0, 0, 5}, 1}, Sphere{{0, 0, 9}, 1}},

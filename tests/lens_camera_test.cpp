@@ -327,6 +327,27 @@ TEST_CASE_TEMPLATE("stratified stream: within its part of the interval a number 
     CHECK(last < T(1));
 }
 
+TEST_CASE_TEMPLATE("stratified stream: the largest number of the last cell is below 1, "
+                   "too",
+                   T, float, double) {
+    // mix_bits() turns this into 64 ones; a stream adds `odd` for each number.
+    constexpr std::uint64_t ones = 0xcf9a04affa6badc0u, odd = 0x9e3779b97f4a7c15u;
+    REQUIRE(detail::mix_bits(ones) == ~std::uint64_t(0));
+    for (const Sampling sampling : {Sampling::random, Sampling::jittered,
+                                    Sampling::multi_jittered, Sampling::sobol})
+        for (const int rays : {1, 2, 3, 7, 64, 1000})
+            for (int ray = 0; ray < rays; ++ray)
+                for (const std::uint64_t place : {1u, 2u}) {
+                    StratifiedStream stream;
+                    start_ray(stream, 4, 9, ray, make_pattern(sampling, rays));
+                    stream.rest.key = ones - odd * place;
+                    StratifiedStream other = stream;
+                    const auto u = next_2d<T>(other);
+                    REQUIRE((u.x < 1 && u.y < 1));
+                    if (place == 1) REQUIRE(next_1d<T>(stream) < 1);
+                }
+}
+
 TEST_CASE("lens: without an opening it is a pinhole; it draws two numbers") {
     const LensCamera lens;
     CHECK(lens.radius == 0);

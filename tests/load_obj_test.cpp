@@ -252,6 +252,23 @@ TEST_CASE("load_obj: no ear is cut off across a corner that touches its side") {
     }
 }
 
+TEST_CASE("load_obj: of corners without an area nothing is cut") {
+    // On a line, at one point, there and back again, and too few of them.
+    for (const glm::dvec3& along :
+         {glm::dvec3{1, 0, 0}, glm::dvec3{0, -2, 0}, glm::dvec3{1, 2, 4}})
+        for (const int count : {0, 1, 2, 3, 4, 7})
+            for (const int step : {0, 1, 2}) {
+                std::vector<glm::dvec3> corners;
+                for (int i = 0; i < count; ++i)
+                    corners.push_back(glm::dvec3{5, 0, 3} +
+                                      double(i * step % 5) * along);
+                CHECK(detail::cut_polygon(corners).empty());
+            }
+    CHECK(detail::cut_polygon(
+              std::vector<glm::dvec3>{{0, 0, 0}, {2, 0, 0}, {0, 0, 0}, {0, 2, 0}})
+              .empty());
+}
+
 TEST_CASE("load_obj: a plus sign, and a normal that is none") {
     const auto loaded = read_obj("v +0 0 0\nv +1.5 0 0\nv 0 +1 0\nvn 0 0 0\nvn 0 0 +2\n"
                                  "f 1//1 2//2 3//2\n",

@@ -377,6 +377,10 @@ TEST_CASE("metaballs: refused are those without a surface, with a sentence") {
           "metaballs.blobs.radius is -1; it must be finite and above 0.");
     CHECK(message({.blobs{{.weight = float(not_a_number)}}}) ==
           "metaballs.blobs.weight is NaN; it must be finite.");
+    CHECK(message({.blobs{{.weight = float(infinity)}}}) ==
+          "metaballs.blobs.weight is infinity; it must be finite.");
+    CHECK(message({.blobs{{}, {.weight = -float(infinity)}}}) ==
+          "metaballs.blobs.weight is -infinity; it must be finite.");
     CHECK(message({.blobs{{.center{0, float(infinity), 0}}}}).find("finite in every") !=
           std::string::npos);
 }
@@ -631,6 +635,37 @@ TEST_CASE("metaballs: a surface on the border of another blob is met there") {
     }
 }
 
+namespace {
+
+/// f = depth - (t - 3)^2 on a ray, with the best bounds of its values and none of its
+/// slope: a field that is crossed at 3 -+ sqrt(depth), or only touched.
+struct Parabola {
+    double depth = 0, enter = 0, leave = 8;
+    double value(double t) const { return depth - (t - 3) * (t - 3); }
+    double steepest() const { return 12; }
+    detail::IntervalT<double> range(double a, double b) const {
+        const double most = value(std::clamp(3.0, a, b));
+        return {std::min(value(a), value(b)), most};
+    }
+};
+
+} // namespace
+
+TEST_CASE("solvers: without bounds of the slope the smallest parts decide") {
+    const auto by = [](double depth, double t_min, double t_max) {
+        return detail::first_meeting(Bisection{}, Parabola{depth}, t_min, t_max);
+    };
+    CHECK(by(1, 0, 8) == 2.0);
+    CHECK(by(1, 0, 2) == 2.0); // the last number of the range
+    CHECK(by(1, 0, std::nextafter(2.0, 0.0)) == std::nullopt);
+    CHECK(by(1, 3, 8) == 4.0); // from within
+    CHECK(by(1, 3, 4) == 4.0);
+    CHECK(by(1, 5, 8) == std::nullopt);
+    CHECK(by(0, 0, 8) == 3.0); // touched, and not crossed
+    CHECK(by(0, 0, 3) == 3.0);
+    CHECK(by(-1e-9, 0, 8) == std::nullopt);
+}
+
 TEST_CASE("solvers: a field that is no number is met nowhere") {
     const Straight line{.zero = not_a_number};
     CHECK_FALSE(detail::first_meeting(SphereTracing{}, line, 0.0, 9.0));
@@ -696,6 +731,13 @@ TEST_CASE("isosurface: what it refuses, and where it ends") {
     }
     CHECK_FALSE(intersect(RayT<double>{.origin{0, 1.5, 5}}, good)); // within the bounds
     CHECK_FALSE(intersect(RayT<double>{.origin{0, 3, 5}}, good));
+    // What lies farther away than any float is a miss.
+    const IsosurfaceT<float, Linear> ball{.bounds{.radius = 2}};
+    for (const float length : {2e-38f, 1e-38f}) {
+        const Ray ray{.origin{0, 0, 5}, .direction{0, 0, -length}};
+        CHECK(intersect(ray, ball).has_value() == (length > 1.5e-38f));
+        CHECK(intersect(ray, ball, Bisection{}).has_value() == (length > 1.5e-38f));
+    }
     // A hit is put back, and within its error's box the field changes its sign.
     Numbers n{17};
     for (int i = 0; i < 200; ++i) {

@@ -330,6 +330,42 @@ TEST_CASE("photon mapping: where a path ends that has gathered, and who shows a 
     }
 }
 
+TEST_CASE("photon mapping: behind a glossy surface all answer who gather there") {
+    // A path goes on from a glossy floor, also if a cache has its diffuse light; where
+    // it then meets a glossy ceiling it is gathered: no shadow ray, and no way on.
+    Scene<Shapes<Quad>, Materials<Glossy>> room;
+    const auto gloss = room.add(Glossy{.reflectance = Rgb{0.9f}, .roughness = 0.3f});
+    room.add(Quad{{-9, -1, -9}, {0, 0, 18}, {18, 0, 0}}, gloss);
+    room.add(Quad{{-9, 1, -9}, {18, 0, 0}, {0, 0, 18}}, gloss);
+    room.add(PointLight{.position{0, 0.5f, 0}, .intensity = Rgb{1}});
+    for (const auto& [indirect, owner] :
+         {std::pair{IndirectLight::rays, "shadow ray"},
+          {IndirectLight::map, "general map"},
+          {IndirectLight::gather, "irradiance points"},
+          {IndirectLight::cache, "irradiance points"}}) {
+        const std::string who = owner; // captured below
+        CAPTURE(who);
+        const auto settings = distinct(indirect, DirectLight::sampled);
+        const auto maps = make_photon_maps(room, settings);
+        const auto mapper = make_photon_mapper(room, maps, settings);
+        int seconds = 0;
+        for (std::uint64_t i = 0; i < 50; ++i) {
+            auto stream = random_stream(6, Pass::user, 0, i);
+            Counts counts;
+            PathLog log;
+            (void)radiance(mapper, Ray{.direction{0.2f, -1, 0.1f}}, stream, counts,
+                           log);
+            for (const auto& line : log.lines)
+                if (line.what != "vertex" && line.position.y > 0) {
+                    CHECK(line.what == who);
+                    ++seconds;
+                }
+            if (indirect != IndirectLight::rays) CHECK(counts.bounce_rays <= 1);
+        }
+        CHECK(seconds > 20);
+    }
+}
+
 TEST_CASE("photon mapping: what the depth cuts off is counted, what is black is not") {
     // At the last surface that the depth allows: matt, mirror, and black.
     for (const IndirectLight indirect :

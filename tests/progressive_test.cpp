@@ -604,6 +604,14 @@ TEST_CASE("progressive: a checkpoint comes back, and nothing else does") {
           std::string::npos);
     CHECK(forged(72, std::bit_cast<std::uint64_t>(-1e300), 8).find("can hold") !=
           std::string::npos);
+    // Seven passes can have found seven times the largest float, and no more.
+    const double most = 7 * double(std::numeric_limits<float>::max());
+    for (const double sign : {1.0, -1.0}) {
+        CHECK(forged(72, std::bit_cast<std::uint64_t>(sign * most), 8) ==
+              "it was read");
+        CHECK(forged(72, std::bit_cast<std::uint64_t>(sign * 1.01 * most), 8)
+                  .find("can hold") != std::string::npos);
+    }
 }
 
 TEST_CASE("progressive: interrupted after any pass, the end is the same") {

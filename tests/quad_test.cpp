@@ -43,6 +43,16 @@ TEST_CASE("quad: known hits, on both sides of the diagonal") {
         }
 }
 
+TEST_CASE("quad: without more said it is the unit square of the plane z = 0") {
+    const Ray ray{.origin{0.25f, 0.75f, 2}};
+    const auto hit = intersect(ray, Quad{});
+    REQUIRE(hit);
+    CHECK(hit->t == 2);
+    CHECK(hit->u == 0.25f);
+    CHECK(hit->v == 0.75f);
+    CHECK(normal(Quad{}) == Vec3{0, 0, 1});
+}
+
 TEST_CASE("quad: each of the four edges is a border") {
     const float below = std::nextafter(0.0f, -1.0f), above = std::nextafter(1.0f, 2.0f);
     for (const float along : {0.0f, 0.5f, 1.0f})

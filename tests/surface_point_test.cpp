@@ -100,6 +100,27 @@ TEST_CASE_TEMPLATE("surface: coordinates of 0 do not hold a ray back", T, float,
         }
 }
 
+TEST_CASE_TEMPLATE(
+    "surface: the last place is that of the largest coordinate and error", T, float,
+    double) {
+    // Where every coordinate is 0, an error in the plane says how large the wall is.
+    for (int large = 0; large < 3; ++large)
+        for (int up = 0; up < 3; ++up)
+            for (const bool by_error : {false, true}) {
+                if (by_error && large == up) continue;
+                SurfacePointT<T> p{.normal = Vec3T<T>{0}};
+                (by_error ? p.error : p.position)[large] = by_error ? T(8) : T(-8);
+                p.normal[up] = 1;
+                Vec3T<T> direction{1};
+                for (const T side : {T(1), T(-1)}) {
+                    direction[up] = side;
+                    const Vec3T<T> off = offset_ray_origin(p, direction) - p.position;
+                    CHECK(off[up] == side * 32 * std::numeric_limits<T>::epsilon());
+                    CHECK(glm::length(off) == std::abs(off[up]));
+                }
+            }
+}
+
 TEST_CASE("surface: at a millionth of a unit as at a million") {
     // A layer of a thousandth of its size, and a ray that starts on its upper face.
     for (const float size : {1e-6f, 1e-3f, 1.0f, 1e3f, 1e6f}) {

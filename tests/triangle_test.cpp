@@ -359,6 +359,30 @@ TEST_CASE("triangle: the point at u, v, and how far rounding may have moved it")
     CHECK(largest > 0.1);
 }
 
+TEST_CASE("triangle: near each of its corners the error holds the way to its plane") {
+    // There one of the three terms is nearly all of the point. A ray that leaves it is
+    // moved along the normal, and by no more than the error says.
+    Numbers n{3};
+    double largest = 0;
+    for (int i = 0; i < 6000; ++i) {
+        const glm::dvec3 place = 100.0 * n.direction();
+        const auto corner = [&] { return Vec3(place + n.point(20)); };
+        const Triangle t{corner(), corner(), corner()};
+        const float near = float(n.between(0, 0.02)), far = 1 - 2 * near;
+        const Vec2 u = i % 3 == 0   ? Vec2{near, near}
+                       : i % 3 == 1 ? Vec2{far, near}
+                                    : Vec2{near, far};
+        const SurfacePoint p = point_at(t, u.x, u.y);
+        const glm::dvec3 v1(t.v1), up = glm::normalize(glm::cross(
+                                       glm::dvec3(t.v2) - v1, glm::dvec3(t.v3) - v1));
+        const double height = std::abs(glm::dot(up, glm::dvec3(p.position) - v1));
+        const double bound = glm::dot(glm::abs(up), glm::dvec3(p.error));
+        REQUIRE(height <= bound);
+        largest = std::max(largest, height / bound);
+    }
+    CHECK(largest > 0.2);
+}
+
 TEST_CASE("triangle: a hit names no triangle of a mesh") {
     CHECK(intersect(down_at(0.25f, 0.25f), half_square)->part == 0);
 }

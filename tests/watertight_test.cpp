@@ -179,6 +179,42 @@ TEST_CASE("watertight: a direction so short that float has no inverse of it") {
         }
 }
 
+TEST_CASE_TEMPLATE("watertight: what lies farther away than any number is a miss", T,
+                   float, double) {
+    using Limits = std::numeric_limits<T>;
+    for (int axis = 0; axis < 3; ++axis) {
+        RayT<T> ray{.direction = Vec3T<T>{0}};
+        ray.direction[axis] = Limits::min();
+        TriangleT<T> t{Vec3T<T>{-1}, Vec3T<T>{-1}, Vec3T<T>{-1}};
+        t.v2[(axis + 1) % 3] = t.v3[(axis + 2) % 3] = 8;
+        t.v1[axis] = t.v2[axis] = t.v3[axis] = 1;
+        const auto hit = intersect<Watertight>(ray, t);
+        REQUIRE(hit);
+        CHECK(hit->t == 1 / Limits::min());
+        t.v1[axis] = t.v2[axis] = t.v3[axis] = 8; // 8 / min() is beyond max()
+        CHECK_FALSE(intersect<Watertight>(ray, t));
+    }
+}
+
+TEST_CASE_TEMPLATE("watertight: the axis is the one along which the ray is longest", T,
+                   float, double) {
+    // Then nothing leans by more than 45 degrees; whatever the order of the others.
+    for (const T x : {T(0), T(1e-9), T(1), T(2), T(-3)})
+        for (const T y : {T(0), T(1e-9), T(1), T(2), T(-3)})
+            for (const T z : {T(0), T(1e-9), T(1), T(2), T(-3)}) {
+                const Vec3T<T> d{x, y, z};
+                const T most = max_component(glm::abs(d));
+                if (most == 0) continue;
+                const auto shear = prepare<Watertight>(RayT<T>{.direction = d});
+                REQUIRE(std::abs(d[shear.z]) == most);
+                REQUIRE(shear.x == (shear.z + 1) % 3);
+                REQUIRE(shear.y == (shear.z + 2) % 3);
+                CHECK(shear.sx == d[shear.x] / d[shear.z]);
+                CHECK(shear.sy == d[shear.y] / d[shear.z]);
+                CHECK(shear.sz == 1 / double(d[shear.z]));
+            }
+}
+
 TEST_CASE_TEMPLATE("watertight: invalid data are a miss", T, float, double) {
     constexpr T infinity = std::numeric_limits<T>::infinity();
     constexpr T not_a_number = std::numeric_limits<T>::quiet_NaN();

@@ -118,3 +118,21 @@ ljus_break_it(NAME few-shapes-far HEADER geometry/detail/shape_lanes.hpp TEST in
     FROM "(ball.radius.lane[i] + 32 * roundoff * r.reach) * r.inverse_d"
     TO   "ball.radius.lane[i] * r.inverse_d"
     CASES "few shapes: the loop's answers from far away*")
+
+# What is far from the origin on the negative side is rounded as much.
+ljus_break_it(NAME few-shapes-offset HEADER geometry/detail/shape_lanes.hpp TEST index
+    FROM "std::max(std::abs(a0), std::abs(b0))"
+    TO   "std::max(a0, b0)"
+    CASES "few shapes: the loop's answers about small*")
+
+# Nor is the place of a far ball known to less than its own rounding.
+ljus_break_it(NAME few-shapes-far-ball HEADER geometry/detail/shape_lanes.hpp TEST index
+    FROM "ball.radius + 32 * roundoff * size;"
+    TO   "ball.radius;"
+    CASES "few shapes: the loop's answers about small*")
+
+# A triangle is as large as its longer edge, whichever that is.
+ljus_break_it(NAME triangle-bvh-edges HEADER accel/detail/triangle_bvh.hpp TEST bvh8
+    FROM "max_component(glm::max(glm::abs(e1), glm::abs(e2)))"
+    TO   "max_component(glm::abs(e1))"
+    CASES "wide bvh: the filter errs*")

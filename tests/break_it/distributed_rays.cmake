@@ -113,3 +113,10 @@ ljus_break_it(NAME stratified-stream-path HEADER math/stratified_stream.hpp
     FROM "pixel * static_cast<std::uint64_t>(pattern.points) +"
     TO   "pixel +"
     CASES "stratified stream: of which*")
+
+# The largest number of the last cell is rounded to 1.
+ljus_break_it(NAME stratified-stream-last HEADER math/stratified_stream.hpp
+    TEST lens_camera
+    FROM "return detail::below_one((cell + u) / T(stream.pattern.points));"
+    TO   "return (cell + u) / T(stream.pattern.points);"
+    CASES "stratified stream: the largest*")

@@ -100,3 +100,8 @@ ljus_break_it(NAME obj-plus-exponent HEADER io/detail/obj_text.hpp TEST load_obj
     TO   "c == '.' || c == '-'));"
     CASES "load_obj: an exponent*")
 
+# A polygon on a line is cut into triangles without an area.
+ljus_break_it(NAME polygon-no-area HEADER geometry/detail/polygon.hpp TEST load_obj
+    FROM "if (!(glm::dot(across, across) > 0)) return triangles;"
+    TO   ""
+    CASES "load_obj: of corners without*")

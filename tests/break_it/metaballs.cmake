@@ -116,3 +116,16 @@ ljus_break_it(NAME metaballs-sum HEADER geometry/metaballs.hpp TEST metaballs
     FROM "if (blob.weight > T(0)) most += blob.weight;"
     TO   "most += std::abs(blob.weight);"
     CASES "metaballs: refused are*")
+
+# A surface that is touched, where nothing bounds the slope.
+ljus_break_it(NAME isosurface-touched HEADER geometry/detail/field_on_ray.hpp TEST metaballs
+    FROM "if (side * line.value(b) <= T(0)) return b;
+            continue;"
+    TO   "continue;"
+    CASES "solvers: without bounds*")
+
+# A hit beyond the largest number is one at infinity.
+ljus_break_it(NAME isosurface-beyond HEADER geometry/isosurface.hpp TEST metaballs
+    FROM "if (!t || !(*t <= std::numeric_limits<T>::max())) return std::nullopt;"
+    TO   "if (!t) return std::nullopt;"
+    CASES "isosurface: what it refuses*")

@@ -82,3 +82,11 @@ ljus_break_it(NAME photon-mapping-split HEADER render/photon_mapping.hpp
     FROM "settings.split_glass && !path.met_diffuse &&"
     TO   "settings.split_glass &&"
     CASES "photon mapping: behind a matt*")
+
+# With a cache a path that has come by gloss is not gathered where it ends.
+ljus_break_it(NAME photon-mapping-cache-gathers HEADER render/photon_mapping_settings.hpp
+    TEST photon_mapping_steps
+    FROM "indirect == IndirectLight::gather ||
+           indirect == IndirectLight::cache;"
+    TO   "indirect == IndirectLight::gather;"
+    CASES "photon mapping: behind a glossy*")

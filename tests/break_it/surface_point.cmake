@@ -58,3 +58,9 @@ ljus_break_it(NAME surface-tilt-parallel HEADER geometry/surface_point.hpp
     FROM "if (!std::isfinite(tilt)) return;"
     TO   ""
     CASES "surface: how badly*")
+
+# At coordinates of 0 the error in the wall's plane is the only scale there is.
+ljus_break_it(NAME surface-scale-of-error HEADER geometry/surface_point.hpp TEST surface_point
+    FROM "max_component(detail::sizes(point.position) + point.error)"
+    TO   "max_component(detail::sizes(point.position))"
+    CASES "surface: the last place*")

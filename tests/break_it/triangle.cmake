@@ -98,3 +98,9 @@ ljus_break_it(NAME triangle-open-end HEADER geometry/triangle.hpp TEST triangle
     FROM "u <= C(1) + near)"
     TO   "u <= C(1))"
     CASES "triangle: a hit in the border*")
+
+# Near its first corner a point of a triangle seems to be known better than it is.
+ljus_break_it(NAME triangle-first-corner HEADER geometry/triangle.hpp TEST triangle
+    FROM "(detail::sizes(a) + detail::sizes(b) + detail::sizes(c))"
+    TO   "(detail::sizes(b) + detail::sizes(c))"
+    CASES "triangle: near each*")

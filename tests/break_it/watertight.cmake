@@ -44,3 +44,15 @@ ljus_break_it(NAME watertight-short HEADER geometry/watertight.hpp TEST watertig
     FROM "1 / static_cast<double>(d[z])"
     TO   "static_cast<double>(T(1) / d[z])"
     CASES "watertight: a direction so short*")
+
+# A hit beyond the largest number is one at infinity.
+ljus_break_it(NAME watertight-beyond HEADER geometry/watertight.hpp TEST watertight
+    FROM "t <= W(ray.t_max) && t <= max &&"
+    TO   "t <= W(ray.t_max) &&"
+    CASES "watertight: what lies farther*")
+
+# Of two axes the longer one, whatever the third.
+ljus_break_it(NAME watertight-third-axis HEADER geometry/watertight.hpp TEST watertight
+    FROM "size.x > size.y ? (size.x > size.z ? 0 : 2)"
+    TO   "size.x > size.y ? 0"
+    CASES "watertight: the axis*")
