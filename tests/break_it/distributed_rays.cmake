@@ -66,14 +66,14 @@ ljus_break_it(NAME lens-camera-confusion HEADER scene/lens_camera.hpp TEST lens_
 
 # The same order in all draws: the time of a ray tells its place on the lens.
 ljus_break_it(NAME stratified-stream-order HEADER math/stratified_stream.hpp
-    TEST lens_camera
+    TEST stratified_stream
     FROM "static_cast<std::uint32_t>(stream.pattern.points), key);"
     TO   "static_cast<std::uint32_t>(stream.pattern.points), stream.key);"
     CASES "stratified stream: *")
 
 # Cells that are not divided by their number.
 ljus_break_it(NAME stratified-stream-random HEADER math/stratified_stream.hpp
-    TEST lens_camera
+    TEST stratified_stream
     FROM "detail::spread(stream.pattern, cell, detail::mix_bits(key),
                                       next_2d<T>(stream.rest));"
     TO   "next_2d<T>(stream.rest); (void)cell;"
@@ -82,14 +82,14 @@ ljus_break_it(NAME stratified-stream-random HEADER math/stratified_stream.hpp
 # The order of the draw taken for the place in the cell, too: twice the same order of two
 # rays is none, and all draws of a ray hang together.
 ljus_break_it(NAME stratified-stream-twice HEADER math/stratified_stream.hpp
-    TEST lens_camera
+    TEST stratified_stream
     FROM "cell, detail::mix_bits(key),"
     TO   "cell, ~key,"
     CASES "stratified stream: the draws of a ray*")
 
 # Rays are spread evenly though the picture asks for chance.
 ljus_break_it(NAME stratified-stream-chance HEADER math/stratified_stream.hpp
-    TEST lens_camera
+    TEST stratified_stream
     FROM "if (stream.pattern.sampling == Sampling::random) return u;"
     TO   ""
     CASES "stratified stream: by chance*")
@@ -102,21 +102,21 @@ ljus_break_it(NAME distributed-rays-black HEADER render/distributed.hpp TEST dis
 
 # Bounces whose draws overlap.
 ljus_break_it(NAME stratified-stream-bounce HEADER math/stratified_stream.hpp
-    TEST lens_camera
+    TEST stratified_stream
     FROM "stream.dimension = bounce << 16;"
     TO   "stream.dimension = bounce;"
     CASES "stratified stream: of which*")
 
 # Rays of neighbouring pixels that stand alike in their cells.
 ljus_break_it(NAME stratified-stream-path HEADER math/stratified_stream.hpp
-    TEST lens_camera
+    TEST stratified_stream
     FROM "pixel * static_cast<std::uint64_t>(pattern.points) +"
     TO   "pixel +"
     CASES "stratified stream: of which*")
 
 # The largest number of the last cell is rounded to 1.
 ljus_break_it(NAME stratified-stream-last HEADER math/stratified_stream.hpp
-    TEST lens_camera
+    TEST stratified_stream
     FROM "return detail::below_one((cell + u) / T(stream.pattern.points));"
     TO   "return (cell + u) / T(stream.pattern.points);"
     CASES "stratified stream: the largest*")

@@ -10,13 +10,13 @@ ljus_break_it(NAME shape-grain HEADER geometry/shape.hpp TEST shape
     CASES "shape: a sphere too small*")
 
 # Of a moving shape only the middle of its way is bounded.
-ljus_break_it(NAME shape-moving-bound HEADER geometry/moving.hpp TEST shape
+ljus_break_it(NAME shape-moving-bound HEADER geometry/moving.hpp TEST moving
     FROM "sphere.radius += glm::length(moving.way) / T(2);"
     TO   ""
-    CASES "shape: a moving one*")
+    CASES "moving: *")
 
 # Only the way of a moving shape is looked at.
-ljus_break_it(NAME shape-moving-check HEADER geometry/moving.hpp TEST shape
+ljus_break_it(NAME shape-moving-check HEADER geometry/moving.hpp TEST moving
     FROM "    check(moving.shape);"
     TO   ""
-    CASES "shape: a moving one*")
+    CASES "moving: *")

@@ -14,7 +14,7 @@ set linetype 4 lc rgb '#a06cd5'
 set linetype 5 lc rgb '#d64550'
 set linetype 6 lc rgb '#8c8c3a'
 set xlabel 'blobs' noenhanced
-set ylabel 'ns a ray' noenhanced
+set ylabel 'ns per ray' noenhanced
 set logscale x
 set format x '10^{%L}'
 set logscale y

@@ -15,10 +15,5 @@ set linetype 5 lc rgb '#d64550'
 set linetype 6 lc rgb '#8c8c3a'
 set xlabel 'processor seconds' noenhanced
 set ylabel 'relMSE of indirect light' noenhanced
-set logscale x
-set format x '10^{%L}'
-set logscale y
-set format y '10^{%L}'
-set format x '%g'
 
 plot 'irradiance_cache-knobs-plot.csv' using 1:2 with linespoints lt 1 lw 2.5 pt 7 ps 0.35 title columnheader(2), 'irradiance_cache-knobs-plot.csv' using 1:3 with linespoints lt 2 pt 7 ps 0.35 title columnheader(3), 'irradiance_cache-knobs-plot.csv' using 1:4 with linespoints lt 3 pt 7 ps 0.35 title columnheader(4), 'irradiance_cache-knobs-plot.csv' using 1:5 with linespoints lt 4 pt 7 ps 0.35 title columnheader(5)

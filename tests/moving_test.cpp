@@ -1,0 +1,122 @@
+// concept: shape
+// Shapes on their way, against the same ones moved by hand.
+#include "ljus/geometry/moving.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <type_traits>
+#include <vector>
+
+#include "ljus/geometry/shape.hpp"
+#include "support/numbers.hpp"
+
+using namespace ljus;
+using ljus_test::Numbers;
+
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+
+} // namespace
+
+TEST_CASE_TEMPLATE("moving: a shape is where its time says, and in its bounds", S,
+                   SphereT<float>, QuadT<float>, TriangleT<float>) {
+    Numbers n;
+    const auto vec = [&](double size) { return Vec3(n.point(size)); };
+    const auto any = [&]() -> S {
+        if constexpr (std::is_same_v<S, Sphere>)
+            return {vec(20), float(n.power(-1, 1))};
+        else if constexpr (std::is_same_v<S, Quad>)
+            return {vec(20), vec(3), vec(3)};
+        else
+            return {vec(20), vec(20), vec(20)};
+    };
+    // A shape moved by hand: the places of its points, in double.
+    const auto points = [](const S& shape) -> std::vector<glm::dvec3> {
+        if constexpr (std::is_same_v<S, Sphere>) {
+            const glm::dvec3 c(shape.center);
+            const double r = shape.radius;
+            return {c + glm::dvec3{r, 0, 0}, c - glm::dvec3{r, 0, 0},
+                    c + glm::dvec3{0, r, 0}, c - glm::dvec3{0, r, 0},
+                    c + glm::dvec3{0, 0, r}, c - glm::dvec3{0, 0, r}};
+        } else if constexpr (std::is_same_v<S, Quad>) {
+            const glm::dvec3 c(shape.corner), u(shape.edge_u), v(shape.edge_v);
+            return {c, c + u, c + v, c + u + v};
+        } else {
+            return {glm::dvec3(shape.v1), glm::dvec3(shape.v2), glm::dvec3(shape.v3)};
+        }
+    };
+    int hits = 0;
+    for (int i = 0; i < 500; ++i) {
+        const Moving<S> moving{any(), vec(30)};
+        const glm::dvec3 way(moving.way);
+        const Sphere ball = bounding_sphere(moving),
+                     still = bounding_sphere(moving.shape);
+        const Box box = bounds(moving), first = bounds(moving.shape);
+        for (const float time : {0.0f, 0.25f, 1.0f}) {
+            const S then = at_time(moving, time);
+            const auto before = points(moving.shape), after = points(then);
+            for (std::size_t k = 0; k < before.size(); ++k) {
+                const glm::dvec3 there = before[k] + double(time) * way;
+                REQUIRE(glm::distance(after[k], there) < 1e-4);
+                // Both bounds hold it; the box in spite of the rounding, exactly.
+                REQUIRE(glm::distance(glm::dvec3(ball.center), there) <
+                        double(ball.radius) * (1 + 1e-5));
+                for (int axis = 0; axis < 3; ++axis) {
+                    REQUIRE(double(box.low[axis]) <= there[axis]);
+                    REQUIRE(double(box.high[axis]) >= there[axis]);
+                    REQUIRE(double(box.low[axis]) <= after[k][axis]);
+                    REQUIRE(double(box.high[axis]) >= after[k][axis]);
+                }
+            }
+            const Vec3 aim = Vec3(after[0] + after[1]) / 2.0f, origin = vec(60);
+            const Ray ray{.origin = origin,
+                          .direction = glm::normalize(aim - origin),
+                          .time = time};
+            const auto hit = intersect<float>(ray, moving);
+            const auto by_hand = intersect<float>(ray, then);
+            REQUIRE(bool(hit) == bool(by_hand));
+            if (!hit) continue;
+            ++hits;
+            REQUIRE(as_hit(*hit).t == as_hit(*by_hand).t);
+            REQUIRE(surface_point(moving, ray, as_hit(*hit)).position ==
+                    surface_point(then, ray, as_hit(*by_hand)).position);
+        }
+        // No larger than they have to be.
+        REQUIRE(ball.radius ==
+                doctest::Approx(still.radius + glm::length(moving.way) / 2));
+        for (int axis = 0; axis < 3; ++axis)
+            REQUIRE(box.high[axis] - box.low[axis] ==
+                    doctest::Approx(first.high[axis] - first.low[axis] +
+                                    std::abs(moving.way[axis]))
+                        .epsilon(1e-4));
+        REQUIRE(area(moving) == area(moving.shape));
+        const auto u = n.square<float>();
+        REQUIRE(sample_area(moving, u).position ==
+                sample_area(moving.shape, u).position);
+    }
+    CHECK(hits > 800);
+
+    Moving<S> bad{any(), {1, 2, 3}};
+    CHECK_NOTHROW(check(bad));
+    for (int axis = 0; axis < 3; ++axis) {
+        bad.way = {1, 2, 3};
+        bad.way[axis] = infinity;
+        CHECK_THROWS_AS(check(bad), std::invalid_argument);
+    }
+    CHECK_THROWS_WITH_AS(check(Moving<S>{any(), {0, not_a_number, 0}}),
+                         "moving.way is (0, NaN, 0); it must be finite in every "
+                         "component.",
+                         std::invalid_argument);
+    const S nowhere = translated(any(), Vec3{0, infinity, 0}); // refused as it is
+    CHECK_THROWS_AS(check(Moving<S>{nowhere, {1, 2, 3}}), std::invalid_argument);
+    CHECK(detail::is_moving<Moving<S>>);
+    CHECK_FALSE(detail::is_moving<S>);
+    CHECK(detail::is_flat<S> == !std::is_same_v<S, Sphere>);
+    CHECK(std::is_same_v<decltype(at_time(any(), 0.5f)), const S&>);
+}
