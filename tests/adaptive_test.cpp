@@ -328,6 +328,9 @@ TEST_CASE("adaptive: progress goes up to the end, and stops it") {
     const auto stopped = render_adaptive(Halves{}, Camera{}, picture, {});
     CHECK_FALSE(stopped.complete);
     for (const Rgb& c : stopped.image.pixels) CHECK(is_finite(c));
+    // What is done counts in rays, within a round too: 64 pixels at a time have their
+    // first 16, and five times that is the first above 24 * 24 * 8.
+    CHECK(stopped.counts.camera_rays == 5 * 64 * 16);
 }
 
 TEST_CASE("adaptive: a rule without sense is refused with its value") {

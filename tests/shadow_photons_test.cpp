@@ -219,6 +219,33 @@ TEST_CASE("shadow photons: the grid says what its photons say, counted one by on
     }
 }
 
+TEST_CASE("shadow photons: in one place each light has its own photons") {
+    // One of three lights is hidden where the others shine, and light has come from
+    // elsewhere, too: what is counted for one leaves nothing for the next. The first
+    // of four shines far away alone.
+    for (std::uint16_t hidden = 1; hidden < 4; ++hidden) {
+        std::vector<Photon> photons;
+        for (int i = 0; i < 400; ++i) {
+            const auto light = static_cast<std::uint16_t>(i % 4);
+            const auto kind = light == hidden ? PhotonKind::shadow : PhotonKind::direct;
+            const float x = float(i / 4 % 10) / 10, z = float(i / 40) / 10;
+            photons.push_back(on_floor(light == 0 ? x + 60 : x, z, kind, light));
+        }
+        photons.push_back(on_floor(0.5f, 0.5f, PhotonKind::indirect, hidden));
+        for (SkipSettings skip : {any, enough}) {
+            skip.radius = 2;
+            skip.indirect_rays = true;
+            const VerdictGrid grid = make_verdict_grid(photons, 4, skip, 1);
+            const SurfacePoint middle = floor_point(0.45f, 0.55f);
+            CHECK(verdict_of(grid, middle, 1, 0) == Verdict::unknown);
+            for (std::size_t light = 1; light < 4; ++light)
+                CHECK(verdict_of(grid, middle, 1, light) ==
+                      (light == hidden ? Verdict::shadow : Verdict::lit));
+            CHECK(grid.indirect_near(grid.place_of(middle, 1)));
+        }
+    }
+}
+
 TEST_CASE("shadow photons: the grid has the same bytes for any number of threads") {
     Room room;
     add_walls(room);

@@ -397,6 +397,18 @@ TEST_CASE("survey: lengths whose squares leave the range, and a gloss, by what i
     CHECK(said(2e9f) ==
           "coordinates reach 2e+09: above 1e9 the squares of areas leave the range of "
           "float; use double, or a larger unit of length");
+    // Along each axis, to both sides, whatever smaller thing comes before or after.
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float side : {-1.5e9f, 1.5e9f}) {
+            Scene<Shapes<Sphere>, Materials<Lambertian>> scene;
+            const auto grey = scene.add(Lambertian{});
+            Vec3 center{0};
+            center[axis] = side;
+            scene.add(Sphere{.radius = 5e8f}, grey);
+            scene.add(Sphere{.center = center, .radius = 5e8f}, grey);
+            scene.add(Sphere{.radius = 5e8f}, grey);
+            CHECK(detail::digits_remark(scene) == said(2e9f));
+        }
     CHECK(said(0.9e75).empty());
     CHECK(said(2e75) ==
           "coordinates reach 2e+75: above 1e75 the squares of areas leave the range of "

@@ -608,6 +608,23 @@ TEST_CASE("vertex: coordinates of a texture, for those that look up by them") {
     CHECK_FALSE(detail::uses_uv(bare, id));
 }
 
+TEST_CASE(
+    "vertex: a path that stops at a pane carries the light of those that do not") {
+    // By how rarely it stops, at a pane that lets nearly all light pass or nearly none.
+    const LambertianT<double> matt{.albedo{0.8, 0.5, 0.2}};
+    for (const double stop : {0.01, 0.4, 0.5, 0.7, 0.99, 1.0}) {
+        VertexT<double> vertex;
+        vertex.point.normal = {0, 0, 1};
+        vertex.frame = frame_around(D3{0, 0, 1});
+        vertex.stop_probability = stop;
+        auto stream = random_stream(6, Pass::user, 0, 0);
+        PathStateT<double> path{.throughput{1, 2, 4}};
+        REQUIRE(
+            continue_path(path, vertex, matt, Transport::radiance, Lobes::all, stream));
+        CHECK(glm::distance(path.throughput * stop, D3{0.8, 1, 0.8}) < 1e-12);
+    }
+}
+
 TEST_CASE("vertex: a path keeps nothing of how it was scattered before") {
     VertexT<double> vertex;
     vertex.point.normal = {0, 0, 1};

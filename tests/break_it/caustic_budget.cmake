@@ -65,3 +65,9 @@ ljus_break_it(NAME budget-pilot-streams HEADER photons/budget.hpp TEST caustic_b
     FROM "pass.iteration = ~pass.iteration - object;"
     TO   ""
     CASES "caustic_budget: the pilot's numbers*")
+
+# The dark of caustics alone is asked within half the radius of their photons.
+ljus_break_it(NAME budget-pilot-dark HEADER photons/budget.hpp TEST caustic_budget
+    FROM "mean_irradiance(caustics, all, 2 * radius)"
+    TO   "mean_irradiance(caustics, all, radius)"
+    CASES "caustic_budget: the pilot's numbers*")

@@ -91,3 +91,9 @@ ljus_break_it(NAME adaptive-target-missed HEADER render/detail/ray_shares.hpp TE
     FROM "if (target > 0 && allowed > 0)"
     TO   "if (target > 0)"
     CASES "adaptive: rays are shared out*")
+
+# Progress goes up only when a round is over.
+ljus_break_it(NAME adaptive-progress HEADER render/adaptive.hpp TEST adaptive
+    FROM "traced + rays * double(done) / double(of)"
+    TO   "traced + double(done) / double(of)"
+    CASES "adaptive: progress goes up*")

@@ -95,3 +95,11 @@ ljus_break_it(NAME shadow-photons-one HEADER photons/detail/verdict_bits.hpp
     FROM "indirect ? 1 : photons_needed(skip)"
     TO   "photons_needed(skip)"
     CASES "shadow photons: one indirect*")
+
+# The counts of the first light alone are taken back: those of the others stay for the
+# lights after them.
+ljus_break_it(NAME shadow-photons-leftover HEADER photons/detail/verdict_bits.hpp
+    TEST shadow_photons
+    FROM "for (const Witness& one : found[list]) counts[one.where] = 0;"
+    TO   "for (const Witness& one : found[0]) counts[one.where] = 0;"
+    CASES "shadow photons: in one place each light*")

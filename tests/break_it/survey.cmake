@@ -22,3 +22,9 @@ ljus_break_it(NAME survey-skip-unchecked HEADER render/photon_mapping_settings.h
     FROM "    check(settings.skip);"
     TO   ""
     CASES "survey: settings that give no picture*")
+
+# How far a scene reaches, along one axis alone.
+ljus_break_it(NAME survey-reach HEADER render/detail/scene_remarks.hpp TEST survey
+    FROM "std::max(reach, max_component(far))"
+    TO   "std::max(reach, far.x)"
+    CASES "survey: lengths whose squares*")

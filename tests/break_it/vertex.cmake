@@ -75,3 +75,9 @@ ljus_break_it(NAME vertex-again-lobes HEADER path/continue_path.hpp TEST vertex
     FROM "to_local(flat, back), u, transport, which)"
     TO   "to_local(flat, back), u, transport)"
     CASES "vertex: what two normals disagree*")
+
+# Only where a stop is rare is it made up for: at a pane that stops most, too dark.
+ljus_break_it(NAME vertex-stop HEADER path/continue_path.hpp TEST vertex
+    FROM "if (vertex.stop_probability < T(1))"
+    TO   "if (vertex.stop_probability < T(0.5))"
+    CASES "vertex: a path that stops at a pane*")
