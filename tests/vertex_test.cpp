@@ -587,7 +587,7 @@ TEST_CASE("vertex: an index knows the frames of flat shapes") {
 
 TEST_CASE("vertex: coordinates of a texture, for those that look up by them") {
     using Paper = Textured<Lambertian, CheckerT<float, UvMap>>;
-    Scene<Shapes<Quad>, Materials<Lambertian, Paper>> scene;
+    Scene<Shapes<Quad, Sphere>, Materials<Lambertian, Paper>> scene;
     const Quad wall{.corner{0, 0, 0}, .edge_u{4, 0, 0}, .edge_v{0, 2, 0}};
     const auto plain = scene.add(Lambertian{});
     const auto paper = scene.add(Paper{{}, {}});
@@ -601,6 +601,11 @@ TEST_CASE("vertex: coordinates of a texture, for those that look up by them") {
     };
     CHECK(uv(13) == Vec2{0.75f, 0.25f});
     CHECK(uv(3) == Vec2{0}); // nobody asks
+    // A hit of a ball brings no coordinates: its normal, here (0.6, 0, 0.8), tells them.
+    scene.add(Sphere{.center{20, 0.5f, -5}, .radius = 5}, paper);
+    CHECK(uv(23).x != uv(17).x);
+    CHECK(glm::distance(uv(23), map_coordinates(GlobeMap{}, Vec3{0.6f, 0, 0.8f})) <
+          1e-6f);
     CHECK(detail::uses_uv(scene, paper));
     CHECK_FALSE(detail::uses_uv(scene, plain));
     Scene<Shapes<Quad>, Materials<Lambertian>> bare;
