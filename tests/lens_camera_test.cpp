@@ -11,7 +11,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "ljus/math/stratified_stream.hpp"
 #include "support/seed.hpp"
 #include "support/statistics.hpp"
 

@@ -220,9 +220,9 @@ TEST_CASE("shadow photons: the grid says what its photons say, counted one by on
 }
 
 TEST_CASE("shadow photons: in one place each light has its own photons") {
-    // One of three lights is hidden where the others shine, and light has come from
-    // elsewhere, too: what is counted for one leaves nothing for the next. The first
-    // of four shines far away alone.
+    // The first of four lights shines far away. One of the others is hidden where the
+    // two that are left shine, and light has come from elsewhere, too: what is counted
+    // for one leaves nothing for the next.
     for (std::uint16_t hidden = 1; hidden < 4; ++hidden) {
         std::vector<Photon> photons;
         for (int i = 0; i < 400; ++i) {

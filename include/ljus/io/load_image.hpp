@@ -26,8 +26,8 @@
 #pragma warning(push, 0)
 #pragma warning(disable : 4505 4996)
 #endif
-// A damaged JPEG file can overflow the sums of int from which its colours are clamped:
-// they wrap here, and releases of stb_image before 2.28 do not look for it.
+// A damaged JPEG file can overflow the sums of int that its colours are made from.
+// Releases of stb_image before 2.28 do not look for that: here the sums wrap.
 #if defined(__clang__)
 #pragma clang attribute push([[clang::no_sanitize("signed-integer-overflow")]],        \
                              apply_to = function)

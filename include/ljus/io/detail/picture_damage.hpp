@@ -99,8 +99,8 @@ inline std::size_t behind_pixels(const Bytes& file, std::size_t at) {
     return at;
 }
 
-// What is wrong with a JPEG file, segment by segment: stb_image takes its tables, and
-// that scans have theirs, on trust.
+// What is wrong with a JPEG file, segment by segment: stb_image trusts its tables, and
+// trusts that each scan has those that it uses.
 inline const char* jpeg_trouble(const Bytes& file) {
     constexpr unsigned char tables = 0xc4, progressive = 0xc2, scan = 0xda, end = 0xd9;
     std::uint32_t there = 0;
