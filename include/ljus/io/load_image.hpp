@@ -26,11 +26,12 @@
 #pragma warning(push, 0)
 #pragma warning(disable : 4505 4996)
 #endif
-// A damaged JPEG file can overflow the sums of int that its colours are made from.
-// Releases of stb_image before 2.28 do not look for that: here the sums wrap.
+// A damaged JPEG file can overflow the sums of int that its colours are made from, and
+// where its bits run out, a byte that is 0 is shifted by 32 bits or more. Releases of
+// stb_image before 2.28 look for neither: here the sums wrap, and any shift of 0 is 0.
 #if defined(__clang__)
-#pragma clang attribute push([[clang::no_sanitize("signed-integer-overflow")]],        \
-                             apply_to = function)
+#pragma clang attribute push(                                                          \
+    [[clang::no_sanitize("signed-integer-overflow", "shift")]], apply_to = function)
 #elif defined(__GNUC__)
 #pragma GCC push_options
 #pragma GCC optimize("wrapv")
