@@ -565,6 +565,26 @@ TEST_CASE("texture: a JPEG file has the tables that its scans use") {
     CHECK_FALSE(second_scan(0xfe));
 }
 
+TEST_CASE("texture: a JPEG file of many scans is refused before they are decoded") {
+    const auto trouble = [](unsigned char kind, int scans) -> std::string {
+        Bytes file{0xff, 0xd8, 0xff, kind, 0, 2};
+        constexpr unsigned char dc = 0x00, ac = 0x10;
+        for (const unsigned char number : {dc, ac}) { // tables, empty
+            file.insert(file.end(), {0xff, 0xc4, 0, 19, number});
+            file.insert(file.end(), 16, 0);
+        }
+        for (int i = 0; i < scans; ++i)
+            file.insert(file.end(), {0xff, 0xda, 0, 8, 1, 1, 0, 0, 63, 0});
+        const char* const why = detail::jpeg_trouble(file);
+        return why ? why : "";
+    };
+    constexpr unsigned char baseline = 0xc0, progressive = 0xc2;
+    CHECK(trouble(baseline, 4).empty());
+    CHECK(trouble(baseline, 5) == "it has more scans than it can need");
+    CHECK(trouble(progressive, 64).empty());
+    CHECK(trouble(progressive, 65) == "it has more scans than it can need");
+}
+
 TEST_CASE("texture: the sums of a damaged JPEG file wrap, and are clamped") {
     // 64 x 8 pixels of one channel. Each block is 32 767 units of 65 535 brighter than
     // the one before it, so that the second one overflows an int. The sanitizers judge.

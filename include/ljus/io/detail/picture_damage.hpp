@@ -99,11 +99,19 @@ inline std::size_t behind_pixels(const Bytes& file, std::size_t at) {
     return at;
 }
 
+// Whether a JPEG file has more scans than it can need. Each passes over the whole
+// picture and can be as short as ten bytes. A file has one for each of four channels at
+// most; a progressive one, whose parts refine one another, has some ten as a rule.
+inline bool too_many_scans(int scans, bool in_parts) {
+    return scans > (in_parts ? 64 : 4);
+}
+
 // What is wrong with a JPEG file, segment by segment: stb_image trusts its tables, and
 // trusts that each scan has those that it uses.
 inline const char* jpeg_trouble(const Bytes& file) {
     constexpr unsigned char tables = 0xc4, progressive = 0xc2, scan = 0xda, end = 0xd9;
     std::uint32_t there = 0;
+    int scans = 0;
     bool in_parts = false;
     for (std::size_t at = 2; at < file.size() && file.size() - at >= 4;) {
         const unsigned char kind = file[at + 1];
@@ -117,6 +125,8 @@ inline const char* jpeg_trouble(const Bytes& file) {
             return "a table has more than 255 entries";
         if (kind == scan && !finds_tables(file, at + 2, in_parts, there))
             return "a scan uses a table that is not there";
+        if (kind == scan && too_many_scans(++scans, in_parts))
+            return "it has more scans than it can need";
         at += 2 + std::size_t(file[at + 2]) * 256 + file[at + 3];
         if (kind == scan) at = behind_pixels(file, at);
     }
