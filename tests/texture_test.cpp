@@ -448,6 +448,12 @@ TEST_CASE("texture: of pictures only those are read whose reader is trusted, and
           "a has 4278190082 x 4278190082 pixels; there must be 1 to 33554432.");
     CHECK(refusal_of(with({19}, 0)) ==
           "a has 0 x 2 pixels; there must be 1 to 33554432.");
+    // Half as many of 16 bits, as byte 24 says.
+    CHECK(refusal_of(with({18, 22, 24}, 0x10)) ==
+          "a has 4098 x 4098 pixels of 16 bits per channel; there must be 1 to "
+          "16777216.");
+    CHECK(refusal_of(with({18, 22}, 0x10)) ==
+          "a is damaged: it ends in the middle of its pixels.");
     CHECK(refusal_of(with({24}, 3)) == // bits of a channel
           "a is no picture that can be read: its header is damaged or rare.");
     // Another chunk where the header must be.

@@ -98,7 +98,7 @@ namespace detail {
 /// The largest file that load_image() takes, in bytes.
 inline constexpr std::size_t max_image_file = std::size_t(1) << 27;
 
-/// The most pixels that it takes: 8192 x 4096.
+/// The most pixels that it takes: 8192 x 4096; of a PNG file of 16 bits half of them.
 inline constexpr int max_image_pixels = 1 << 25;
 
 #ifdef LJUS_HAS_STB_IMAGE
@@ -122,10 +122,14 @@ DecodedBytes decode_bytes(const Bytes& bytes, Refuse refuse) {
                                 : jpeg ? jpeg_trouble(bytes)
                                        : nullptr)
         refuse(join({"is damaged: ", why}));
+    // A channel of 16 bits takes twice the room before it is made one of 8.
+    const bool is_deep = png && byte_at(bytes, 24) == 16;
+    const int most_pixels = is_deep ? max_image_pixels / 2 : max_image_pixels;
     const auto require_size = [&](long long wide, long long high) {
-        if (wide < 1 || high < 1 || wide > max_image_pixels / high)
-            refuse(join({"has ", to_text(wide), " x ", to_text(high),
-                         " pixels; there must be 1 to ", to_text(max_image_pixels)}));
+        if (wide < 1 || high < 1 || wide > most_pixels / high)
+            refuse(join({"has ", to_text(wide), " x ", to_text(high), " pixels",
+                         is_deep ? " of 16 bits per channel" : "",
+                         "; there must be 1 to ", to_text(most_pixels)}));
     };
     // Of a PNG file that is too large for it stb_image says that it is none.
     if (png && png_number(bytes, 12) == 0x49484452u)
