@@ -427,6 +427,33 @@ TEST_CASE("parallel: blocks cover all things, none twice") {
     CHECK(ljus::detail::block_range(0, most, most).last == most);
 }
 
+TEST_CASE("parallel: a loop over things is one over their blocks, with its options") {
+    using ljus::detail::parallel_each;
+    for (const int threads : {1, 3})
+        for (const std::size_t total : {0u, 1u, 9u, 10u, 11u}) {
+            std::vector<int> runs(total);
+            std::vector<long long> told;
+            const auto blocks = static_cast<long long>(total + 4) / 5;
+            const auto tell = [&](long long done, long long of) {
+                told.push_back(done);
+                return of == blocks;
+            };
+            CAPTURE(total);
+            CHECK(parallel_each(total, 5, [&](std::size_t i) { ++runs[i]; },
+                                {.threads = threads, .progress = tell}));
+            CHECK(std::count(runs.begin(), runs.end(), 1) ==
+                  static_cast<std::ptrdiff_t>(total));
+            CHECK((told.empty() ? 0 : told.back()) == blocks);
+        }
+    std::atomic<int> runs{0};
+    const auto stop = [](long long done, long long) { return done < 2; };
+    CHECK_FALSE(parallel_each(20, 3, [&](std::size_t) { ++runs; },
+                              {.threads = 1, .progress = stop}));
+    CHECK(runs == 6);
+    CHECK_THROWS_AS(parallel_each(20, 3, [](std::size_t) {}, {.threads = -1}),
+                    std::invalid_argument);
+}
+
 // What a loop costs depends on what else the machine does: shown, not required.
 TEST_CASE("parallel: two threads on a job of 0.1 s (information)") {
     (void)seconds_of(2, 2, 10); // the threads are made once

@@ -716,6 +716,21 @@ TEST_CASE("vertex: what two normals disagree about is sampled again, as it was a
     }
     CHECK(through > 50);
     CHECK(mirrored > 10);
+    // Nor is the boundary, if by the surface's own normal the same numbers go to the
+    // matt part: the path ends.
+    int lost = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const auto u = next_3d<double>(numbers);
+        const auto first = sample(coated, vertex.wo, u, Transport::radiance);
+        if (!first || !first->specular || to_world(vertex.frame, first->wi).y > 0)
+            continue;
+        const auto flat = frame_around(D3{0, 1, 0});
+        const auto own = sample(coated, to_local(flat, back), u, Transport::radiance);
+        if (!own || own->specular) continue;
+        ++lost;
+        CHECK_FALSE(scatter(vertex, coated, u, Transport::radiance));
+    }
+    CHECK(lost > 10);
 }
 
 TEST_CASE("vertex: the numbers of a bounce are those of its place in the tree") {

@@ -47,3 +47,9 @@ ljus_break_it(NAME all-lights-lobes HEADER path/all_lights.hpp TEST all_lights
     FROM "pdf(material, vertex.wo, wi, Lobes::non_specular)"
     TO   "pdf(material, vertex.wo, wi)"
     CASES "all lights: of a material that is part mirror*")
+
+# Where no ray is needed, the fog is forgotten with it.
+ljus_break_it(NAME direct-light-lit-fog HEADER path/direct_light.hpp TEST direct_light
+    FROM "if (!is_black(vertex.medium))"
+    TO   "if (!is_black(vertex.medium) && verdict != Verdict::lit)"
+    CASES "direct light: what is known*")

@@ -95,3 +95,9 @@ ljus_break_it(NAME jpeg-missing-table HEADER io/detail/picture_damage.hpp TEST t
     FROM "if (asks_ac && (there >> (16 + (numbers & 15u)) & 1u) == 0) return false;"
     TO   ""
     CASES "texture: a JPEG file has*")
+
+# An edge whose square is infinite, or too small for all its digits, is taken.
+ljus_break_it(NAME texture-edge-size HEADER image/texture.hpp TEST texture
+    FROM [[require(std::isnormal(v2), "plane_map.edge_v"]]
+    TO   [[require(v2 > T(0), "plane_map.edge_v"]]
+    CASES "texture: fields, edges, colours*")
