@@ -61,6 +61,16 @@ TEST_CASE("parallel: every block runs once, for any number of threads and blocks
             for (const auto& n : runs) wrong += n != 1;
             CHECK(wrong == 0);
         }
+    // Blocks so short that two threads often ask for the next one at once.
+    for (const int threads : {2, 3}) {
+        std::vector<std::atomic<int>> runs(30000);
+        CHECK(ljus::parallel_blocks(
+            30000, [&](long long b) { ++runs[static_cast<std::size_t>(b)]; },
+            {.threads = threads}));
+        int wrong = 0;
+        for (const auto& n : runs) wrong += n != 1;
+        CHECK(wrong == 0);
+    }
     int calls = 0;
     CHECK(ljus::parallel_blocks(-5, [&](long long) { ++calls; }));
     CHECK(calls == 0);
