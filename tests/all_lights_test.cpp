@@ -415,10 +415,10 @@ TEST_CASE("all lights: what a ray finds by itself, number by number") {
 }
 
 TEST_CASE("all lights: the rays of a pixel share out all cells of a lamp") {
-    // Five shadow rays have 25 cells and stand in 5 of them. A screen hides a quarter of
-    // the lamp, 2 1/2 cells by 2 1/2: if all rays of a pixel chose the same 5, no number
-    // of them would find 3/4. 20 480 rays that know nothing of each other have a
-    // standard error of 0.4 per cent.
+    // Five shadow rays have 25 cells and stand in 5 of them. A screen hides a quarter
+    // of the lamp, 2 1/2 cells by 2 1/2: if all rays of a pixel chose the same 5, no
+    // number of them would find 3/4. 20 480 rays that know nothing of each other have
+    // a standard error of 0.4 per cent.
     Lit scene = lit_floor(false);
     scene.add(Quad{.corner{-9, 0.999f, -9}, .edge_u{0, 0, 9}, .edge_v{9, 0, 0}},
               scene.add(Lambertian{.albedo = Rgb{0}}));

@@ -197,7 +197,8 @@ TEST_CASE(
     }
     CHECK(matt(Checker{.even{1.5f, 0, 0}}).find("checker.even") == 0);
     CHECK(matt(Checker{.odd{NAN, 0, 0}}).find("checker.odd") == 0);
-    // The square of 1e-20 has lost digits, that of 1e-30 all; that of 1e20 is too large.
+    // The square of 1e-20 has lost digits, that of 1e-30 all; that of 1e20 is too
+    // large.
     for (const float length : {0.0f, 1e-30f, 1e-20f, 1e20f, INFINITY, NAN}) {
         CAPTURE(length);
         const Vec3 edge{0, 0, length};

@@ -90,9 +90,3 @@ ljus_break_it(NAME parallel-each-options HEADER parallel.hpp TEST parallel
     FROM "parallel_blocks(block_count(all, block), run, options)"
     TO   "parallel_blocks(block_count(all, block), run)"
     CASES "parallel: a loop over things*")
-
-# Two threads take a block each without taking turns.
-ljus_break_it(NAME parallel-two-in-turn HEADER parallel.hpp TEST parallel
-    FROM "Mutex(threads > 1)"
-    TO   "Mutex(threads > 2)"
-    CASES "parallel: every block runs once*")
