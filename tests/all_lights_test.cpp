@@ -9,6 +9,7 @@
 #include "ljus/materials/glossy.hpp"
 #include "ljus/materials/mirror.hpp"
 #include "ljus/materials/mixture.hpp"
+#include "ljus/math/stratified_stream.hpp"
 #include "ljus/path/all_lights.hpp"
 #include "ljus/scenes/furnaces.hpp"
 #include "support/mean.hpp"
@@ -379,10 +380,15 @@ TEST_CASE("all lights: what a ray finds by itself, number by number") {
     auto at = vertex_at(scene, down, *closest_hit(scene, down));
     at.medium = fog;
     int met = 0;
-    for (const double time : {0.0, 0.25, 0.5})
+    for (const double time : {0.0, 0.25, 0.5, 0.6})
         for (const int rays : {1, 4})
             for (std::uint64_t i = 0; i < 100; ++i) {
                 at.time = time;
+                if (time == 0.6) { // a shading normal that leans changes no radiance
+                    at.frame = frame_around(glm::normalize(D3{0.3, 1, 0}));
+                    at.wo = to_local(at.frame, D3{0, 1, 0});
+                    at.smooth = true;
+                }
                 auto stream = random_stream(8, Pass::user, 0, i);
                 auto twin = stream;
                 Counts counts;
@@ -406,6 +412,33 @@ TEST_CASE("all lights: what a ray finds by itself, number by number") {
                 CHECK(counts.shadow_rays == 1);
             }
     CHECK(met > 100);
+}
+
+TEST_CASE("all lights: the rays of a pixel share out all cells of a lamp") {
+    // Five shadow rays have 25 cells and stand in 5 of them. A screen hides a quarter
+    // of the lamp, 2 1/2 cells by 2 1/2: if all rays of a pixel chose the same 5, no
+    // number of them would find 3/4. 20 480 rays that know nothing of each other have
+    // a standard error of 0.4 per cent.
+    Lit scene = lit_floor(false);
+    scene.add(Quad{.corner{-9, 0.999f, -9}, .edge_u{0, 0, 9}, .edge_v{9, 0, 0}},
+              scene.add(Lambertian{.albedo = Rgb{0}}));
+    const Vertex at = below(scene, {0, 0.1f, 0});
+    const Lambertian white{.albedo = Rgb{0.5f}};
+    const double right = 0.75 * 0.5 * 3 * strip(0, -0.5, 0.5);
+    const auto pattern = make_pattern(Sampling::jittered, 4096);
+    for (std::uint64_t pixel = 0; pixel < 4; ++pixel) {
+        double sum = 0;
+        Counts counts;
+        for (int ray = 0; ray < pattern.points; ++ray) {
+            StratifiedStream stream;
+            start_ray(stream, ljus_test::test_seed(3), pixel, ray, pattern);
+            start_bounce(stream, 1);
+            sum += double(detail::sample_all_lights(
+                              scene, at, white, DirectLight::sampled, 5, stream, counts)
+                              .x);
+        }
+        CHECK(sum / pattern.points == doctest::Approx(right).epsilon(0.025));
+    }
 }
 
 TEST_CASE("all lights: of a material that is part mirror the matt part is shared") {

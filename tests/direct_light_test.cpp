@@ -328,6 +328,12 @@ TEST_CASE("direct light: what is known is taken, and one side by both normals") 
     CHECK(glm::distance(direct_light(room, room.lights[0], at, matt,
                                      Vec2T<double>{0, 0}, whole, counts, Verdict::lit),
                         sent) < 1e-12);
+    // That nothing stands in the way does not make the fog thinner.
+    at.medium = {0.1, 0.2, 0.4};
+    const auto in_fog = share(Verdict::lit, counts);
+    CHECK(glm::distance(in_fog.sent, sent) < 1e-12);
+    CHECK(glm::distance(in_fog.arrived, sent * glm::exp(-5.0 * at.medium)) < 1e-12);
+    at.medium = D3{0};
     // A shading normal that leans: a light that lies before one normal and behind the
     // other gives nothing; before both it gives by the shading one's cosine.
     at.smooth = true;

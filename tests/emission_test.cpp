@@ -559,6 +559,51 @@ TEST_CASE("emission: aimed photons bring what photons sent everywhere bring") {
     }
 }
 
+TEST_CASE("emission: one point of the square says where on a light, the other where "
+          "to") {
+    // Lights, and what each of the two points decides: a lamp has both, a sun is
+    // parallel, points and spots are but a point.
+    struct Case {
+        int light;
+        bool origin_by_point, direction_by_direction;
+    };
+    Stage stage;
+    stage.scene.add(lamp, stage.matt, Rgb{1});
+    stage.scene.add(PointLight{.position{0, 0, 3}, .intensity{1, 0, 0}});
+    stage.scene.add(SpotLight{.position{0, 0, 3}, .intensity{1, 0, 0}});
+    stage.scene.add(SunLight{.irradiance{1, 1, 1}});
+    const Vec2 a{0.2f, 0.3f}, b{0.7f, 0.6f};
+    for (const Case& c : {Case{0, true, true}, Case{1, false, true},
+                          Case{2, false, true}, Case{3, true, false}}) {
+        CAPTURE(c.light);
+        const auto& light = stage.scene.lights[std::size_t(c.light)];
+        const auto ray = [&](const Vec2& point, const Vec2& direction) {
+            return light_ray(stage.scene, light, point, direction);
+        };
+        const auto first = ray(a, b), moved = ray(b, b), turned = ray(a, a);
+        CHECK((moved.origin != first.origin) == c.origin_by_point);
+        CHECK(moved.direction == first.direction);
+        CHECK((turned.direction != first.direction) == c.direction_by_direction);
+        // A ray leaves a surface a rounding error away, on the side to where it goes.
+        CHECK(glm::distance(turned.origin, first.origin) < 1e-5f);
+    }
+}
+
+TEST_CASE("emission: a photon knows its light among hundreds") {
+    Stage stage;
+    for (int i = 0; i < 600; ++i)
+        stage.scene.add(PointLight{.position{float(i), 0, 0}, .intensity{1, 1, 1}});
+    const LightChoice choice = light_choice(stage.scene.lights);
+    int beyond = 0;
+    for (long long i = 0; i < 200; ++i) {
+        RandomStream stream = stream_of(i);
+        const auto flight = emit(stage.scene, choice, stream);
+        CHECK(flight.ray.origin.x == float(flight.light));
+        beyond += flight.light > 255;
+    }
+    CHECK(beyond > 0);
+}
+
 TEST_CASE("emission: the light of an aimed photon has its colour and its number") {
     Stage stage;
     stage.scene.add(PointLight{.position{0, 0, 3}, .intensity{1, 0, 0}});

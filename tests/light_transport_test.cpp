@@ -137,6 +137,13 @@ TEST_CASE("light_transport: the parts of a picture add up to the whole") {
     const auto tracer = make_path_tracer(room.scene);
     const Image whole = picture(tracer, room.camera);
     CHECK(difference(whole, picture(only_paths(tracer, "E.*L"), room.camera)) == 0);
+    // And cost as much: nothing is left out but the sums.
+    const Counts all = render(tracer, room.camera, small()).counts;
+    const Counts some = render(only_paths(tracer, "EDL"), room.camera, small()).counts;
+    CHECK(all.bounce_rays > 0);
+    CHECK(some.camera_rays == all.camera_rays);
+    CHECK(some.bounce_rays == all.bounce_rays);
+    CHECK(some.shadow_rays == all.shadow_rays);
     for (const auto& classes :
          {std::vector<const char*>{"EL", "E.L", "E..L", "E...+L"},
           std::vector<const char*>{"ES*L", "ES*DL", "E.*DDL", "E.*DS+DL", "E.*DS+L"}}) {

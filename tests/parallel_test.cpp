@@ -61,6 +61,16 @@ TEST_CASE("parallel: every block runs once, for any number of threads and blocks
             for (const auto& n : runs) wrong += n != 1;
             CHECK(wrong == 0);
         }
+    // Blocks so short that two threads often ask for the next one at once.
+    for (const int threads : {2, 3}) {
+        std::vector<std::atomic<int>> runs(30000);
+        CHECK(ljus::parallel_blocks(
+            30000, [&](long long b) { ++runs[static_cast<std::size_t>(b)]; },
+            {.threads = threads}));
+        int wrong = 0;
+        for (const auto& n : runs) wrong += n != 1;
+        CHECK(wrong == 0);
+    }
     int calls = 0;
     CHECK(ljus::parallel_blocks(-5, [&](long long) { ++calls; }));
     CHECK(calls == 0);
@@ -425,6 +435,33 @@ TEST_CASE("parallel: blocks cover all things, none twice") {
     const long long most = std::numeric_limits<long long>::max();
     CHECK(ljus::detail::block_count(most, 2) == most / 2 + 1);
     CHECK(ljus::detail::block_range(0, most, most).last == most);
+}
+
+TEST_CASE("parallel: a loop over things is one over their blocks, with its options") {
+    using ljus::detail::parallel_each;
+    for (const int threads : {1, 3})
+        for (const std::size_t total : {0u, 1u, 9u, 10u, 11u}) {
+            std::vector<int> runs(total);
+            std::vector<long long> told;
+            const auto blocks = static_cast<long long>(total + 4) / 5;
+            const auto tell = [&](long long done, long long of) {
+                told.push_back(done);
+                return of == blocks;
+            };
+            CAPTURE(total);
+            CHECK(parallel_each(total, 5, [&](std::size_t i) { ++runs[i]; },
+                                {.threads = threads, .progress = tell}));
+            CHECK(std::count(runs.begin(), runs.end(), 1) ==
+                  static_cast<std::ptrdiff_t>(total));
+            CHECK((told.empty() ? 0 : told.back()) == blocks);
+        }
+    std::atomic<int> runs{0};
+    const auto stop = [](long long done, long long) { return done < 2; };
+    CHECK_FALSE(parallel_each(20, 3, [&](std::size_t) { ++runs; },
+                              {.threads = 1, .progress = stop}));
+    CHECK(runs == 6);
+    CHECK_THROWS_AS(parallel_each(20, 3, [](std::size_t) {}, {.threads = -1}),
+                    std::invalid_argument);
 }
 
 // What a loop costs depends on what else the machine does: shown, not required.

@@ -197,8 +197,16 @@ TEST_CASE(
     }
     CHECK(matt(Checker{.even{1.5f, 0, 0}}).find("checker.even") == 0);
     CHECK(matt(Checker{.odd{NAN, 0, 0}}).find("checker.odd") == 0);
-    CHECK(matt(Checker{.map{.edge_u{0, 0, 0}}}).find("plane_map.edge_u") == 0);
-    CHECK(matt(Checker{.map{.edge_v{NAN, 0, 0}}}).find("plane_map.edge_v") == 0);
+    // The square of 1e-20 has lost digits, that of 1e-30 all; that of 1e20 is too
+    // large.
+    for (const float length : {0.0f, 1e-30f, 1e-20f, 1e20f, INFINITY, NAN}) {
+        CAPTURE(length);
+        const Vec3 edge{0, 0, length};
+        CHECK(matt(Checker{.map{.edge_u = edge}}).find("plane_map.edge_u is (0, 0, ") ==
+              0);
+        CHECK(matt(Checker{.map{.edge_v = edge}}).find("plane_map.edge_v is (0, 0, ") ==
+              0);
+    }
     CHECK(matt(PictureTexture{.image = four()}).empty());
     CHECK(matt(PictureTexture{}).find("The image's size is 0 x 0") == 0);
     Image bright = four();

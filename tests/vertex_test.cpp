@@ -491,6 +491,15 @@ TEST_CASE("vertex: roulette's threshold and its largest probability") {
     CHECK(alive(4, 0.74f, 0.5f, 0.75f) == doctest::Approx(4 / 0.75f));
     CHECK(alive(4, 0.76f, 0.5f, 0.75f) == 0);
     CHECK(alive(0.001f, 0.99f, 0, 1) == 0.001f); // any is safe
+    // The brightest channel decides, whichever it is.
+    for (int brightest = 0; brightest < 3; ++brightest)
+        for (const bool lives : {true, false}) {
+            Rgb throughput{0.125f};
+            throughput[brightest] = 0.5f;
+            CHECK(survives(throughput, 1.0f, lives ? 0.49f : 0.51f) == lives);
+            CHECK(throughput[brightest] == (lives ? 1.0f : 0.5f));
+            CHECK(throughput[(brightest + 1) % 3] == (lives ? 0.25f : 0.125f));
+        }
 }
 
 TEST_CASE("vertex: what a slanted pane lets through, and what glass hides") {
@@ -716,6 +725,21 @@ TEST_CASE("vertex: what two normals disagree about is sampled again, as it was a
     }
     CHECK(through > 50);
     CHECK(mirrored > 10);
+    // Nor is the boundary, if by the surface's own normal the same numbers go to the
+    // matt part: the path ends.
+    int lost = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const auto u = next_3d<double>(numbers);
+        const auto first = sample(coated, vertex.wo, u, Transport::radiance);
+        if (!first || !first->specular || to_world(vertex.frame, first->wi).y > 0)
+            continue;
+        const auto flat = frame_around(D3{0, 1, 0});
+        const auto own = sample(coated, to_local(flat, back), u, Transport::radiance);
+        if (!own || own->specular) continue;
+        ++lost;
+        CHECK_FALSE(scatter(vertex, coated, u, Transport::radiance));
+    }
+    CHECK(lost > 10);
 }
 
 TEST_CASE("vertex: the numbers of a bounce are those of its place in the tree") {

@@ -47,3 +47,21 @@ ljus_break_it(NAME all-lights-lobes HEADER path/all_lights.hpp TEST all_lights
     FROM "pdf(material, vertex.wo, wi, Lobes::non_specular)"
     TO   "pdf(material, vertex.wo, wi)"
     CASES "all lights: of a material that is part mirror*")
+
+# Where no ray is needed, the fog is forgotten with it.
+ljus_break_it(NAME direct-light-lit-fog HEADER path/direct_light.hpp TEST direct_light
+    FROM "if (!is_black(vertex.medium))"
+    TO   "if (!is_black(vertex.medium) && verdict != Verdict::lit)"
+    CASES "direct light: what is known*")
+
+# All rays of a pixel look at the same few cells of a lamp.
+ljus_break_it(NAME all-lights-cells HEADER path/all_lights.hpp TEST all_lights
+    FROM "stream.key + std::uint32_t(u.x * T(0x1p24))"
+    TO   "stream.key"
+    CASES "all lights: the rays of a pixel*")
+
+# Where normals lean, what a ray finds is weighed as if it were flux.
+ljus_break_it(NAME all-lights-found-flux HEADER path/all_lights.hpp TEST all_lights
+    FROM "next_3d<T>(stream), Transport::radiance"
+    TO   "next_3d<T>(stream), Transport::flux"
+    CASES "all lights: what a ray finds*")

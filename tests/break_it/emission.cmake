@@ -101,3 +101,15 @@ ljus_break_it(NAME aim-mixtures HEADER photons/aiming.hpp TEST emission
     FROM "has(lobes(m), Lobes::specular)"
     TO   "lobes(m) == Lobes::specular"
     CASES "emission: what is matt and a mirror*")
+
+# The point that says where on a light says where to.
+ljus_break_it(NAME emission-point-direction HEADER path/emission.hpp TEST emission
+    FROM "sample_uniform_sphere(u_direction)"
+    TO   "sample_uniform_sphere(u_point)"
+    CASES "emission: one point of the square*")
+
+# The light of number 300 is told as that of number 44.
+ljus_break_it(NAME emission-light-number HEADER path/emission.hpp TEST emission
+    FROM "static_cast<std::uint16_t>(chosen.light)"
+    TO   "static_cast<std::uint8_t>(chosen.light)"
+    CASES "emission: a photon knows its light*")

@@ -30,3 +30,9 @@ ljus_break_it(NAME class-empty HEADER path/light_path_expression.hpp TEST light_
     FROM "next.last | (next.empty ? all.last : 0)"
     TO   "next.last"
     CASES "light_transport: classes of paths*")
+
+# A renderer that carries some paths is said to cost nothing.
+ljus_break_it(NAME only-paths-counts HEADER path/light_transport.hpp TEST light_transport
+    FROM [[(void)radiance(renderer.whole, ray, stream, counts, log);]]
+    TO   [[Counts none; (void)radiance(renderer.whole, ray, stream, none, log);]]
+    CASES "light_transport: the parts of a picture*")

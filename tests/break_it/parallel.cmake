@@ -84,3 +84,9 @@ ljus_break_it(NAME parallel-last-word HEADER parallel.hpp TEST parallel
     FROM "loop.report(); // the last blocks"
     TO   "// the last blocks"
     CASES "parallel: what ended while*")
+
+# A loop over things takes all threads, tells nobody and cannot be stopped.
+ljus_break_it(NAME parallel-each-options HEADER parallel.hpp TEST parallel
+    FROM "parallel_blocks(block_count(all, block), run, options)"
+    TO   "parallel_blocks(block_count(all, block), run)"
+    CASES "parallel: a loop over things*")

@@ -101,3 +101,9 @@ ljus_break_it(NAME jpeg-scans HEADER io/detail/picture_damage.hpp TEST texture
     FROM "return scans > (in_parts ? 64 : 4);"
     TO   "return scans > 64 + 0 * in_parts;"
     CASES "texture: a JPEG file of many scans*")
+
+# An edge whose square is infinite, or too small for all its digits, is taken.
+ljus_break_it(NAME texture-edge-size HEADER image/texture.hpp TEST texture
+    FROM [[require(std::isnormal(v2), "plane_map.edge_v"]]
+    TO   [[require(v2 > T(0), "plane_map.edge_v"]]
+    CASES "texture: fields? edges? colours*")

@@ -70,3 +70,9 @@ ljus_break_it(NAME thin_film-table-step HEADER optics/film_table.hpp TEST thin_f
     FROM "std::min(2.0, finest)"
     TO   "2.0"
     CASES "film table: long paths*")
+
+# A colour that can be shown is rounded, and counted as one that cannot.
+ljus_break_it(NAME gamut-same HEADER optics/cie_observer.hpp TEST thin_film
+    FROM "if (keep == T(1)) return c;"
+    TO   ""
+    CASES "observer: into the gamut*")

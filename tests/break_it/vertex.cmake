@@ -81,3 +81,15 @@ ljus_break_it(NAME vertex-stop HEADER path/continue_path.hpp TEST vertex
     FROM "if (vertex.stop_probability < T(1))"
     TO   "if (vertex.stop_probability < T(0.5))"
     CASES "vertex: a path that stops at a pane*")
+
+# What is sampled again after a mirror's disagreement may be matt.
+ljus_break_it(NAME vertex-again-matt HEADER path/continue_path.hpp TEST vertex
+    FROM "if (!again || !again->specular) return std::nullopt;"
+    TO   "if (!again) return std::nullopt;"
+    CASES "vertex: what two normals disagree*")
+
+# Roulette plays by the red of a path: blue ones end.
+ljus_break_it(NAME vertex-roulette-red HEADER path/path_state.hpp TEST vertex
+    FROM "max_component(throughput) / eta_scale"
+    TO   "throughput.x / eta_scale"
+    CASES "vertex: roulette's threshold*")
