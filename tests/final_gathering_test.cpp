@@ -436,6 +436,13 @@ TEST_CASE("final gathering: points at photons, with all the light that is there"
     // Without a radius: four times as far as so many photons lie typically.
     const IrradiancePoints chosen = of_pairs(0, 3);
     CHECK(chosen.radius == 4 * typical_radius(pairs, 50));
+    // Of n photons on a unit square, k lie in a disc of the area k / n.
+    for (const std::size_t k : {8u, 128u}) {
+        const auto even = make_irradiance_points(scene, even_photons(20000, 5),
+                                                 PhotonMap{}, {.nearest = k}, 1, 3);
+        CHECK(double(even.radius) ==
+              ljus_test::within(4 * std::sqrt(double(k) / (pi * 20000)), 0.1));
+    }
     for (const auto& record : of_pairs(0, 1).records)
         CHECK(is_finite(record.irradiance));
 }

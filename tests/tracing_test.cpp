@@ -1203,6 +1203,19 @@ TEST_CASE("tracing: progress ascends through all stages of a pass") {
     CHECK_FALSE(stopped.complete);
     CHECK(stopped.emitted == 2048); // the first stage
     CHECK(stopped.remark.empty());
+    // Nor does it give up, though nothing was stored: it does not know of the rest, and
+    // the account is that of the one block.
+    Room empty;
+    empty.add(PointLight{.intensity = Rgb{1}});
+    calls = 0;
+    const auto nothing = trace_photons(
+        empty, MapType::general,
+        {.photons = 6000, .give_up = 3000, .threads = 1, .progress = stop});
+    CHECK(calls == 1);
+    CHECK_FALSE(nothing.complete);
+    CHECK(nothing.photons.empty());
+    CHECK(nothing.remark.empty());
+    CHECK(nothing.audit.emitted.x == within(4 * std::numbers::pi * 512 / 6000, 1e-4));
 }
 
 TEST_CASE("tracing: as many lights as 16 bits can number, and no more") {

@@ -109,3 +109,10 @@ ljus_break_it(NAME final-gathering-seen-side HEADER render/final_gathering.hpp
     FROM "detail::seen_normal(*vertex)"
     TO   "vertex->frame.normal"
     CASES "final gathering: a gather ray looks up*")
+
+# Whatever is asked for, the radius is that of 32 photons.
+ljus_break_it(NAME final-gathering-chosen HEADER photons/irradiance_points.hpp
+    TEST final_gathering
+    FROM "typical_radius(general, settings.nearest)"
+    TO   "typical_radius(general, 32)"
+    CASES "final gathering: points at photons*")
