@@ -125,6 +125,16 @@ TEST_CASE("final gathering: what lies on the surface near its edges") {
                 CHECK(of(0.98f, 0.6f) == doctest::Approx(detail::kernel_part(0.2f)));
                 CHECK(of(0.5f, 0.45f) == 1);
             }
+        // A step down or up, lower than the disc is wide, is no way on either.
+        for (const float step : {-0.03f, -0.07f, 0.03f, 0.07f}) {
+            Flat stairs = scene;
+            stairs.add(Quad{.corner{1, -1, step}, .edge_u{3, 0, 0}, .edge_v{0, 3, 0}},
+                       stairs.add(Lambertian{}));
+            for (const Vec3 side : {up, -up})
+                CHECK(detail::part_on_surface(stairs, at(stairs, 0.98f, 0.6f), side,
+                                              0.1f) ==
+                      doctest::Approx(detail::kernel_part(0.2f)));
+        }
         if (!triangles) // at a corner of two triangles each edge is seen by one of them
             CHECK(
                 part(0.05f, 0.02f, 0.1f) ==

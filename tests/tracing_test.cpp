@@ -647,6 +647,13 @@ TEST_CASE("tracing: memory is foretold, and refused in a sentence before it is t
                     (void)trace_photons(room, law,
                                         {.photons = photons, .numbers = numbers}),
                     doctest::Contains("max_memory allows 4 GB"), std::invalid_argument);
+    // If the blocks alone take too much, no path is traced.
+    int asked = 0;
+    const auto ask = [&](long long, long long) { return ++asked > 0; };
+    CHECK_THROWS_AS((void)trace_photons(room, MapType::general,
+                                        {.photons = 1000000000000LL, .progress = ask}),
+                    std::invalid_argument);
+    CHECK(asked == 0);
     // What the pilot stored tells what all of them will: both sides of the limit.
     const auto few =
         trace_photons(room, MapType::general, {.photons = detail::pilot_paths});
