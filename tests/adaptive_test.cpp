@@ -402,6 +402,24 @@ TEST_CASE("adaptive: the relative variance of a block, by hand and in colours") 
     CHECK(detail::relative_variance(block, sums, 3, 0.25) == 0); // not NaN
 }
 
+TEST_CASE("adaptive: a sample counts with its weight, squared in the squares") {
+    // The weights of Mitchell's filter differ, and some are below 0.
+    struct Plain {};
+    std::vector<detail::PixelSums> sums(2);
+    Counts cost;
+    const Plain renderer;
+    detail::SampleSums<Plain, float> samples(renderer, sums, cost);
+    for (const auto& [weight, light] : {std::pair{2.0f, 3.0f}, {-0.5f, 8.0f}})
+        samples.add(1, [&, w = weight, x = light](auto&) {
+            return detail::PixelSampleT<float>{{x, 2 * x, 0}, w};
+        });
+    samples.finish();
+    CHECK(sums[0].sum == RgbT<double>{0, 0, 0});
+    CHECK(sums[1].sum == RgbT<double>{6 - 4, 12 - 8, 0});
+    CHECK(sums[1].squares == RgbT<double>{36 + 16, 144 + 64, 0});
+    CHECK(cost.rejected == 0);
+}
+
 TEST_CASE("adaptive: what is left goes to the largest errors first") {
     // Of four blocks of one pixel with ten rays each, and ten rays to spare.
     const double variances[] = {1, 9, 4, 0};

@@ -313,7 +313,10 @@ TEST_CASE("caustic_budget: the pilot's numbers, one photon after the other") {
     }
     const float radius = 0.15f, wide = 0.6f;
     const auto pilots = pilot_caustics(room, pass, radius, light, wide);
-    CHECK(asked == 0); // nobody waits for a pilot
+    CHECK(asked == 0);   // nobody waits for a pilot
+    auto bright = light; // shadow photons are no light, and count nowhere
+    std::erase_if(bright, [](const auto& p) { return p.kind == PhotonKind::shadow; });
+    REQUIRE(bright.size() < 2500);
     const auto objects = specular_objects(room);
     REQUIRE(objects.size() == 3);
     REQUIRE(pilots.size() == 3);
@@ -349,10 +352,10 @@ TEST_CASE("caustic_budget: the pilot's numbers, one photon after the other") {
         return sum / (pi * within * within);
     };
     double flux_of_light = 0, lit_of_light = 0;
-    for (std::size_t i = 0; i < light.size(); i += 4) { // 3000 / 1000 + 1
-        const double part = luminance(RgbT<double>(light[i].flux));
+    for (std::size_t i = 0; i < bright.size(); i += bright.size() / 1000 + 1) {
+        const double part = luminance(RgbT<double>(bright[i].flux));
         flux_of_light += part;
-        lit_of_light += part * around(light, light[i], double(wide));
+        lit_of_light += part * around(bright, bright[i], double(wide));
     }
     const double dark = 0.1 * lit_of_light / flux_of_light;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -361,7 +364,7 @@ TEST_CASE("caustic_budget: the pilot's numbers, one photon after the other") {
         for (const Photon& photon : found[k]) {
             const double part = luminance(RgbT<double>(photon.flux));
             const double own = around(all, photon, 2 * double(radius));
-            const double here = own + dark + around(light, photon, double(wide));
+            const double here = own + dark + around(bright, photon, double(wide));
             flux += part;
             lit += part * own;
             squares += part * part;
@@ -380,11 +383,11 @@ TEST_CASE("caustic_budget: the pilot's numbers, one photon after the other") {
               doctest::Approx(std::sqrt(n * visible)).epsilon(1e-4));
     }
     // Without a radius for the other light, that in which 64 of its photons lie.
-    const float typical = typical_radius(make_photon_map(light), 64);
+    const float typical = typical_radius(make_photon_map(bright), 64);
     const auto unsaid = pilot_caustics(room, pass, radius, light, 0.0f);
     const auto said = pilot_caustics(room, pass, radius, light, typical);
     const auto half = pilot_caustics(room, pass, radius, light,
-                                     typical_radius(make_photon_map(light), 32));
+                                     typical_radius(make_photon_map(bright), 32));
     for (std::size_t k = 0; k < 3; ++k) {
         CHECK(unsaid[k].visible == said[k].visible);
         CHECK(unsaid[k].visible != half[k].visible);
@@ -631,6 +634,31 @@ TEST_CASE("caustic_budget: who gets nothing in the pilot is not starved") {
         const auto shares = caustic_shares(budget, pilots);
         CHECK(shares[2] == doctest::Approx(0.1 / 3));
         CHECK(shares[0] + shares[1] + shares[2] == doctest::Approx(1));
+    }
+}
+
+TEST_CASE("caustic_budget: the pilot of the other light is none of the picture's") {
+    // What the picture's own photons found, in any of its first passes, must not decide
+    // about shares.
+    const Room room = two_balls(1.2f, 1.5f, 0.5f);
+    PhotonMappingSettings settings{.caustic_budget = CausticBudget::brightness};
+    settings.caustics.photons = 20000;
+    settings.caustics_estimate.radius = 0.05f;
+    settings.general_estimate.radius = 0.3f;
+    std::vector<std::vector<double>> chosen, own;
+    for (const std::uint64_t iteration : {0u, 1u, 2u}) {
+        settings.general.iteration = iteration;
+        chosen.push_back(caustic_shares(room, settings));
+        PhotonPassSettings pass = settings.general;
+        pass.photons = 20000;
+        const auto light = trace_photons(room, MapType::general, pass).photons;
+        own.push_back(caustic_shares(
+            CausticBudget::brightness,
+            pilot_caustics(room, settings.caustics, 0.05f, light, 0.3f)));
+    }
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+        CHECK(chosen[i][0] == ljus_test::within(own[i][0], 0.05)); // the same light
+        for (const auto& others : own) CHECK(chosen[i] != others);
     }
 }
 

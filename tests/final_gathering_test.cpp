@@ -125,6 +125,16 @@ TEST_CASE("final gathering: what lies on the surface near its edges") {
                 CHECK(of(0.98f, 0.6f) == doctest::Approx(detail::kernel_part(0.2f)));
                 CHECK(of(0.5f, 0.45f) == 1);
             }
+        // A step down or up, lower than the disc is wide, is no way on either.
+        for (const float step : {-0.03f, -0.07f, 0.03f, 0.07f}) {
+            Flat stairs = scene;
+            stairs.add(Quad{.corner{1, -1, step}, .edge_u{3, 0, 0}, .edge_v{0, 3, 0}},
+                       stairs.add(Lambertian{}));
+            for (const Vec3 side : {up, -up})
+                CHECK(detail::part_on_surface(stairs, at(stairs, 0.98f, 0.6f), side,
+                                              0.1f) ==
+                      doctest::Approx(detail::kernel_part(0.2f)));
+        }
         if (!triangles) // at a corner of two triangles each edge is seen by one of them
             CHECK(
                 part(0.05f, 0.02f, 0.1f) ==
@@ -436,6 +446,13 @@ TEST_CASE("final gathering: points at photons, with all the light that is there"
     // Without a radius: four times as far as so many photons lie typically.
     const IrradiancePoints chosen = of_pairs(0, 3);
     CHECK(chosen.radius == 4 * typical_radius(pairs, 50));
+    // Of n photons on a unit square, k lie in a disc of the area k / n.
+    for (const std::size_t k : {8u, 128u}) {
+        const auto even = make_irradiance_points(scene, even_photons(20000, 5),
+                                                 PhotonMap{}, {.nearest = k}, 1, 3);
+        CHECK(double(even.radius) ==
+              ljus_test::within(4 * std::sqrt(double(k) / (pi * 20000)), 0.1));
+    }
     for (const auto& record : of_pairs(0, 1).records)
         CHECK(is_finite(record.irradiance));
 }

@@ -647,6 +647,13 @@ TEST_CASE("tracing: memory is foretold, and refused in a sentence before it is t
                     (void)trace_photons(room, law,
                                         {.photons = photons, .numbers = numbers}),
                     doctest::Contains("max_memory allows 4 GB"), std::invalid_argument);
+    // If the blocks alone take too much, no path is traced.
+    int asked = 0;
+    const auto ask = [&](long long, long long) { return ++asked > 0; };
+    CHECK_THROWS_AS((void)trace_photons(room, MapType::general,
+                                        {.photons = 1000000000000LL, .progress = ask}),
+                    std::invalid_argument);
+    CHECK(asked == 0);
     // What the pilot stored tells what all of them will: both sides of the limit.
     const auto few =
         trace_photons(room, MapType::general, {.photons = detail::pilot_paths});
@@ -1203,6 +1210,19 @@ TEST_CASE("tracing: progress ascends through all stages of a pass") {
     CHECK_FALSE(stopped.complete);
     CHECK(stopped.emitted == 2048); // the first stage
     CHECK(stopped.remark.empty());
+    // Nor does it give up, though nothing was stored: it does not know of the rest, and
+    // the account is that of the one block.
+    Room empty;
+    empty.add(PointLight{.intensity = Rgb{1}});
+    calls = 0;
+    const auto nothing = trace_photons(
+        empty, MapType::general,
+        {.photons = 6000, .give_up = 3000, .threads = 1, .progress = stop});
+    CHECK(calls == 1);
+    CHECK_FALSE(nothing.complete);
+    CHECK(nothing.photons.empty());
+    CHECK(nothing.remark.empty());
+    CHECK(nothing.audit.emitted.x == within(4 * std::numbers::pi * 512 / 6000, 1e-4));
 }
 
 TEST_CASE("tracing: as many lights as 16 bits can number, and no more") {

@@ -71,3 +71,15 @@ ljus_break_it(NAME budget-pilot-dark HEADER photons/budget.hpp TEST caustic_budg
     FROM "mean_irradiance(caustics, all, 2 * radius)"
     TO   "mean_irradiance(caustics, all, radius)"
     CASES "caustic_budget: the pilot's numbers*")
+
+# The light of a pilot is that of the picture's own first photons.
+ljus_break_it(NAME budget-pilot-light HEADER render/photon_maps.hpp TEST caustic_budget
+    FROM "pass.iteration = ~pass.iteration;"
+    TO   ""
+    CASES "caustic_budget: the pilot of the other light*")
+
+# Shadow photons are light to a pilot.
+ljus_break_it(NAME budget-pilot-shadows HEADER photons/budget.hpp TEST caustic_budget
+    FROM "return p.kind == PhotonKind::shadow;"
+    TO   "return p.kind == PhotonKind::caustic;"
+    CASES "caustic_budget: the pilot's numbers*")

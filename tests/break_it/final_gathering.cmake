@@ -109,3 +109,17 @@ ljus_break_it(NAME final-gathering-seen-side HEADER render/final_gathering.hpp
     FROM "detail::seen_normal(*vertex)"
     TO   "vertex->frame.normal"
     CASES "final gathering: a gather ray looks up*")
+
+# Whatever is asked for, the radius is that of 32 photons.
+ljus_break_it(NAME final-gathering-chosen HEADER photons/irradiance_points.hpp
+    TEST final_gathering
+    FROM "typical_radius(general, settings.nearest)"
+    TO   "typical_radius(general, 32)"
+    CASES "final gathering: points at photons*")
+
+# A step lower than the disc is wide is a way on.
+ljus_break_it(NAME final-gathering-step HEADER photons/detail/kernel_border.hpp
+    TEST final_gathering
+    FROM "T(0.01) * radius"
+    TO   "T(1) * radius"
+    CASES "final gathering: what lies on the surface*")

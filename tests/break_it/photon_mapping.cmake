@@ -90,3 +90,10 @@ ljus_break_it(NAME photon-mapping-cache-gathers HEADER render/photon_mapping_set
            indirect == IndirectLight::cache;"
     TO   "indirect == IndirectLight::gather;"
     CASES "photon mapping: behind a glossy*")
+
+# Once a path has split, roulette spares it behind matt surfaces, too.
+ljus_break_it(NAME photon-mapping-spared HEADER render/photon_mapping.hpp
+    TEST photon_mapping_steps
+    FROM "!branches.empty() && !path.met_diffuse"
+    TO   "!branches.empty()"
+    CASES "photon mapping: behind a matt surface no branch*")

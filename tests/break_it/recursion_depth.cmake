@@ -97,3 +97,9 @@ ljus_break_it(NAME adaptive-progress HEADER render/adaptive.hpp TEST adaptive
     FROM "traced + rays * double(done) / double(of)"
     TO   "traced + double(done) / double(of)"
     CASES "adaptive: progress goes up*")
+
+# The filter's weight counts once in the squares.
+ljus_break_it(NAME adaptive-weights HEADER render/detail/sample_sums.hpp TEST adaptive
+    FROM "squares += sample * sample;"
+    TO   "squares += sample * RgbT<double>(samples_[i]);"
+    CASES "adaptive: a sample counts with its weight*")

@@ -89,3 +89,9 @@ ljus_break_it(NAME tracing-keep HEADER photons/photon_path.hpp TEST tracing
     FROM "== caustics && keep.has(kind);"
     TO   "== caustics;"
     CASES "tracing: only kinds*")
+
+# Who is stopped before anything was stored says that it gave up.
+ljus_break_it(NAME tracing-stopped-remark HEADER photons/tracing.hpp TEST tracing
+    FROM "if (nothing && result.complete && result.emitted"
+    TO   "if (nothing && result.emitted"
+    CASES "tracing: progress ascends*")

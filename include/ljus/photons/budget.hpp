@@ -163,15 +163,17 @@ struct PilotLightT {
 ///                at most 20 000 to each object.
 /// \param radius  Of the estimates of the picture, in scene units; twice of it is used.
 ///                0: that in which 32 photons of the picture lie typically.
-/// \param light   What else lights the scene: photons of a general map, or none.
+/// \param light   What else lights the scene: photons of a general map, or none; shadow
+///                photons are no light, and do not count.
 /// \param wide    The radius that they are asked with; 0: that of 64 of them.
 /// \return One for each of specular_objects().
 template <SceneLike S, std::floating_point T = typename S::Scalar>
 [[nodiscard]] std::vector<CausticPilot>
 pilot_caustics(const S& scene, const PhotonPassSettings& pass, T radius,
-               const std::vector<PhotonT<T>>& light = {}, T wide = T(1)) {
+               std::vector<PhotonT<T>> light = {}, T wide = T(1)) {
     const auto objects = specular_objects(scene);
     if (objects.empty()) return {};
+    std::erase_if(light, [](const auto& p) { return p.kind == PhotonKind::shadow; });
     const auto count = static_cast<long long>(objects.size());
     const long long paths = std::clamp(pass.photons / (20 * count), 500LL, 20000LL);
     std::vector<std::vector<PhotonT<T>>> found;
