@@ -187,11 +187,7 @@ TEST_CASE("quad: without an area in exact arithmetic it is never hit") {
 TEST_CASE("quad: what meets an edge or a corner exactly is a hit") {
     // Whole numbers so large that the products of three are rounded, in double too.
     Numbers n{31};
-    const auto whole = [&] {
-        const auto part = [&] { return float(n.below(1 << 21) - (1 << 20)); };
-        const float x = part(), y = part();
-        return Vec3{x, y, part()};
-    };
+    const auto whole = [&] { return n.whole_point(1 << 20); };
     int rays = 0, open = 0;
     for (int i = 0; i < 2000; ++i) {
         const Vec3 corner = whole(), half_u = whole(), half_v = whole(), way = whole();

@@ -503,11 +503,7 @@ TEST_CASE("triangle: a hit in the border has coordinates that are not below 0") 
     // Just below 0 an image would show its other end. The rays meet the middle of an
     // edge exactly; the products of such large whole numbers are rounded.
     Numbers n{31};
-    const auto whole = [&] {
-        const auto part = [&] { return float(n.below(1 << 21) - (1 << 20)); };
-        const float x = part(), y = part();
-        return Vec3{x, y, part()};
-    };
+    const auto whole = [&] { return n.whole_point(1 << 20); };
     int on_edge = 0, open = 0;
     for (int i = 0; i < 2000; ++i) {
         const Vec3 v1 = whole(), half = whole(), other = v1 + whole(), way = whole();

@@ -16,6 +16,7 @@
 #include "ljus/radiosity/radiosity.hpp"
 #include "ljus/render/photon_maps.hpp"
 #include "ljus/scenes/cornell_box.hpp"
+#include "support/jpeg_segment.hpp"
 
 int main(int argc, char** argv) {
     if (argc != 2) return 2;
@@ -57,18 +58,16 @@ int main(int argc, char** argv) {
     // A JPEG file whose bits run out in the middle of a number: its codes have 9 and 10
     // bits, and 7 and 15 bits follow them, but there are only 32.
     Bytes jpeg{0xff, 0xd8};
-    const auto segment = [&](int kind, std::initializer_list<int> values) {
-        for (const int v : {0xff, kind, 0, int(values.size()) + 2})
-            jpeg.push_back(static_cast<unsigned char>(v));
-        for (const int v : values) jpeg.push_back(static_cast<unsigned char>(v));
-    };
-    segment(0xdb, {0});
+    ljus_test::add_jpeg_segment(jpeg, 0xdb, {0});
     jpeg[5] = 67; // 64 more, the units
     jpeg.insert(jpeg.end(), 64, 1);
-    segment(0xc0, {8, 0, 8, 0, 8, 1, 1, 0x11, 0}); // 8 x 8 pixels of one channel
-    segment(0xc4, {0x00, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 7});
-    segment(0xc4, {0x10, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 15});
-    segment(0xda, {1, 1, 0, 0, 63, 0});
+    ljus_test::add_jpeg_segment(
+        jpeg, 0xc0, {8, 0, 8, 0, 8, 1, 1, 0x11, 0}); // 8 x 8 pixels of one channel
+    ljus_test::add_jpeg_segment(
+        jpeg, 0xc4, {0x00, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 7});
+    ljus_test::add_jpeg_segment(
+        jpeg, 0xc4, {0x10, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 15});
+    ljus_test::add_jpeg_segment(jpeg, 0xda, {1, 1, 0, 0, 63, 0});
     jpeg.insert(jpeg.end(), {0, 0, 0, 0, 0xff, 0xd9});
     save_file(file("png", "short.jpg"), jpeg);
 

@@ -126,7 +126,8 @@ inline const char* jpeg_trouble(const Bytes& file) {
         if (kind == scan && !finds_tables(file, at + 2, in_parts, there))
             return "a scan uses a table that is not there";
         if (kind == scan && too_many_scans(++scans, in_parts))
-            return "it has more scans than it can need";
+            return in_parts ? "it has more than 64 scans"
+                            : "it has more than 4 scans, and is not progressive";
         at += 2 + std::size_t(file[at + 2]) * 256 + file[at + 3];
         if (kind == scan) at = behind_pixels(file, at);
     }

@@ -1,0 +1,22 @@
+#pragma once
+
+/// \file support/jpeg_segment.hpp
+/// \brief JPEG files that no program writes, segment by segment.
+
+#include <initializer_list>
+#include <vector>
+
+namespace ljus_test {
+
+/// Adds a segment to a JPEG file.
+/// \param file    Its bytes.
+/// \param kind    The byte behind 0xff: 0xdb for units, 0xc4 for codes, ...
+/// \param values  What follows the length, a byte each.
+inline void add_jpeg_segment(std::vector<unsigned char>& file, int kind,
+                             std::initializer_list<int> values) {
+    for (const int v : {0xff, kind, 0, static_cast<int>(values.size()) + 2})
+        file.push_back(static_cast<unsigned char>(v));
+    for (const int v : values) file.push_back(static_cast<unsigned char>(v));
+}
+
+} // namespace ljus_test
