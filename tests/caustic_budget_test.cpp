@@ -1,8 +1,8 @@
 /// \file caustic_budget_test.cpp
 /// \brief Photons shared out among mirrors and glass: closed forms, and no bias.
 ///
-/// Statistical checks state how often they would fail by chance, were the seeds new. They
-/// were run with 20 further seeds (`./scripts/test --seeds 20`): none failed.
+/// Statistical checks state how often they would fail by chance, were the seeds new.
+/// They were run with 20 further seeds (`./scripts/test --seeds 20`): none failed.
 
 #include <doctest/doctest.h>
 
