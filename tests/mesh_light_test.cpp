@@ -10,6 +10,7 @@
 #include "ljus/render/render.hpp"
 #include "ljus/scenes/mesh_formulas.hpp"
 #include "support/mesh_rooms.hpp"
+#include "support/seed.hpp"
 
 using namespace ljus;
 using namespace ljus_test;
@@ -55,7 +56,11 @@ const Camera camera =
     look_at({.position{0, 0.2f, 0.97f}, .target{0, -0.3f, 0}, .vfov_degrees = 75});
 
 RenderSettings picture(std::uint64_t seed) {
-    return {.width = size, .height = size, .samples = 4, .seed = seed, .threads = 1};
+    return {.width = size,
+            .height = size,
+            .samples = 4,
+            .seed = ljus_test::test_seed(seed),
+            .threads = 1};
 }
 
 /// The mean of a picture, and those of its 36 blocks.
@@ -88,7 +93,8 @@ Blocks mapped(const MeshRoom& room, std::uint64_t first, int count) {
     for (int i = 0; i < count; ++i) {
         const std::uint64_t seed = first + static_cast<std::uint64_t>(i);
         PhotonMappingSettings settings;
-        settings.caustics = {.photons = 20000, .seed = seed, .threads = 1};
+        settings.caustics = {
+            .photons = 20000, .seed = ljus_test::test_seed(seed), .threads = 1};
         settings.caustics_estimate = {.radius = 0.03f};
         const auto maps = make_photon_maps(room, settings);
         blocks.add(
@@ -101,10 +107,12 @@ Blocks mapped(const MeshRoom& room, std::uint64_t first, int count) {
 } // namespace
 
 // 4 rooms of 36 blocks, each compared twice: of 288 distances chance puts 2 beyond 3
-// standard errors (Student's t, 30 to 45 degrees of freedom) and one beyond 5 in one
-// run of 300. SHOW in the environment prints them.
+// standard errors (Student's t, 30 to 45 degrees of freedom), more than 9 in one run of
+// 20 000, and one beyond 6 in one run of 2500; one of the eight means lies beyond 5 in
+// one run of 6000. Run with 20 further seeds: none failed. SHOW in the environment
+// prints them.
 TEST_CASE("mesh: a ball of 20480 smooth triangles is a sphere, in both renderers") {
-    int beyond3 = 0, beyond5 = 0;
+    int beyond3 = 0, beyond6 = 0;
     std::uint64_t first = 100;
     for (const bool furnace : {true, false})
         for (const bool glass : {false, true}) {
@@ -126,17 +134,21 @@ TEST_CASE("mesh: a ball of 20480 smooth triangles is a sphere, in both renderers
                             100 * sphere_off,
                             100 * std::hypot(a.all.error(), c.all.error()) /
                                 a.all.mean);
-            CHECK(std::abs(map_off) < 0.01);
-            CHECK(std::abs(sphere_off) < 0.01);
+            for (const Blocks* other : {&b, &c}) {
+                CHECK(std::abs(apart(a.all, other->all)) < 5);
+                // Or the check above could not fail.
+                CHECK(std::hypot(a.all.error(), other->all.error()) <
+                      0.007 * a.all.mean);
+            }
             if (furnace) CHECK(a.all.mean == doctest::Approx(1).epsilon(0.005));
             for (std::size_t i = 0; i < a.parts.size(); ++i)
                 for (const Blocks* other : {&b, &c}) {
                     const double off = std::abs(apart(a.parts[i], other->parts[i]));
                     beyond3 += off < 3 ? 0 : 1;
-                    beyond5 += off < 5 ? 0 : 1;
+                    beyond6 += off < 6 ? 0 : 1;
                 }
         }
-    if (std::getenv("SHOW")) std::printf("beyond 3: %d, 5: %d\n", beyond3, beyond5);
-    CHECK(beyond3 <= 6);
-    CHECK(beyond5 == 0);
+    if (std::getenv("SHOW")) std::printf("beyond 3: %d, 6: %d\n", beyond3, beyond6);
+    CHECK(beyond3 <= 9);
+    CHECK(beyond6 == 0);
 }

@@ -12,6 +12,7 @@
 #include <ljus/scenes/cornell_box.hpp>
 
 #include "common/plain_photon_mapper.hpp"
+#include "support/seed.hpp"
 
 using namespace ljus;
 
@@ -34,7 +35,8 @@ Parts measure(const Renderer& renderer, const Camera& camera, int first_seed) {
                                    {.width = side,
                                     .height = side,
                                     .samples = 100,
-                                    .seed = static_cast<std::uint64_t>(first_seed + i)})
+                                    .seed = ljus_test::test_seed(
+                                        static_cast<std::uint64_t>(first_seed + i))})
                                 .image;
         for (int part = 0; part < 9; ++part) {
             double sum = 0;
@@ -58,10 +60,12 @@ Parts measure(const Renderer& renderer, const Camera& camera, int first_seed) {
 } // namespace
 
 // Nine differences of two means of 24: beyond 5 standard errors (Student's t with 46
-// degrees of freedom) with a chance of 9 * 9e-6, once in 12 000 seeds.
+// degrees of freedom) with a chance of 9 * 9e-6, once in 12 000 seeds. Run with 20
+// further ones: none failed.
 TEST_CASE("the plain photon mapper has the mean of the library's") {
     const auto room = cornell_box();
-    const auto maps = make_photon_maps(room.scene, {.caustics{.photons = 20'000}});
+    const auto maps = make_photon_maps(
+        room.scene, {.caustics{.photons = 20'000, .seed = ljus_test::test_seed(1)}});
     const DensityEstimateSettings how{.radius = 0.1f};
     using Room = std::remove_cvref_t<decltype(room.scene)>;
     const examples::PlainPhotonMapper<Room> mapper{detail::IndexedT<Room>(room.scene),

@@ -2,7 +2,8 @@
 /// \brief The random streams: fixed for ever, uniform, and without relations.
 ///
 /// Statistical tests have a false-alarm rate of one in a million each, and are the same
-/// at every run: what passes once passes always.
+/// at every run: what passes once passes always. Run with 20 further seeds: none
+/// failed.
 
 #include "ljus/math/random.hpp"
 
@@ -14,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "support/seed.hpp"
 #include "support/statistics.hpp"
 
 using namespace ljus;
@@ -164,10 +166,10 @@ TEST_CASE("random: it can be had at compile time") {
 TEST_CASE_TEMPLATE("random: uniform, along a path and over the paths", T, float,
                    double) {
     std::vector<int> along(1000), over(1000), far(1000);
-    RandomStream path = random_stream(1, Pass::camera, 0, 0);
+    RandomStream path = random_stream(ljus_test::test_seed(1), Pass::camera, 0, 0);
     for (std::uint64_t i = 0; i < 1000000; ++i) {
         ++along[static_cast<std::size_t>(next_1d<T>(path) * T(1000))];
-        RandomStream other = random_stream(1, Pass::camera, 0, i);
+        RandomStream other = random_stream(ljus_test::test_seed(1), Pass::camera, 0, i);
         ++over[static_cast<std::size_t>(next_1d<T>(other) * T(1000))];
         start_bounce(other, 3);
         ++far[static_cast<std::size_t>(next_1d<T>(other) * T(1000))];
@@ -179,7 +181,8 @@ TEST_CASE_TEMPLATE("random: uniform, along a path and over the paths", T, float,
 TEST_CASE("random: the low bits of a number are as good as the high ones") {
     std::vector<int> low(256), low_double(4096);
     for (std::uint64_t i = 0; i < 1000000; ++i) {
-        RandomStream stream = random_stream(5, Pass::general_photons, 0, i);
+        RandomStream stream =
+            random_stream(ljus_test::test_seed(5), Pass::general_photons, 0, i);
         ++low[static_cast<std::size_t>(next_1d(stream) * 0x1p24f) % 256];
         ++low_double[static_cast<std::size_t>(next_1d<double>(stream) * 0x1p53) % 4096];
     }
@@ -189,7 +192,8 @@ TEST_CASE("random: the low bits of a number are as good as the high ones") {
 
 TEST_CASE("random: neighbours in any direction know nothing of each other") {
     struct Place {
-        std::uint64_t seed = 1, pass = 0, iteration = 0, path = 0, bounce = 0;
+        std::uint64_t seed = ljus_test::test_seed(1), pass = 0, iteration = 0, path = 0,
+                      bounce = 0;
         int dimension = 0;
         double number() const {
             RandomStream s =
@@ -203,7 +207,7 @@ TEST_CASE("random: neighbours in any direction know nothing of each other") {
     for (std::uint64_t i = 0; i < many; ++i) {
         const Place here{.path = i};
         const double x = here.number();
-        seeds.add(x, Place{.seed = 2, .path = i}.number());
+        seeds.add(x, Place{.seed = ljus_test::test_seed(2), .path = i}.number());
         passes.add(x, Place{.pass = 1, .path = i}.number());
         iterations.add(x, Place{.iteration = 1, .path = i}.number());
         paths.add(x, Place{.path = i + 1}.number());
@@ -225,7 +229,8 @@ TEST_CASE("random: neighbours in any direction know nothing of each other") {
     // The same along one axis only: seeds 0, 1, 2, ... and so on.
     Pairs seed_axis, iteration_axis, bounce_axis;
     for (std::uint64_t i = 0; i < many; ++i) {
-        seed_axis.add(Place{.seed = i}.number(), Place{.seed = i + 1}.number());
+        seed_axis.add(Place{.seed = ljus_test::test_seed(0) + i}.number(),
+                      Place{.seed = ljus_test::test_seed(0) + i + 1}.number());
         iteration_axis.add(Place{.iteration = i}.number(),
                            Place{.iteration = i + 1}.number());
         bounce_axis.add(Place{.bounce = i}.number(), Place{.bounce = i + 1}.number());

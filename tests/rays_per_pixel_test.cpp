@@ -1,5 +1,6 @@
 // What a ray buys, in a room with a matt ball. Slopes and ratios of variances: the
-// bands are stated with the standard error that several sets of seeds showed.
+// bands are stated with the standard error that several sets of seeds showed. Run with
+// 20 further ones: none failed.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -10,6 +11,7 @@
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"
 #include "support/rooms.hpp"
+#include "support/seed.hpp"
 
 using namespace ljus;
 
@@ -26,7 +28,7 @@ double variance_of(const Renderer& renderer, int rays, Sampling sampling) {
                               {.width = 24,
                                .height = 24,
                                .samples = rays,
-                               .seed = seed,
+                               .seed = ljus_test::test_seed(seed),
                                .threads = 1,
                                .sampling = sampling})
                            .image);
@@ -88,7 +90,7 @@ TEST_CASE("rays_per_pixel: rays do not take away the noise of photons") {
             for (const bool own : {false, true}) {
                 PhotonMappingSettings settings{.indirect = IndirectLight::photons};
                 settings.general.photons = 1000;
-                settings.general.seed = own ? seed : 1;
+                settings.general.seed = ljus_test::test_seed(own ? seed : 1);
                 settings.general.threads = 1;
                 const auto maps = make_photon_maps(room, settings);
                 (own ? own_maps : one_map)
@@ -97,7 +99,7 @@ TEST_CASE("rays_per_pixel: rays do not take away the noise of photons") {
                                       {.width = 16,
                                        .height = 16,
                                        .samples = rays,
-                                       .seed = seed,
+                                       .seed = ljus_test::test_seed(seed),
                                        .threads = 1})
                                    .image);
             }

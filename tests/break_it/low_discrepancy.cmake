@@ -22,8 +22,15 @@ ljus_break_it(NAME owen-direction HEADER math/low_discrepancy.hpp TEST low_discr
 
 # One scrambling for all dimensions: x and y move together.
 ljus_break_it(NAME owen-seed HEADER math/low_discrepancy.hpp TEST low_discrepancy
-    FROM "const std::uint64_t key = mix_bits(seed);"
-    TO   "const std::uint64_t key = mix_bits(seed & ~std::uint64_t(1));"
+    FROM "stream.seed + d * odd);"
+    TO   "stream.seed + 0 * odd);"
+    CASES "low_discrepancy: one point is uniform*")
+
+# The scramblings of neighbouring dimensions know of each other: some cells of a square
+# are taken half as often again as others.
+ljus_break_it(NAME owen-seeds-near HEADER math/low_discrepancy.hpp TEST low_discrepancy
+    FROM "stream.seed + d * odd);"
+    TO   "stream.seed + d + 0 * odd);"
     CASES "low_discrepancy: one point is uniform*")
 
 # A stream without points that begins with points.

@@ -19,7 +19,7 @@ ljus_break_it(NAME pattern-broken-row HEADER math/sampling_pattern.hpp
     TO   "points / columns"
     CASES "sampling_pattern: multi-jittered with any*")
 
-# The second dimension of a pixel is the first of its neighbour.
+# The scramblings of neighbouring pixels know of each other.
 ljus_break_it(NAME pattern-sobol-key HEADER math/sampling_pattern.hpp
     TEST sampling_pattern
     FROM ".seed = mix_bits(key)"

@@ -101,7 +101,8 @@ inline constexpr SobolTable sobol_table = make_sobol_table();
 /// A product and a sum carry upwards only: on the reversed bits, each result depends on
 /// the bits above it in the original.
 /// \param bits  A coordinate of sobol().
-/// \param seed  Another one for each dimension.
+/// \param seed  Another one for each dimension; seeds that differ in their last bits
+///              alone give dimensions that know of each other.
 /// \return The scrambled coordinate times 2^32.
 /// \cite owen1995 \cite burley2020
 // [owen]
@@ -175,8 +176,9 @@ template <std::floating_point T = float>
     const std::uint32_t d = stream.dimension;
     if (d >= detail::sobol_dimensions) return next_1d<T>(stream.rest);
     ++stream.dimension;
+    constexpr std::uint64_t odd = 0x9e3779b97f4a7c15u; // seeds side by side are alike
     const std::uint32_t bits =
-        detail::owen_scrambled(detail::sobol(stream.index, d), stream.seed + d);
+        detail::owen_scrambled(detail::sobol(stream.index, d), stream.seed + d * odd);
     if constexpr (sizeof(T) == 4)
         return static_cast<T>(bits >> 8) * T(0x1p-24);
     else
