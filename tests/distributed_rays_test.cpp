@@ -20,6 +20,7 @@
 #include "ljus/scene/lens_camera.hpp"
 #include "ljus/scene/make_scene.hpp"
 #include "support/mean.hpp"
+#include "support/seed.hpp"
 
 using namespace ljus;
 using ljus_test::apart;
@@ -65,7 +66,7 @@ double mean_of_rays(const Tracer& tracer, const RayT<T>& ray, int rays,
     double sum = 0;
     for (int i = 0; i < rays; ++i) {
         StratifiedStream stream;
-        start_ray(stream, 3, pixel, i, pattern);
+        start_ray(stream, ljus_test::test_seed(3), pixel, i, pattern);
         sum += double(radiance(tracer, ray, stream, counts).x);
     }
     return sum / rays;
@@ -165,7 +166,8 @@ TEST_CASE("distributed rays: the visible part of a square lamp behind an edge is
         double open = 0;
         for (int i = 0; i < rays; ++i) {
             StratifiedStream stream;
-            start_ray(stream, 1, 5, i, make_pattern(Sampling::jittered, rays));
+            start_ray(stream, ljus_test::test_seed(1), 5, i,
+                      make_pattern(Sampling::jittered, rays));
             const auto to = sample_area(lamp, next_2d<double>(stream));
             open += visibility(index, from, to).x / rays;
         }
@@ -326,7 +328,8 @@ TEST_CASE("distributed rays: at each time the scene is that of shapes moved by h
         Scene<Shapes<Moving<Sphere>, Moving<Quad>, Triangle>, Materials<Lambertian>>;
     const Lambertian white{.albedo = Rgb{1}};
     for (const int count : {1, 9}) { // a flat loop, and a tree
-        auto numbers = random_stream(8, Pass::user, 0, std::uint64_t(count));
+        auto numbers =
+            random_stream(ljus_test::test_seed(8), Pass::user, 0, std::uint64_t(count));
         const auto somewhere = [&](float size) {
             return size * (next_3d(numbers) - Vec3{0.5f});
         };
@@ -475,7 +478,8 @@ TEST_CASE("distributed rays: the log adds up, ray by ray, in colours") {
     const auto tracer = make_distributed(room, {.max_depth = 3});
     int in_the_mirror = 0;
     for (int i = 0; i < 100; ++i) {
-        auto random = random_stream(7, Pass::user, 0, std::uint64_t(i));
+        auto random =
+            random_stream(ljus_test::test_seed(7), Pass::user, 0, std::uint64_t(i));
         const auto way = D3(next_3d<double>(random)) * 2.0 - D3{1, 1, 2};
         PathLog log;
         Counts counts;
