@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -344,5 +345,34 @@ TEST_CASE("hdr: a row too narrow or too wide for the coding is read as it stands
                   ljus::Rgb{3 / 128.0f, 5 / 128.0f, 7 / 128.0f});
         const float unit = std::ldexp(1.0f, width % 256 - 136);
         CHECK(image.pixels[0].x == (width % 256 == 0 ? 0.0f : 2 * unit));
+    }
+}
+
+TEST_CASE("hdr: a coded row may have any width from 8 to 32 767") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("a.hdr");
+    for (const int width : {8, 127, 128, 129, 511, 512, 2048, 32767}) {
+        // 128 different bytes, the most of a run, then equal ones, 127 at the most.
+        std::string row{2, 2, char(width / 256), char(width % 256)};
+        for (const int part : {0, 1, 2, 3}) {
+            const int different = std::min(width, 128);
+            row += char(different);
+            for (int x = 0; x < different; ++x) row += char(part == 3 ? 136 : x);
+            for (int left = width - different; left > 0; left -= 127)
+                row += {char(128 + std::min(left, 127)), char(part == 3 ? 136 : part)};
+        }
+        ScratchFolder::write(path, "#?RADIANCE\n\n-Y 1 +X " + std::to_string(width) +
+                                       "\n" + row);
+        CAPTURE(width);
+        REQUIRE(message_of_load(path) == "loaded");
+        const ljus::Image image = ljus::load_hdr(path);
+        REQUIRE(image.width == width);
+        bool right = true;
+        for (int x = 0; x < width; ++x) {
+            const auto byte = [&](int part) { return float(x < 128 ? x : part); };
+            right = right && image.pixels[std::size_t(x)] ==
+                                 ljus::Rgb{byte(0), byte(1), byte(2)};
+        }
+        CHECK(right);
     }
 }

@@ -15,3 +15,9 @@ ljus_break_it(NAME hdr-empty-run HEADER io/hdr.hpp TEST hdr
     FROM "count == 0 || count > row.size() - x"
     TO   "count > row.size() - x"
     CASES "hdr: what is wrong with a header*")
+
+# Of a wide coded row the width's upper byte is taken for a colour's.
+ljus_break_it(NAME hdr-wide-row HEADER io/hdr.hpp TEST hdr
+    FROM "first[2] < 128)"
+    TO   "first[2] < 2)"
+    CASES "hdr: a coded row may have*")
