@@ -71,7 +71,7 @@ typed 0 '\exercise{Find it. (Check: 0.123.)}'
 printf 'what,a\nx,3\n' >1.csv
 printf 'what,a\nx,10\n' >2.csv
 printf 'what,a\nx,9\n' >3.csv
-perl "$numbers" --median 1.csv 2.csv 3.csv | grep -qx 'x,9' || wrong "the median is another"
+perl "$numbers" --median 1.csv 2.csv 3.csv >median.csv && grep -qx 'x,9' median.csv || wrong "the median is another"
 
 "$LJUS_ROOT/chapters/tools/check_numbers" "$LJUS_ROOT" || wrong "numbers of the book are typed"
 while read -r program _ names; do

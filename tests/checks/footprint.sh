@@ -10,7 +10,7 @@
 . "$(dirname "$0")/common.sh"
 programs=$LJUS_ROOT/tests/checks/footprint
 table=$LJUS_ROOT/chapters/measured/footprint.csv
-if "$LJUS_CXX" --version | grep -q clang; then
+if grep -q clang <<<"$("$LJUS_CXX" --version)"; then
     compiler="clang $("$LJUS_CXX" -dumpversion)"
 else
     compiler="g++ $("$LJUS_CXX" -dumpfullversion)"

@@ -20,8 +20,8 @@ short_error() {
         return
     fi
     lines=$(printf '%s\n' "$output" | wc -l)
-    if [ "$lines" -gt $longest ] || ! printf '%s\n' "$output" | grep -qE "$pattern" ||
-        ! printf '%s\n' "$output" | grep -q 'caller.cpp:6'; then
+    if [ "$lines" -gt $longest ] || ! grep -qE "$pattern" <<<"$output" ||
+        ! grep -q 'caller.cpp:6' <<<"$output"; then
         echo "$lines lines, at most $longest are short; '$pattern' must be there: $code"
         printf '%s\n' "$output"
         status=1
