@@ -1,5 +1,8 @@
 /// \file flatland_test.cpp
 /// \brief Flatland's physics against closed forms, quadratures and each other.
+///
+/// Its statistical cases were run with 20 further seeds (`./scripts/test --seeds 20`):
+/// none failed.
 
 #include "ljus/flatland/density_estimate.hpp"
 #include "ljus/flatland/path_tracing.hpp"

@@ -1,6 +1,9 @@
 /// \file monte_carlo_test.cpp
 /// \brief Means of random numbers against integrals that are known, and their errors
 /// against what theory says of them.
+///
+/// Its statistical cases were run with 20 further seeds (`./scripts/test --seeds 20`):
+/// none failed.
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,8 @@
 // Every light path has one owner: the tables of the two renderers, proven by the
 // letters of the paths that they log. Where energies are compared, 20 times, the limit
 // is one that all of them together exceed once in 1000 runs.
+// Its statistical cases were run with 20 further seeds (`./scripts/test --seeds 20`):
+// none failed.
 #include <doctest/doctest.h>
 
 #include <map>

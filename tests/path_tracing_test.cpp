@@ -1,6 +1,8 @@
 // Closed forms of the rendering equation, and the tracer against itself with parts of
 // it switched off. Of some 150 means it is asked how many standard errors they are off;
 // the limit is one that all of them together exceed once in 1000 runs.
+// Its statistical cases were run with 20 further seeds (`./scripts/test --seeds 20`):
+// none failed.
 #include <doctest/doctest.h>
 
 #include <initializer_list>

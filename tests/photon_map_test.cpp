@@ -3,6 +3,8 @@
 ///
 /// Standard errors come from independent maps, one a seed. A mean is accepted within
 /// 4.5 of them: each such check gives a false alarm once in 150 000 seeds.
+/// Its statistical cases were run with 20 further seeds (`./scripts/test --seeds 20`):
+/// none failed.
 
 #include "ljus/photons/detail/estimates_together.hpp"
 

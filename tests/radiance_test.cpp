@@ -1,6 +1,9 @@
 /// \file radiance_test.cpp
 /// \brief Flux, irradiance, radiance: the laws of chapter 2, counted with rays against
 /// closed forms.
+///
+/// Its statistical cases were run with 20 further seeds (`./scripts/test --seeds 20`):
+/// none failed.
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,8 @@
 // Which rays are needless: against verdicts counted one by one, the visible part of a
 // lamp in closed form, and the laws of chance. Where chance decides, the false-alarm
 // rate stands beside the check.
+// Its statistical cases were run with 20 further seeds (`./scripts/test --seeds 20`):
+// none failed.
 #include <doctest/doctest.h>
 
 #include <cmath>

@@ -1,5 +1,7 @@
 // Where the flux of the photons goes. The statistical checks, about 50, have a limit
 // that all of them together exceed once in 1000 runs.
+// Its statistical cases were run with 20 further seeds (`./scripts/test --seeds 20`):
+// none failed.
 #include <doctest/doctest.h>
 
 #include <cstdio>
