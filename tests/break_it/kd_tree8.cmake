@@ -1,35 +1,35 @@
 # Floats alone decide: near the border of the ball they decide wrongly.
-ljus_break_it(NAME wide-kd-tree-float HEADER accel/detail/kd_tree8_nodes.hpp TEST kd_tree8
+ljus_break_it(NAME wide-kd-tree-float HEADER accel/detail/kd_tree8_walk.hpp TEST kd_tree8
     FROM "if (!holds(distance2(points[std::size_t(i)], center)))"
     TO   "if (false)"
     CASES "kd_tree8: every search*")
 
 # No margin for the five roundings of a float distance.
-ljus_break_it(NAME wide-kd-tree-margin HEADER accel/detail/kd_tree8_nodes.hpp TEST kd_tree8
+ljus_break_it(NAME wide-kd-tree-margin HEADER accel/detail/kd_tree8_walk.hpp TEST kd_tree8
     FROM "constexpr double margin = 8 * double(Numbers::epsilon());"
     TO   "constexpr double margin = 0;"
     CASES "kd_tree8: the ball is closed*")
 
 # The smallest floats taken at their word.
-ljus_break_it(NAME wide-kd-tree-tiny HEADER accel/detail/kd_tree8_nodes.hpp TEST kd_tree8
+ljus_break_it(NAME wide-kd-tree-tiny HEADER accel/detail/kd_tree8_walk.hpp TEST kd_tree8
     FROM "constexpr double tiny = 4 * double(Numbers::min());"
     TO   "constexpr double tiny = 0;"
     CASES "kd_tree8: the smallest*")
 
 # An open ball.
-ljus_break_it(NAME wide-kd-tree-border HEADER accel/detail/kd_tree8_nodes.hpp TEST kd_tree8
+ljus_break_it(NAME wide-kd-tree-border HEADER accel/detail/kd_tree8_walk.hpp TEST kd_tree8
     FROM "return open ? d2 < limit2 : d2 <= limit2;"
     TO   "return d2 < limit2;"
     CASES "kd_tree8: the ball is closed*")
 
 # Below a box, its far side is asked in place of the near one.
-ljus_break_it(NAME wide-kd-tree-side HEADER accel/detail/kd_tree8_nodes.hpp TEST kd_tree8
+ljus_break_it(NAME wide-kd-tree-side HEADER accel/detail/kd_tree8_walk.hpp TEST kd_tree8
     FROM "x < low ? low : x"
     TO   "x < low ? high : x"
     CASES "kd_tree8: every search*")
 
 # Of the ones that are hard to tell apart, all: the k-th is then too far.
-ljus_break_it(NAME wide-kd-tree-kth HEADER accel/detail/kd_tree8_search.hpp TEST kd_tree8
+ljus_break_it(NAME wide-kd-tree-kth HEADER accel/detail/kd_tree8_results.hpp TEST kd_tree8
     FROM "static_cast<std::uint32_t>(k - sure - 1)"
     TO   "static_cast<std::uint32_t>(ties - 1)"
     CASES "kd_tree8: every search*")
@@ -53,15 +53,15 @@ ljus_break_it(NAME wide-kd-tree-select HEADER accel/detail/lane_select.hpp TEST 
     CASES "lane_select: what sorting*")
 
 # The children that were left open are forgotten.
-ljus_break_it(NAME wide-kd-tree-open HEADER accel/detail/kd_tree8_traverse.hpp TEST kd_tree8
-    FROM "if (open[size].children != 0) ++size;"
-    TO   ""
+ljus_break_it(NAME wide-kd-tree-open HEADER accel/detail/kd_tree8_walk.hpp TEST kd_tree8
+    FROM "left = open[level].left;"
+    TO   "left = 0;"
     CASES "kd_tree8: every search*")
 
 # Another child is crossed off than the one that was looked at.
-ljus_break_it(NAME wide-kd-tree-left HEADER accel/detail/kd_tree8_traverse.hpp TEST kd_tree8
-    FROM "at.left &= ~(1u << i);"
-    TO   "at.left &= at.left - 1;"
+ljus_break_it(NAME wide-kd-tree-left HEADER accel/detail/kd_tree8_walk.hpp TEST kd_tree8
+    FROM "Results::nearest_first ? ~(1u << i) : left - 1;"
+    TO   "left - 1;"
     CASES "kd_tree8: every search*")
 
 # More are let through than may be spared.
@@ -71,25 +71,25 @@ ljus_break_it(NAME wide-kd-tree-spare HEADER accel/detail/lane_select.hpp TEST l
     CASES "lane_select: what sorting*")
 
 # The farthest of those that were let through is left out.
-ljus_break_it(NAME wide-kd-tree-thin HEADER accel/detail/kd_tree8_search.hpp TEST kd_tree8
+ljus_break_it(NAME wide-kd-tree-thin HEADER accel/detail/kd_tree8_results.hpp TEST kd_tree8
     FROM "kept += x <= bound;"
     TO   "kept += x < least;"
     CASES "kd_tree8: every search*")
 
 # Many balls at once: the blocks of those that were searched before.
-ljus_break_it(NAME wide-kd-tree-balls HEADER accel/detail/kd_tree8_traverse.hpp TEST kd_tree8
+ljus_break_it(NAME wide-kd-tree-balls HEADER accel/detail/kd_tree8_walk.hpp TEST kd_tree8
     FROM "found.blocks.clear();"
     TO   "(void)0;"
     CASES "kd_tree8: many balls*")
 
 # Many balls at once: the root is asked again in place of its children.
-ljus_break_it(NAME wide-kd-tree-levels HEADER accel/detail/kd_tree8_traverse.hpp TEST kd_tree8
+ljus_break_it(NAME wide-kd-tree-levels HEADER accel/detail/kd_tree8_walk.hpp TEST kd_tree8
     FROM "std::swap(found.here, found.below);"
     TO   "(void)0;"
     CASES "kd_tree8: many balls*")
 
-# Many balls at once: a radius that is none finds points.
-ljus_break_it(NAME wide-kd-tree-no-radius HEADER accel/detail/kd_tree8_traverse.hpp TEST kd_tree8
-    FROM "if (!(radius >= T(0))) return;"
+# A radius that is none finds points, of one ball and of many at once.
+ljus_break_it(NAME wide-kd-tree-no-radius HEADER accel/detail/kd_tree8_walk.hpp TEST kd_tree8
+    FROM "if (!(radius >= T(0))) return {};"
     TO   "(void)0;"
-    CASES "kd_tree8: many balls*")
+    CASES "kd_tree8: a ball without*")

@@ -97,11 +97,11 @@ ljus_break_it(NAME together-center HEADER photons/detail/estimates_together.hpp
     FROM "{ return places[i].center; }"
     TO   "{ return places[0 * i].center; }"
     CASES "photon_map: estimates that are*")
-ljus_break_it(NAME together-block HEADER accel/detail/kd_tree8_traverse.hpp TEST photon_map
+ljus_break_it(NAME together-block HEADER accel/detail/kd_tree8_walk.hpp TEST photon_map
     FROM "some != 0; ++block, some >>= 8)"
     TO   "some != 0; ++block, some = 0)"
     CASES "photon_map: estimates that are*")
-ljus_break_it(NAME together-room HEADER accel/detail/kd_tree8_traverse.hpp TEST photon_map
+ljus_break_it(NAME together-room HEADER accel/detail/kd_tree8_walk.hpp TEST photon_map
     FROM "found.blocks.clear();"
     TO   ""
     CASES "photon_map: estimates that are*")

@@ -85,15 +85,6 @@ double distance2(const Vec3T<T>& a, const Vec3T<T>& b) {
 #endif
 }
 
-/// The i-th point of a tree.
-template <typename Tree>
-auto point_of(const Tree& tree, std::size_t i) {
-    if constexpr (requires { tree.points(); })
-        return tree.points()[i];
-    else
-        return tree.point(i);
-}
-
 /// All points of a closed ball, nearest first, by asking each.
 template <typename Tree, typename T, typename Wanted>
 std::vector<Neighbor> brute_force(const Tree& tree, const Vec3T<T>& center, T radius,
@@ -101,7 +92,7 @@ std::vector<Neighbor> brute_force(const Tree& tree, const Vec3T<T>& center, T ra
     std::vector<Neighbor> found;
     for (std::size_t i = 0; i < tree.size(); ++i) {
         const auto index = static_cast<std::uint32_t>(i);
-        const double d2 = distance2(point_of(tree, i), center);
+        const double d2 = distance2(tree.point(i), center);
         if (d2 <= double(radius) * double(radius) && wanted(index))
             found.push_back({d2, index});
     }
@@ -160,13 +151,13 @@ void compare_with_brute_force(const PointSet<T>& set, Draws& numbers) {
             });
             std::sort(visited.begin(), visited.end());
             REQUIRE(visited == expected);
-            REQUIRE(tree.any_within(center, radius) == !expected.empty());
-            const auto one = tree.nearest(center, radius);
-            REQUIRE(one.has_value() == !expected.empty());
-            if (one) {
-                REQUIRE(one->distance2 == expected[0].distance2);
-                REQUIRE(std::binary_search(expected.begin(), expected.end(), *one));
-            }
+        }
+        REQUIRE(tree.any_within(center, radius) == !expected.empty());
+        const auto one = tree.nearest(center, radius);
+        REQUIRE(one.has_value() == !expected.empty());
+        if (one) {
+            REQUIRE(one->distance2 == expected[0].distance2);
+            REQUIRE(std::binary_search(expected.begin(), expected.end(), *one));
         }
 
         for (const std::size_t k :

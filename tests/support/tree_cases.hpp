@@ -156,7 +156,7 @@ void order_of_points() {
         std::sort(sorted.begin(), sorted.end());
         for (std::uint32_t i = 0; i < 1000; ++i) {
             REQUIRE(sorted[i] == i);
-            REQUIRE(point_of(tree, i) == set.points[tree.point_ids()[i]]);
+            REQUIRE(tree.point(i) == set.points[tree.point_ids()[i]]);
         }
     }
 }

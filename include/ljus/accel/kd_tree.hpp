@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "ljus/accel/neighbor.hpp"
@@ -21,9 +23,20 @@ namespace ljus {
 /// array is halved at the median of its longest side, down to leaves of a few points.
 /// Each range knows its box, so that a search far from all photons ends at once.
 ///
-/// The tree keeps the positions; what belongs to them is the caller's, put into the
-/// tree's order by point_ids(). Searches are const, take no memory, and may run on any
-/// number of threads.
+/// The tree keeps the positions only. What belongs to them is the caller's, who puts it
+/// into the tree's order: then a search reads memory that lies together.
+///
+///     std::vector<Vec3> positions;
+///     for (const MyPhoton& photon : photons) positions.push_back(photon.position);
+///     const KdTree tree{std::span<const Vec3>(positions)};
+///     std::vector<MyPhoton> sorted; // sorted[i] belongs to tree.point(i)
+///     for (const std::uint32_t id : tree.point_ids()) sorted.push_back(photons[id]);
+///     tree.visit_within(x, radius, [&](std::uint32_t i, double distance2) {
+///         flux += sorted[i].flux;
+///     });
+///
+/// Searches are const, take no memory, and may run on any number of threads. KdTree8T
+/// has the same ones: a program changes the type and nothing else.
 template <std::floating_point T>
 class KdTreeT {
 public:
@@ -56,11 +69,17 @@ public:
     [[nodiscard]] const std::vector<Vec3T<T>>& points() const noexcept {
         return points_;
     }
+    /// One point.
+    /// \param index  In the tree's order, below size().
+    [[nodiscard]] const Vec3T<T>& point(std::size_t index) const noexcept {
+        return points_[index];
+    }
     /// How many points there are.
     [[nodiscard]] std::size_t size() const noexcept { return points_.size(); }
 
-    /// The way that every search takes, and that a search of your own can take: of the
-    /// two halves of a range the nearer one first.
+    /// The walk that every search takes, and that a search of your own can take: of the
+    /// two halves of a range the nearer one first. What the search keeps is in its
+    /// arguments.
     /// \param center   Where the search is.
     /// \param offer    Called as offer(index, distance2) with each point on the way.
     /// \param reaches  Called as reaches(distance2) with the squared distance to a
@@ -88,6 +107,34 @@ public:
         walk(center, offer, [&](double distance2) { return distance2 <= limit2; });
     }
     // [within]
+
+    /// Whether any point lies within a closed ball.
+    /// \param center  Of the ball.
+    /// \param radius  As for visit_within().
+    [[nodiscard]] bool any_within(const Vec3T<T>& center, T radius) const {
+        if (!(radius >= T(0))) return false;
+        const double limit2 = double(radius) * double(radius);
+        bool found = false;
+        const auto offer = [&](std::uint32_t, double distance2) {
+            found = found || distance2 <= limit2;
+        };
+        walk(center, offer,
+             [&](double distance2) { return !found && distance2 <= limit2; });
+        return found;
+    }
+
+    /// The nearest point within a closed ball.
+    /// \param center  Of the ball.
+    /// \param radius  As for visit_within().
+    /// \return Of several that are equally far, any, but always the same one; nothing
+    ///         if the ball is empty.
+    [[nodiscard]] std::optional<Neighbor>
+    nearest(const Vec3T<T>& center,
+            T radius = std::numeric_limits<T>::infinity()) const {
+        Neighbor one;
+        if (nearest(center, radius, std::span(&one, 1)) == 0) return std::nullopt;
+        return one;
+    }
 
     /// The nearest points within a closed ball.
     /// \param center  Of the ball.

@@ -5,8 +5,7 @@
 
 #include <optional>
 
-#include "ljus/accel/detail/kd_tree8_build.hpp"
-#include "ljus/accel/detail/kd_tree8_search.hpp"
+#include "ljus/accel/detail/kd_tree8_results.hpp"
 
 namespace ljus {
 
@@ -36,9 +35,22 @@ struct FoundBlockT {
 /// that T cannot tell are formed once more in double, as everywhere: see
 /// detail::ReachT.
 ///
-/// The tree keeps the positions; what belongs to them is the caller's, put into the
-/// tree's order by point_ids(), eight to a block. Searches are const, take no memory,
-/// and may run on any number of threads.
+/// The tree keeps the positions only. What belongs to them is the caller's, who puts it
+/// into the tree's order: then a search reads memory that lies together.
+///
+///     std::vector<Vec3> positions;
+///     for (const MyPhoton& photon : photons) positions.push_back(photon.position);
+///     const KdTree8 tree{std::span<const Vec3>(positions)};
+///     std::vector<MyPhoton> sorted; // sorted[i] belongs to tree.point(i)
+///     for (const std::uint32_t id : tree.point_ids()) sorted.push_back(photons[id]);
+///     tree.visit_within(x, radius, [&](std::uint32_t i, double distance2) {
+///         flux += sorted[i].flux;
+///     });
+///
+/// It has the searches of KdTreeT, by the same names, and visit_blocks() for those who
+/// work on eight points at a time. All of them are one walk of the tree,
+/// detail::walk(), with what is to be kept as an argument. Searches are const, take no
+/// memory, and may run on any number of threads.
 template <std::floating_point T>
 class KdTree8T {
 public:
@@ -103,22 +115,18 @@ public:
     /// \param visit   Takes the block; the payload of its points has the same places.
     template <typename Visit>
     void visit_blocks(const Vec3T<T>& center, T radius, Visit&& visit) const {
-        const auto reach =
-            detail::ReachT<T>::up_to(double(radius) * double(radius), false);
-        detail::in_ball(parts_, center, radius, reach,
-                        [&](std::size_t first, std::size_t last) {
-                            std::uint32_t found =
-                                detail::in_leaf(parts_, first, last, center, reach);
-                            for (std::size_t b = first; found != 0; ++b, found >>= 8)
-                                if ((found & 255) != 0)
-                                    visit(detail::FoundBlockT<T>{
-                                        8 * b, found & 255, parts_.blocks[b],
-                                        detail::distances2(parts_.blocks[b], center)});
-                            return false;
-                        });
+        within(center, radius, [&](std::size_t first, std::uint32_t found) {
+            for (std::size_t b = first; found != 0; ++b, found >>= 8)
+                if ((found & 255) != 0)
+                    visit(detail::FoundBlockT<T>{
+                        8 * b, found & 255, parts_.blocks[b],
+                        detail::distances2(parts_.blocks[b], center)});
+            return false;
+        });
     }
-    /// What visit_blocks() visits, for many balls of one radius: see
-    /// detail::find_in_balls().
+
+    /// The blocks that visit_blocks() visits, for many balls of one radius together: the
+    /// one search that is another walk, see detail::find_in_balls().
     template <typename Center, typename Expect>
     void find_in_balls(std::size_t balls, Center center, T radius, Expect expect,
                        detail::BallBlocks& found) const {
@@ -130,31 +138,21 @@ public:
     /// \param visit   Takes the place in the tree's order and the squared distance.
     template <typename Visit>
     void visit_within(const Vec3T<T>& center, T radius, Visit&& visit) const {
-        const auto reach =
-            detail::ReachT<T>::up_to(double(radius) * double(radius), false);
-        detail::in_ball(
-            parts_, center, radius, reach, [&](std::size_t first, std::size_t last) {
-                for (std::uint32_t found =
-                         detail::in_leaf(parts_, first, last, center, reach);
-                     found != 0; found &= found - 1) {
-                    const std::size_t i =
-                        8 * first + static_cast<std::size_t>(std::countr_zero(found));
-                    visit(static_cast<std::uint32_t>(i), distance2(point(i), center));
-                }
-                return false;
-            });
+        within(center, radius, [&](std::size_t first, std::uint32_t found) {
+            for (; found != 0; found &= found - 1) {
+                const std::size_t i =
+                    8 * first + static_cast<std::size_t>(std::countr_zero(found));
+                visit(static_cast<std::uint32_t>(i), distance2(point(i), center));
+            }
+            return false;
+        });
     }
 
     /// Whether any point lies within a closed ball.
     /// \param center  Of the ball.
     /// \param radius  As for visit_blocks().
     [[nodiscard]] bool any_within(const Vec3T<T>& center, T radius) const {
-        const auto reach =
-            detail::ReachT<T>::up_to(double(radius) * double(radius), false);
-        return detail::in_ball(
-            parts_, center, radius, reach, [&](std::size_t first, std::size_t last) {
-                return detail::in_leaf(parts_, first, last, center, reach) != 0;
-            });
+        return within(center, radius, [](std::size_t, std::uint32_t) { return true; });
     }
 
     /// The nearest point within a closed ball.
@@ -165,7 +163,10 @@ public:
     [[nodiscard]] std::optional<Neighbor>
     nearest(const Vec3T<T>& center,
             T radius = std::numeric_limits<T>::infinity()) const {
-        return detail::nearest_point(parts_, center, radius);
+        if (parts_.blocks.empty()) return std::nullopt;
+        detail::NearestOneT<T> results{.reach = detail::ReachT<T>::ball(radius)};
+        detail::walk(parts_, center, results);
+        return results.best;
     }
 
     /// The k nearest points within a closed ball.
@@ -185,10 +186,36 @@ public:
     [[nodiscard]] std::size_t nearest(const Vec3T<T>& center, T radius,
                                       std::span<Neighbor> found,
                                       Wanted wanted = {}) const {
-        return detail::nearest_points<Most>(parts_, center, radius, found, wanted);
+        if (found.empty() || parts_.blocks.empty()) return 0;
+        if constexpr (std::is_same_v<Wanted, detail::AnyPoint>)
+            if (found.size() == 1) {
+                const auto one = nearest(center, radius);
+                if (one) found[0] = *one;
+                return one ? 1 : 0;
+            }
+        const auto reach = detail::ReachT<T>::ball(radius);
+        if constexpr (Most > detail::max_counted)
+            if (found.size() > detail::max_counted) {
+                detail::NearestHeapT<T, Wanted> results{
+                    .reach = reach,
+                    .wanted = wanted,
+                    .best = {.found = found, .limit2 = reach.limit2}};
+                detail::walk(parts_, center, results);
+                return results.best.count;
+            }
+        detail::NearestCountedT<T, Wanted> results(reach, wanted, found.size());
+        detail::walk(parts_, center, results);
+        return results.give(parts_, center, found);
     }
 
 private:
+    template <typename Visit>
+    bool within(const Vec3T<T>& center, T radius, Visit visit) const {
+        detail::WithinT<T, Visit> results{.reach = detail::ReachT<T>::ball(radius),
+                                          .visit = visit};
+        return detail::walk(parts_, center, results);
+    }
+
     detail::KdTree8PartsT<T> parts_;
     std::vector<std::uint32_t> point_ids_;
 };

@@ -1,16 +1,20 @@
 #pragma once
 
 /// \file ljus/accel/detail/kd_tree8_build.hpp
-/// \brief How the wide k-d tree is built: its shape, and the splitting of ranges.
+/// \brief What the wide k-d tree is made of, where each node lies, and how ranges of
+/// points are split.
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstring>
+#include <limits>
 #include <span>
 #include <vector>
 
-#include "ljus/accel/detail/kd_tree8_nodes.hpp"
 #include "ljus/accel/detail/lane_select.hpp"
+#include "ljus/accel/neighbor.hpp"
+#include "ljus/math/lanes.hpp"
 #include "ljus/math/require.hpp"
 #include "ljus/parallel.hpp"
 
@@ -18,6 +22,65 @@ namespace ljus::detail {
 
 /// \addtogroup kd_tree8
 /// \{
+
+/// Eight boxes side by side: the children of a node.
+template <std::floating_point T>
+struct KdTree8NodeT {
+    Lanes3T<T> low;  ///< Corners with the smallest coordinates.
+    Lanes3T<T> high; ///< Opposite corners.
+};
+
+/// Where everything lies in a wide tree: a matter of arithmetic, without a pointer.
+///
+/// The points stand in blocks of eight, the blocks in leaves of `leaf_blocks` at most,
+/// and the leaves, a power of two of them, share the blocks evenly. Three halvings make
+/// one level of nodes with eight children; at the root there may be fewer.
+struct KdTree8Shape {
+    static constexpr int leaf_blocks = 4; ///< The most blocks of a leaf: 32 points.
+
+    std::uint64_t points = 0; ///< How many.
+    std::uint64_t blocks = 0; ///< How many blocks hold them.
+    int halvings = 0;         ///< From all points to a leaf.
+    int levels = 0;           ///< Of nodes.
+    std::array<std::uint32_t, 12>
+        first{}; ///< The first node of each level, and the end.
+
+    /// The shape for so many points.
+    [[nodiscard]] static constexpr KdTree8Shape of(std::uint64_t points) noexcept {
+        KdTree8Shape shape{.points = points, .blocks = (points + 7) / 8};
+        while ((std::uint64_t(leaf_blocks) << shape.halvings) < shape.blocks)
+            ++shape.halvings;
+        shape.levels = (shape.halvings + 2) / 3;
+        for (int level = 0; level < shape.levels; ++level)
+            shape.first[std::size_t(level + 1)] =
+                shape.first[std::size_t(level)] +
+                (level == 0 ? 1u : 1u << (shape.halvings - 3 * (shape.levels - level)));
+        return shape;
+    }
+    /// How many children the root has.
+    [[nodiscard]] constexpr std::uint32_t root_children() const noexcept {
+        return 1u << (halvings - 3 * (levels - 1));
+    }
+    /// The first block of range number `number` after so many halvings; the last one
+    /// ends where the next range begins.
+    [[nodiscard]] constexpr std::uint64_t first_block(int depth,
+                                                      std::uint64_t number) const {
+        return ((number << (halvings - depth)) * blocks) >> halvings;
+    }
+};
+
+/// A wide tree as its searches see it.
+template <std::floating_point T>
+struct KdTree8PartsT {
+    KdTree8Shape shape{};                 ///< Where everything lies.
+    std::vector<KdTree8NodeT<T>> nodes{}; ///< Level by level.
+    std::vector<Lanes3T<T>> blocks{};     ///< The points, eight by eight.
+
+    /// One point.
+    [[nodiscard]] Vec3T<T> point(std::size_t index) const noexcept {
+        return blocks[index / 8][index % 8];
+    }
+};
 
 // Builds the nodes, the blocks and the order of a tree.
 template <std::floating_point T>

@@ -1,13 +1,17 @@
 #pragma once
 
-/// \file ljus/accel/detail/kd_tree8_search.hpp
-/// \brief The nearest points of the wide k-d tree.
+/// \file ljus/accel/detail/kd_tree8_results.hpp
+/// \brief What the searches of the wide k-d tree keep of the leaves on their walk.
 
 #include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 
-#include "ljus/accel/detail/kd_tree8_traverse.hpp"
+#include "ljus/accel/detail/kd_tree8_walk.hpp"
 #include "ljus/accel/detail/lane_select.hpp"
 
 namespace ljus::detail {
@@ -15,13 +19,33 @@ namespace ljus::detail {
 /// \addtogroup kd_tree8
 /// \{
 
+/// All points within reach, leaf by leaf: what `visit` makes of them is its own matter.
+/// \tparam Visit  Called as visit(first block, which points: a bit each); true ends the
+///                search.
+template <std::floating_point T, typename Visit>
+struct WithinT {
+    static constexpr bool nearest_first = false;
+    ReachT<T> reach; ///< How far.
+    Visit visit;     ///< Called for each leaf that has points within reach.
+
+    /// Takes a leaf.
+    bool leaf(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, std::size_t first,
+              std::size_t last) {
+        const std::uint32_t found = in_leaf(tree, first, last, center, reach);
+        return found != 0 && visit(first, found);
+    }
+};
+
+/// The nearest point.
 template <std::floating_point T>
-[[nodiscard]] std::optional<Neighbor> nearest_point(const KdTree8PartsT<T>& tree,
-                                                    const Vec3T<T>& center, T radius) {
-    if (!(radius >= T(0)) || tree.blocks.empty()) return std::nullopt;
-    auto reach = ReachT<T>::up_to(double(radius) * double(radius), false);
-    std::optional<Neighbor> best;
-    towards(tree, center, reach, [&](std::size_t first, std::size_t last) {
+struct NearestOneT {
+    static constexpr bool nearest_first = true;
+    ReachT<T> reach;                ///< Less than to the nearest so far.
+    std::optional<Neighbor> best{}; ///< The nearest so far.
+
+    /// Takes a leaf.
+    bool leaf(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, std::size_t first,
+              std::size_t last) {
         // The smallest distance in T, but for its last bits; only what is as small may
         // be the nearest.
         LanesT<T> least = distances2(tree.blocks[first], center);
@@ -32,7 +56,7 @@ template <std::floating_point T>
             });
         }
         const std::uint32_t smallest = smallest_lane(least, 255, reach.last);
-        if (smallest == 8) return;
+        if (smallest == 8) return false;
         const T bound = std::min(
             ReachT<T>::up_to(double(least.lane[smallest]), false).last, reach.last);
         constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -46,9 +70,9 @@ template <std::floating_point T>
             best = Neighbor{exact, static_cast<std::uint32_t>(i)};
             reach = ReachT<T>::up_to(exact, true);
         }
-    });
-    return best;
-}
+        return false;
+    }
+};
 
 // The most that are selected by counting; more go through a heap.
 inline constexpr std::size_t max_counted = 512;
@@ -124,61 +148,82 @@ void keep_nearest(CandidatesT<T>& all, std::size_t count, std::size_t k,
     reach = ReachT<T>::up_to(limit2, true);
 }
 
-// Gathers candidates and now and then, when there are more than enough, finds by
-// counting how far the k-th of them lies: the reach from then on.
+/// The k nearest, up to max_counted of them: gathers candidates and now and then, when
+/// there are more than enough, finds by counting how far the k-th of them lies: the
+/// reach from then on.
 template <std::floating_point T, typename Wanted>
-[[nodiscard]] std::size_t count_nearest(const KdTree8PartsT<T>& tree,
-                                        const Vec3T<T>& center, ReachT<T> reach,
-                                        std::span<Neighbor> found, Wanted& wanted) {
-    CandidatesT<T> all;
-    const std::size_t k = found.size();
-    const std::size_t spare = k / 8; // on the way a few too many will do
-    std::size_t count = 0;
-    const auto shrink = [&] {
-        keep_nearest(all, count, k, tree, center, reach);
-        count = k;
-    };
+struct NearestCountedT {
+    static constexpr bool nearest_first = true;
+    ReachT<T> reach;        ///< About as far as the k-th so far.
+    Wanted& wanted;         ///< Whether a point counts.
+    const std::size_t k;    ///< How many are wanted.
+    std::size_t enough = k; ///< With as many candidates the reach is shortened.
+    std::size_t count = 0;  ///< Candidates so far.
+    CandidatesT<T> all;     ///< They.
 
-    std::size_t enough = k;
-    towards(tree, center, reach, [&](std::size_t first, std::size_t last) {
+    // As an aggregate it would be filled with zeros first: 8 kB.
+    NearestCountedT(const ReachT<T>& most, Wanted& which, std::size_t number) noexcept
+        : reach(most), wanted(which), k(number) {}
+
+    /// Takes a leaf.
+    bool leaf(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, std::size_t first,
+              std::size_t last) {
+        std::size_t next = count; // a local, which stays in a register
         for (std::size_t b = first; b < last; ++b) {
             const LanesT<T> far = distances2(tree.blocks[b], center);
             const std::uint32_t some = reach.within(tree.blocks[b], center, far);
             if (some == 0) continue;
             for (std::uint32_t i = 0; i < lane_count; ++i) {
                 const auto at = static_cast<std::uint32_t>(8 * b + i);
-                all.d2[count] = far.lane[i];
-                all.index[count] = at;
+                all.d2[next] = far.lane[i];
+                all.index[next] = at;
                 if constexpr (std::is_same_v<Wanted, AnyPoint>)
-                    count += some >> i & 1u;
+                    next += some >> i & 1u;
                 else
-                    count += (some >> i & 1u) != 0 && wanted(at) ? 1 : 0;
+                    next += (some >> i & 1u) != 0 && wanted(at) ? 1 : 0;
             }
         }
+        count = next;
         if (count >= enough) {
+            const std::size_t spare = k / 8; // on the way a few too many will do
             count = thin_out(all, count, k, spare, reach);
-            if (count > k + 2 * spare) shrink(); // many are equally far
+            if (count > k + 2 * spare) shrink(tree, center); // many are equally far
             enough = count + std::max<std::size_t>(k / 2, 32);
         }
-    });
-    if (count > k) shrink();
-
-    std::size_t farthest = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        found[i] = {distance2(tree.point(all.index[i]), center), all.index[i]};
-        if (found[i].distance2 > found[farthest].distance2) farthest = i;
+        return false;
     }
-    if (count > 0) std::swap(found[0], found[farthest]);
-    return count;
-}
+    /// The k nearest of the candidates.
+    void shrink(const KdTree8PartsT<T>& tree, const Vec3T<T>& center) {
+        keep_nearest(all, count, k, tree, center, reach);
+        count = k;
+    }
+    /// Hands out what was found.
+    /// \param found  Room for k; the farthest is put first.
+    /// \return How many were found.
+    [[nodiscard]] std::size_t give(const KdTree8PartsT<T>& tree, const Vec3T<T>& center,
+                                   std::span<Neighbor> found) {
+        if (count > k) shrink(tree, center);
+        std::size_t farthest = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            found[i] = {distance2(tree.point(all.index[i]), center), all.index[i]};
+            if (found[i].distance2 > found[farthest].distance2) farthest = i;
+        }
+        if (count > 0) std::swap(found[0], found[farthest]);
+        return count;
+    }
+};
 
-// Takes the k nearest by a heap: any number of them.
+/// Any number of nearest points, by the heap of the plain tree.
 template <std::floating_point T, typename Wanted>
-[[nodiscard]] std::size_t heap_nearest(const KdTree8PartsT<T>& tree,
-                                       const Vec3T<T>& center, ReachT<T> reach,
-                                       std::span<Neighbor> found, Wanted& wanted) {
-    Nearest best{.found = found, .limit2 = reach.limit2};
-    towards(tree, center, reach, [&](std::size_t first, std::size_t last) {
+struct NearestHeapT {
+    static constexpr bool nearest_first = true;
+    ReachT<T> reach; ///< Less than to the k-th so far.
+    Wanted& wanted;  ///< Whether a point counts.
+    Nearest best;    ///< The nearest so far.
+
+    /// Takes a leaf.
+    bool leaf(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, std::size_t first,
+              std::size_t last) {
         for (std::size_t b = first; b < last; ++b) {
             std::uint32_t some = reach.within(tree.blocks[b], center,
                                               distances2(tree.blocks[b], center));
@@ -189,30 +234,12 @@ template <std::floating_point T, typename Wanted>
                 if (best.reaches(d2) && wanted(index)) best.take({d2, index});
             }
         }
-        if (best.count == found.size())
-            reach = ReachT<T>::up_to(found[0].distance2, true);
-    });
-    return best.count;
-}
+        if (best.count == best.found.size())
+            reach = ReachT<T>::up_to(best.found[0].distance2, true);
+        return false;
+    }
+};
 
-// The k nearest, by one of the two; `Most` is the most that the caller may want.
-template <std::size_t Most, std::floating_point T, typename Wanted>
-[[nodiscard]] std::size_t nearest_points(const KdTree8PartsT<T>& tree,
-                                         const Vec3T<T>& center, T radius,
-                                         std::span<Neighbor> found, Wanted wanted) {
-    if (found.empty() || !(radius >= T(0)) || tree.blocks.empty()) return 0;
-    if constexpr (std::is_same_v<Wanted, AnyPoint>)
-        if (found.size() == 1) {
-            const auto one = nearest_point(tree, center, radius);
-            if (one) found[0] = *one;
-            return one ? 1 : 0;
-        }
-    const auto reach = ReachT<T>::up_to(double(radius) * double(radius), false);
-    if constexpr (Most > max_counted)
-        if (found.size() > max_counted)
-            return heap_nearest(tree, center, reach, found, wanted);
-    return count_nearest(tree, center, reach, found, wanted);
-}
 /// \}
 
 } // namespace ljus::detail

@@ -1,0 +1,317 @@
+#pragma once
+
+/// \file ljus/accel/detail/kd_tree8_walk.hpp
+/// \brief The walk of the wide k-d tree: which leaves a search visits, in which order,
+/// and which of their points are within reach.
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "ljus/accel/detail/kd_tree8_build.hpp"
+
+namespace ljus::detail {
+
+/// \addtogroup kd_tree8
+/// \{
+
+/// The squared distances of eight points, in the precision of their coordinates: within
+/// five roundings of the exact ones unless they leave the range of T.
+/// \param points  Eight points.
+/// \param center  Where from.
+template <std::floating_point T>
+[[nodiscard]] constexpr LanesT<T> distances2(const Lanes3T<T>& points,
+                                             const Vec3T<T>& center) noexcept {
+    LanesT<T> result{};
+    for_lanes([&](int i) {
+        const T x = points.x[i] - center.x;
+        const T y = points.y[i] - center.y;
+        const T z = points.z[i] - center.z;
+        result.lane[i] = x * x + y * y + z * z;
+    });
+    return result;
+}
+
+/// How far a search reaches: a limit in double that decides, and two bounds in T that
+/// decide nearly always.
+///
+/// A squared distance computed in T has at most five roundings of half an ulp.
+/// Whatever is at most `sure` is within the limit, whatever lies above `last` is not,
+/// with 16 roundings between each of them and the limit; only what falls between the
+/// two is computed once more, by distance2().
+template <std::floating_point T>
+struct ReachT {
+    double limit2 = -1; ///< Squared; below 0: nothing is within reach.
+    bool open = false;  ///< Whether the limit itself is out of reach.
+    T sure = T(-1);     ///< At most this: within the limit.
+    T last = T(-1);     ///< Above this: beyond the limit.
+
+    /// The reach up to a limit.
+    /// \param limit   Squared; at least 0, or infinite.
+    /// \param beyond  Whether the limit itself is out of reach.
+    [[nodiscard]] static constexpr ReachT up_to(double limit, bool beyond) noexcept {
+        using Numbers = std::numeric_limits<T>;
+        // The smallest numbers, which processors may take for 0, decide nothing.
+        constexpr double margin = 8 * double(Numbers::epsilon());
+        constexpr double tiny = 4 * double(Numbers::min());
+        constexpr double most = double(Numbers::max());
+        const double up = limit * (1 + margin) + tiny;
+        const double down = std::min(limit, most) * (1 - margin) - tiny;
+        return {.limit2 = limit,
+                .open = beyond,
+                .sure = T(down),
+                .last = up < most ? T(up) : Numbers::infinity()};
+    }
+    /// The reach of a closed ball: none if the radius is below 0 or NaN.
+    [[nodiscard]] static constexpr ReachT ball(T radius) noexcept {
+        if (!(radius >= T(0))) return {};
+        return up_to(double(radius) * double(radius), false);
+    }
+    /// What a squared distance in double says: the last word.
+    [[nodiscard]] constexpr bool holds(double d2) const noexcept {
+        return open ? d2 < limit2 : d2 <= limit2;
+    }
+    /// Which of eight points are within reach, exactly.
+    /// \param points  The points.
+    /// \param center  The centre of the search.
+    /// \param d2      What distances2() says of them.
+    /// \return A bit each, the first point's the lowest.
+    // [within]
+    [[nodiscard]] constexpr std::uint32_t within(const Lanes3T<T>& points,
+                                                 const Vec3T<T>& center,
+                                                 const LanesT<T>& d2) const noexcept {
+        // Two answers in one number: within reach, as far as T can tell, and surely so.
+        std::uint32_t both = 0;
+        for_lanes([&](int i) {
+            const std::uint32_t near = d2.lane[i] <= last ? lane_bit[i] : 0;
+            const std::uint32_t certain = d2.lane[i] <= sure ? lane_bit[i] << 8 : 0;
+            both |= near | certain;
+        });
+        std::uint32_t found = both & 255;
+        if (found == 0) return 0;
+        for (std::uint32_t rest = found & ~(both >> 8); rest != 0; rest &= rest - 1) {
+            const int i = std::countr_zero(rest);
+            if (!holds(distance2(points[std::size_t(i)], center))) found &= ~(1u << i);
+        }
+        return found;
+    }
+    // [within]
+};
+
+// The squared distances to the nearest points of eight boxes. A caller that names
+// itself has its own: compilers inline what is called in one place only.
+template <typename Caller, std::floating_point T>
+[[nodiscard]] constexpr LanesT<T> near2(const KdTree8NodeT<T>& node,
+                                        const Vec3T<T>& center) noexcept {
+    LanesT<T> result{};
+    // To the nearest number of an interval.
+    const auto outside = [](T low, T high, T x) {
+        const T above = x < low ? low : x;
+        return x - (above > high ? high : above);
+    };
+    // One axis at a time: a longer body is not always inlined, and then no vector.
+    LanesT<T> x, y, z;
+    for_lanes(
+        [&](int i) { x.lane[i] = outside(node.low.x[i], node.high.x[i], center.x); });
+    for_lanes(
+        [&](int i) { y.lane[i] = outside(node.low.y[i], node.high.y[i], center.y); });
+    for_lanes(
+        [&](int i) { z.lane[i] = outside(node.low.z[i], node.high.z[i], center.z); });
+    for_lanes([&](int i) {
+        result.lane[i] =
+            x.lane[i] * x.lane[i] + y.lane[i] * y.lane[i] + z.lane[i] * z.lane[i];
+    });
+    return result;
+}
+
+// Which points of a leaf lie within reach, exactly: a bit each.
+template <std::floating_point T>
+[[nodiscard]] std::uint32_t in_leaf(const KdTree8PartsT<T>& tree, std::size_t first,
+                                    std::size_t last, const Vec3T<T>& center,
+                                    const ReachT<T>& reach) noexcept {
+    const T possible = reach.last, beyond_doubt = reach.sure;
+    std::uint32_t near[lane_count] = {}, sure[lane_count] = {};
+    for (std::size_t b = first; b < last; ++b) {
+        const LanesT<T> d2 = distances2(tree.blocks[b], center);
+        for_lanes([&](int i) {
+            const std::uint32_t here = d2.lane[i] <= possible ? lane_bit[i] << 24 : 0u;
+            near[i] = near[i] >> 8 | here;
+        });
+        for_lanes([&](int i) {
+            const std::uint32_t here =
+                d2.lane[i] <= beyond_doubt ? lane_bit[i] << 24 : 0u;
+            sure[i] = sure[i] >> 8 | here;
+        });
+    }
+    const auto unused = static_cast<int>(32 - 8 * (last - first));
+    std::uint32_t found = 0, certain = 0;
+    for_lanes([&](int i) { found |= near[i]; });
+    if (found == 0) return 0;
+    for_lanes([&](int i) { certain |= sure[i]; });
+    found >>= unused;
+    certain >>= unused;
+    for (std::uint32_t rest = found & ~certain; rest != 0; rest &= rest - 1) {
+        const int i = std::countr_zero(rest);
+        if (!reach.holds(distance2(tree.point(8 * first + std::size_t(i)), center)))
+            found &= ~(1u << i);
+    }
+    return found;
+}
+
+/// The walk of every search: depth first, over the leaves whose boxes are within reach.
+/// What a search keeps is an argument, a *result set*, as in nanoflann
+/// \cite blanco2014. It has
+///
+///     ReachT<T> reach;                     // it may shrink on the way
+///     static constexpr bool nearest_first; // or in the tree's order
+///     bool leaf(tree, center, first, last) // takes the blocks first to last - 1;
+///                                          // true ends the walk
+///
+/// \param tree     The tree.
+/// \param center   Where the search is.
+/// \param results  What is kept.
+/// \return Whether a leaf ended the walk.
+// [walk]
+template <std::floating_point T, typename Results>
+bool walk(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, Results& results) {
+    const auto& [shape, nodes, blocks] = tree;
+    if (shape.levels == 0) return results.leaf(tree, center, 0, blocks.size());
+    // Of the nodes above, one on each level: which of their children have not been
+    // looked at, and how far these are.
+    struct Open {
+        std::uint32_t number, left;
+    };
+    Open open[12];
+    LanesT<T> near[Results::nearest_first ? 12 : 1];
+    int level = 0;
+    std::uint32_t number = 0;
+    std::uint32_t left = (1u << shape.root_children()) - 1;
+    const auto leaf = [&](std::uint64_t i) {
+        return results.leaf(tree, center, shape.first_block(shape.halvings, i),
+                            shape.first_block(shape.halvings, i + 1));
+    };
+    for (;;) {
+        // Down into a node.
+        LanesT<T>& far = near[Results::nearest_first ? level : 0];
+        far = near2<Results>(nodes[shape.first[std::size_t(level)] + number], center);
+        if constexpr (!Results::nearest_first) {
+            left &= lanes_up_to(far, results.reach.last);
+            if (level + 1 == shape.levels)
+                for (; left != 0; left &= left - 1)
+                    if (leaf(8 * number +
+                             static_cast<std::uint32_t>(std::countr_zero(left))))
+                        return true;
+        }
+        // To the next child, and up where none is left.
+        for (;;) {
+            auto i = static_cast<std::uint32_t>(std::countr_zero(left));
+            if constexpr (Results::nearest_first)
+                i = smallest_lane(near[level], left, results.reach.last);
+            if (Results::nearest_first ? i == 8 : left == 0) {
+                if (level == 0) return false;
+                number = open[--level].number;
+                left = open[level].left;
+                continue;
+            }
+            left &= Results::nearest_first ? ~(1u << i) : left - 1;
+            if constexpr (Results::nearest_first) {
+                const auto& node = nodes[shape.first[std::size_t(level)] + number];
+                if (near[level].lane[i] > results.reach.sure && // T cannot tell
+                    !results.reach.holds(
+                        box_distance2(node.low[i], node.high[i], center)))
+                    continue;
+                if (level + 1 == shape.levels) {
+                    if (leaf(8 * number + i)) return true;
+                    continue;
+                }
+            }
+            open[level++] = {number, left};
+            number = 8 * number + i;
+            left = 255;
+            break;
+        }
+    }
+}
+// [walk]
+
+/// A block of eight points, of which a ball holds some.
+struct BallBlock {
+    std::uint32_t ball = 0;  ///< Which ball.
+    std::uint32_t block = 0; ///< Which block of the tree.
+    std::uint32_t found = 0; ///< Which of its points: a bit each.
+};
+/// What a search for many balls finds: room that is kept from one to the next.
+struct BallBlocks {
+    /// A node of the tree that a ball reaches, or a leaf.
+    struct Place {
+        std::uint32_t ball;   ///< Which ball.
+        std::uint32_t number; ///< Which node of its level, or which leaf.
+    };
+    std::vector<Place> here{};       ///< Of one level: of the first ball, the second...
+    std::vector<Place> below{};      ///< Of the next level, in the same order.
+    std::vector<BallBlock> blocks{}; ///< What is found, in the same order.
+};
+/// The other walk: the points within many balls together, one level of the tree after
+/// the other for all balls, then the leaves. In the walk of one ball each step waits for
+/// the memory that the step before has asked for. Those of different balls do not wait
+/// for each other: the processor works on several at once, and fetches what the next
+/// step reads meanwhile.
+///
+/// That is all it is good for: each ball finds what walk() would find, in the same
+/// order. It stays because the caustics of 64 samples, asked together, make a whole
+/// picture cheaper by 7 to 13 % (measured on rooms with glass at 16 samples a pixel).
+/// \param tree    The tree.
+/// \param balls   How many; below 2^32.
+/// \param center  Called as center(ball).
+/// \param radius  Of all of them.
+/// \param expect  Called as expect(block) for each block that will be found, to fetch
+///                what else it has.
+/// \param found   Gets the blocks: of each ball those that visit_blocks() would visit,
+///                in its order.
+// [find_in_balls]
+template <std::floating_point T, typename Center, typename Expect>
+void find_in_balls(const KdTree8PartsT<T>& tree, std::size_t balls, Center center,
+                   T radius, Expect expect, BallBlocks& found) {
+    const auto reach = ReachT<T>::ball(radius);
+    const auto& [shape, nodes, blocks] = tree;
+    found.here.clear();
+    found.blocks.clear();
+    if (!(radius >= T(0))) return;
+    for (std::uint32_t ball = 0; ball < balls; ++ball) found.here.push_back({ball, 0});
+    for (int level = 0; level < shape.levels; ++level) {
+        const std::uint32_t all = level == 0 ? (1u << shape.root_children()) - 1 : 255u;
+        found.below.clear();
+        for (const auto& [ball, number] : found.here) {
+            const KdTree8NodeT<T>& node =
+                nodes[shape.first[std::size_t(level)] + number];
+            std::uint32_t children =
+                lanes_up_to(near2<Expect>(node, center(ball)), reach.last) & all;
+            for (; children != 0; children &= children - 1)
+                found.below.push_back(
+                    {ball, 8 * number +
+                               static_cast<std::uint32_t>(std::countr_zero(children))});
+        }
+        std::swap(found.here, found.below);
+    }
+    for (const auto& [ball, leaf] : found.here)
+        prefetch<KdTree8Shape::leaf_blocks * sizeof(Lanes3T<T>) / 64>(
+            blocks.data() + shape.first_block(shape.halvings, leaf));
+    for (const auto& [ball, leaf] : found.here) {
+        const std::size_t first = shape.first_block(shape.halvings, leaf);
+        const std::size_t last = shape.first_block(shape.halvings, leaf + 1);
+        std::uint32_t some = in_leaf(tree, first, last, center(ball), reach);
+        for (std::size_t block = first; some != 0; ++block, some >>= 8)
+            if ((some & 255) != 0) {
+                expect(block);
+                found.blocks.push_back(
+                    {ball, static_cast<std::uint32_t>(block), some & 255});
+            }
+    }
+}
+// [find_in_balls]
+
+/// \}
+
+} // namespace ljus::detail
