@@ -10,8 +10,8 @@
 #include <vector>
 
 #include <ljus/accel/bvh8.hpp>
-#include <ljus/accel/detail/triangle_bvh.hpp>
 #include <ljus/accel/kd_tree.hpp>
+#include <ljus/accel/triangle_bvh.hpp>
 #include <ljus/geometry/watertight.hpp>
 #include <ljus/io/png.hpp>
 #include <ljus/materials/eon.hpp>

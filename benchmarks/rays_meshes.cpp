@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include <ljus/accel/detail/triangle_bvh.hpp>
+#include <ljus/accel/triangle_bvh.hpp>
 #include <ljus/geometry/shape.hpp>
 
 #include "csv.hpp"

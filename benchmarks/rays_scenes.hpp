@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include <ljus/accel/detail/triangle_bvh.hpp>
+#include <ljus/accel/triangle_bvh.hpp>
 #include <ljus/geometry/triangle.hpp>
 #include <ljus/math/frame.hpp>
 #include <ljus/math/random.hpp>

@@ -25,8 +25,8 @@
 #include <vector>
 
 #include <ljus/accel/bvh8.hpp>
-#include <ljus/accel/detail/triangle_bvh.hpp>
 #include <ljus/accel/kd_tree.hpp>
+#include <ljus/accel/triangle_bvh.hpp>
 #include <ljus/geometry/shape.hpp>
 #include <ljus/photons/density_estimate.hpp>
 

@@ -14,7 +14,7 @@
 #include "common/command_line.hpp"
 #include "common/drawing.hpp"
 #include "common/plot.hpp"
-#include "ljus/accel/detail/triangle_bvh.hpp"
+#include "ljus/accel/triangle_bvh.hpp"
 #include "ljus/geometry/shape.hpp"
 #include "ljus/image/image.hpp"
 #include "ljus/io/png.hpp"

@@ -3,7 +3,7 @@
 /// \file bvh8_test.cpp
 /// \brief The fast trees, against asking everything; and that nothing leaks.
 
-#include "ljus/accel/detail/triangle_bvh.hpp"
+#include "ljus/accel/triangle_bvh.hpp"
 
 #include <doctest/doctest.h>
 
@@ -463,7 +463,8 @@ TEST_CASE("wide bvh: who is asked, in which order, and who is not") {
     detail::Bvh8Ray ready;
     REQUIRE(detail::make_ready(ready, along, two.wide().middle, two.wide().half));
     detail::Lanes entry;
-    (void)detail::enter<void>(entry, two.wide(), 0, ready, along.t_min, along.t_max);
+    (void)detail::entered_lanes<void>(entry, two.wide(), 0, ready, along.t_min,
+                                      along.t_max);
     int count = 0;
     two.closest(along, [&](std::uint32_t, Ray& rest) {
         ++count;

@@ -35,25 +35,25 @@ ljus_break_it(NAME bvh-later HEADER accel/bvh.hpp TEST bvh
     CASES "bvh: the same answers*")
 
 # The costs of the lower halves are left out.
-ljus_break_it(NAME bvh-cost HEADER accel/detail/bvh_bins.hpp TEST bvh
+ljus_break_it(NAME bvh-cost HEADER accel/detail/bvh_build.hpp TEST bvh
     FROM "lower.bounds.half_area() * tests_of(lower.count, at_a_time) + above[i]"
     TO   "above[i]"
     CASES "bvh: the nearer child first*")
 
 # Wide boxes without slack.
-ljus_break_it(NAME wide-bvh-slack HEADER accel/detail/bvh8_nodes.hpp TEST bvh8
+ljus_break_it(NAME wide-bvh-slack HEADER accel/detail/bvh8_walk.hpp TEST bvh8
     FROM "8 * std::numeric_limits<float>::epsilon() * reach"
     TO   "0 * reach"
     CASES "wide bvh: no ray slips*,wide bvh: huge and tiny*")
 
 # The first look at triangles trusts its rounding.
-ljus_break_it(NAME triangle-bvh-border HEADER accel/detail/triangle_bvh.hpp TEST bvh8
+ljus_break_it(NAME triangle-bvh-border HEADER accel/triangle_bvh.hpp TEST bvh8
     FROM "const float wide = across * scale + min;"
     TO   "const float wide = 0 * across * scale;"
     CASES "wide bvh: no ray slips*")
 
 # It trusts it about where a ray starts, too.
-ljus_break_it(NAME triangle-bvh-start HEADER accel/detail/triangle_bvh.hpp TEST bvh8
+ljus_break_it(NAME triangle-bvh-start HEADER accel/triangle_bvh.hpp TEST bvh8
     FROM "(before > near)"
     TO   "(before > -near)"
     CASES "wide bvh: rays from the surfaces*")
@@ -83,28 +83,28 @@ ljus_break_it(NAME few-shapes-order HEADER accel/few_shapes.hpp TEST index
     CASES "few shapes: the loop's answers*")
 
 # The first child of a wide node's two gets all places but one, whatever they cost.
-ljus_break_it(NAME bvh-collapse HEADER accel/detail/bvh_collapse.hpp TEST bvh8
+ljus_break_it(NAME bvh-collapse HEADER accel/detail/bvh8_build.hpp TEST bvh8
     FROM "if (low == 1 || sum < best.cost) best = {low, sum};"
     TO   "best = {low, sum};"
     CASES "wide bvh: few nodes*")
 
 # A search for any forgets the lanes of a node that it has entered a child of.
-ljus_break_it(NAME wide-bvh-any HEADER accel/detail/bvh8_traverse.hpp TEST bvh8
-    FROM "waiting += entered != 0 ? 1 : 0;"
-    TO   "waiting += 0;"
+ljus_break_it(NAME wide-bvh-any HEADER accel/detail/bvh8_walk.hpp TEST bvh8
+    FROM "size_ += entered_ != 0 ? 1 : 0;"
+    TO   "size_ += 0;"
     CASES "wide bvh: the same answers*")
 
 # The surface of the lower half with the number of the upper: a tree that is right, and
 # slow.
-ljus_break_it(NAME bvh-heuristic HEADER accel/detail/bvh_bins.hpp TEST bvh
+ljus_break_it(NAME bvh-heuristic HEADER accel/detail/bvh_build.hpp TEST bvh
     FROM "lower.bounds.half_area() * tests_of(lower.count, at_a_time) + above[i];"
     TO   "lower.bounds.half_area() * tests_of(upper.count, at_a_time) + above[i];"
     CASES "bvh: the split is the cheapest*")
 
 # What is as far as the end of the ray is left out.
-ljus_break_it(NAME bvh8-as-far HEADER accel/detail/bvh8_traverse.hpp TEST bvh8
-    FROM "entry > ray.t_max"
-    TO   "entry >= ray.t_max"
+ljus_break_it(NAME bvh8-as-far HEADER accel/detail/bvh8_walk.hpp TEST bvh8
+    FROM "entry > t_max"
+    TO   "entry >= t_max"
     CASES "wide bvh: who is asked*")
 
 # Before its origin a ray meets nothing: but it may begin there.
@@ -132,7 +132,7 @@ ljus_break_it(NAME few-shapes-far-ball HEADER geometry/detail/shape_lanes.hpp TE
     CASES "few shapes: the loop's answers about small*")
 
 # A triangle is as large as its longer edge, whichever that is.
-ljus_break_it(NAME triangle-bvh-edges HEADER accel/detail/triangle_bvh.hpp TEST bvh8
+ljus_break_it(NAME triangle-bvh-edges HEADER accel/triangle_bvh.hpp TEST bvh8
     FROM "max_component(glm::max(glm::abs(e1), glm::abs(e2)))"
     TO   "max_component(glm::abs(e1))"
     CASES "wide bvh: the filter errs*")

@@ -68,7 +68,7 @@ def write(file, text):
 
 
 def floor(header):
-    """math/frame.hpp: math; accel/detail/bvh_bins.hpp: accel; parallel.hpp: parallel."""
+    """math/frame.hpp: math; accel/detail/bvh_build.hpp: accel; parallel.hpp: parallel."""
     return header.split("/")[0].removesuffix(".hpp")
 
 

@@ -29,9 +29,9 @@ struct NearestHitT {
     std::uint32_t number = std::numeric_limits<std::uint32_t>::max(); ///< Of what.
     bool found = false; ///< Whether there is one.
 
-    /// Takes a hit, if it is nearer, and shortens the ray to it: but for one unit in
-    /// the last slot, because a primitive at the same t, computed in double, may seem
-    /// farther.
+    /// Takes a hit, if it is nearer, and shortens the ray to it: to one unit in the
+    /// last place beyond it, because a primitive at the same t, computed in double, may
+    /// seem farther.
     /// \return Whether it was nearer.
     bool offer(const FlatHitT<T>& hit, std::uint32_t of, RayT<T>& ray) noexcept {
         if (found && !(hit.t < at.t || (hit.t == at.t && of < number))) return false;

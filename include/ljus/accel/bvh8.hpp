@@ -4,7 +4,7 @@
 /// \brief The fast tree of boxes: eight children a node, asked at once.
 
 #include "ljus/accel/bvh.hpp"
-#include "ljus/accel/detail/bvh8_traverse.hpp"
+#include "ljus/accel/detail/bvh8_walk.hpp"
 
 namespace ljus {
 
@@ -47,7 +47,7 @@ public:
     [[nodiscard]] const std::vector<detail::Bvh8Node>& nodes() const noexcept {
         return wide_.nodes;
     }
-    /// The tree itself, for detail::walk_nearest() and detail::walk_any().
+    /// The tree itself, for detail::walk().
     [[nodiscard]] const detail::Bvh8Nodes& wide() const noexcept { return wide_; }
     /// A box around everything.
     [[nodiscard]] const Box& box() const noexcept { return wide_.box; }
@@ -65,16 +65,16 @@ public:
             test(slot, ray);
             return false;
         };
-        detail::walk_nearest(wide_, ray, each_place(ask), watch);
+        detail::walk<false>(wide_, ray, each_place(ask), watch);
     }
 
     /// Whether any of the primitives that a ray may meet says yes: as BvhT::any().
     template <typename Test, typename Watch = NoTrace>
     [[nodiscard]] bool any(const Ray& ray, Test&& test, Watch&& watch = {}) const {
-        return detail::walk_any(wide_, ray, each_place(test), watch);
+        return detail::walk<true>(wide_, ray, each_place(test), watch);
     }
 
-    /// A leaf for detail::walk_nearest() and detail::walk_any() that asks slot by slot.
+    /// A leaf for detail::walk() that asks slot by slot.
     template <typename Ask>
     [[nodiscard]] auto each_place(Ask& ask) const {
         return [this, &ask](std::uint32_t first, std::uint32_t count,

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "ljus/accel/bvh.hpp"
-#include "ljus/accel/detail/triangle_bvh.hpp"
 #include "ljus/accel/mesh_data.hpp"
+#include "ljus/accel/triangle_bvh.hpp"
 
 namespace ljus {
 

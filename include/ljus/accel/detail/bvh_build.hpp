@@ -2,15 +2,16 @@
 
 /// \file ljus/accel/detail/bvh_build.hpp
 /// \brief How a tree of boxes is built: from the top, each range split where that is
-/// cheapest.
+/// cheapest by the surface area heuristic, in bins.
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
-#include "ljus/accel/detail/bvh_bins.hpp"
-#include "ljus/accel/detail/bvh_nodes.hpp"
+#include "ljus/accel/bvh_nodes.hpp"
 #include "ljus/math/require.hpp"
 #include "ljus/parallel.hpp"
 
@@ -20,6 +21,184 @@ namespace ljus::detail {
 /// \brief Where to split a range in two. Chapter: \ref ch_bvh.
 /// \{
 
+// A box as a builder likes it: the lower bounds, and the upper ones with their signs
+// changed, so that to grow is eight times the same, which compilers do at once.
+template <std::floating_point T>
+struct BoundsT {
+    T side[8];
+
+    static constexpr BoundsT none() noexcept {
+        BoundsT result{};
+        for (T& x : result.side) x = std::numeric_limits<T>::infinity();
+        return result;
+    }
+    void grow(const BoundsT& other) noexcept {
+        for (int i = 0; i < 8; ++i)
+            side[i] = side[i] < other.side[i] ? side[i] : other.side[i];
+    }
+    [[nodiscard]] T size(int axis) const noexcept {
+        return -side[axis + 4] - side[axis];
+    }
+    [[nodiscard]] BoxT<T> box() const noexcept {
+        return {{side[0], side[1], side[2]}, {-side[4], -side[5], -side[6]}};
+    }
+    // In double: the square of a float's largest size has room.
+    [[nodiscard]] double half_area() const noexcept {
+        const double x{size(0)}, y{size(1)}, z{size(2)};
+        return x * y + y * z + z * x;
+    }
+};
+
+// A reference to a primitive: its bounds, and which one it is.
+template <std::floating_point T>
+struct PrimitiveRefT {
+    BoundsT<T> bounds;
+    std::uint32_t id;
+    // Half of twice the centre: the sum of two large numbers would be infinite.
+    [[nodiscard]] T center(int axis) const noexcept {
+        return T(0.5) * bounds.side[axis] - T(0.5) * bounds.side[axis + 4];
+    }
+    [[nodiscard]] BoundsT<T> centers() const noexcept {
+        BoundsT<T> result{};
+        for (int i = 0; i < 4; ++i) {
+            const T middle = T(0.5) * bounds.side[i] - T(0.5) * bounds.side[i + 4];
+            result.side[i] = middle;
+            result.side[i + 4] = -middle;
+        }
+        return result;
+    }
+};
+
+// A range of the references: what one subtree is built of.
+template <std::floating_point T>
+struct PrimitiveRangeT {
+    std::uint32_t first = 0;
+    std::uint32_t last = 0;
+    int depth = 0;
+    BoundsT<T> bounds = BoundsT<T>::none();  // of the primitives
+    BoundsT<T> centers = BoundsT<T>::none(); // of their centres
+
+    [[nodiscard]] std::uint32_t size() const noexcept { return last - first; }
+    void take(const PrimitiveRefT<T>& ref) noexcept {
+        bounds.grow(ref.bounds);
+        centers.grow(ref.centers());
+    }
+};
+
+// How many tests a leaf takes, `at_a_time` of them side by side.
+[[nodiscard]] constexpr double tests_of(std::uint32_t count,
+                                        std::uint32_t at_a_time) noexcept {
+    return (count + at_a_time - 1) / at_a_time;
+}
+
+// Where to split: between two bins along an axis; and what that costs.
+struct Split {
+    int axis = -1; // none
+    int bin = 0;   // the first of the upper half
+    double cost = std::numeric_limits<double>::infinity();
+};
+
+inline constexpr int bin_count = 16;
+
+// From a centre to its bin.
+template <std::floating_point T>
+struct ToBinT {
+    T low, factor;
+    ToBinT(const PrimitiveRangeT<T>& range, int axis) noexcept
+        : low(range.centers.side[axis]),
+          factor(T(bin_count) * (T(1) - std::numeric_limits<T>::epsilon() * 4) /
+                 range.centers.size(axis)) {}
+    // Written so that it is within the bins for any number.
+    [[nodiscard]] int operator()(T center) const noexcept {
+        const T bin = (center - low) * factor;
+        return bin < T(bin_count) ? static_cast<int>(bin) : bin_count - 1;
+    }
+};
+
+// The split that makes the expected cost of a ray least \cite macdonald1990: a ray
+// that meets a box meets one within it with the ratio of their surfaces. Along each
+// axis 15 candidate planes are tried, the borders of 16 bins \cite wald2007.
+// [best_split]
+template <std::floating_point T>
+[[nodiscard]] Split best_split(const std::vector<PrimitiveRefT<T>>& refs,
+                               const PrimitiveRangeT<T>& range,
+                               std::uint32_t at_a_time) {
+    struct Bin {
+        BoundsT<T> bounds = BoundsT<T>::none();
+        std::uint32_t count = 0;
+    };
+    Split best;
+    for (int axis = 0; axis < 3; ++axis) {
+        const T size = range.centers.size(axis);
+        if (!(size > std::numeric_limits<T>::min() &&
+              size < std::numeric_limits<T>::max()))
+            continue; // all in one plane
+        Bin all[bin_count];
+        const ToBinT<T> bin_of(range, axis);
+        for (std::uint32_t i = range.first; i < range.last; ++i) {
+            Bin& bin = all[bin_of(refs[i].center(axis))];
+            bin.bounds.grow(refs[i].bounds);
+            ++bin.count;
+        }
+        // Once from above, for the costs of the upper halves; once from below.
+        double above[bin_count] = {};
+        Bin upper, lower;
+        for (int i = bin_count - 1; i > 0; --i) {
+            upper.bounds.grow(all[i].bounds);
+            upper.count += all[i].count;
+            above[i] = upper.count == 0 ? 0
+                                        : upper.bounds.half_area() *
+                                              tests_of(upper.count, at_a_time);
+        }
+        for (int i = 1; i < bin_count; ++i) {
+            lower.bounds.grow(all[i - 1].bounds);
+            lower.count += all[i - 1].count;
+            if (lower.count == 0 || lower.count == range.size()) continue;
+            const double cost =
+                lower.bounds.half_area() * tests_of(lower.count, at_a_time) + above[i];
+            if (cost < best.cost) best = {axis, i, cost};
+        }
+    }
+    return best;
+}
+// [best_split]
+
+// The two halves of a range.
+template <std::floating_point T>
+struct HalvesT {
+    PrimitiveRangeT<T> low;
+    PrimitiveRangeT<T> high;
+};
+
+// Sorts a range into its two halves; without a split, by number.
+template <std::floating_point T>
+[[nodiscard]] HalvesT<T> divide(std::vector<PrimitiveRefT<T>>& refs,
+                                const PrimitiveRangeT<T>& range, const Split& split) {
+    PrimitiveRangeT<T> low{
+        .first = range.first, .last = range.first, .depth = range.depth + 1};
+    PrimitiveRangeT<T> high{
+        .first = range.last, .last = range.last, .depth = range.depth + 1};
+    if (split.axis < 0) {
+        low.last = high.first = range.first + range.size() / 2;
+        for (std::uint32_t i = range.first; i < range.last; ++i)
+            (i < low.last ? low : high).take(refs[i]);
+        return {low, high};
+    }
+    const ToBinT<T> bin_of(range, split.axis);
+    while (low.last < high.first) {
+        PrimitiveRefT<T>& ref = refs[low.last];
+        if (bin_of(ref.center(split.axis)) < split.bin) {
+            low.take(ref);
+            ++low.last;
+        } else {
+            high.take(ref);
+            std::swap(ref, refs[--high.first]);
+        }
+    }
+    return {low, high};
+}
+
+// Builds the tree: its upper part by one thread, what lies below by several.
 template <std::floating_point T>
 class BvhBuilder {
 public:
@@ -96,7 +275,7 @@ private:
         grow(nodes, children, low, jobs);
         grow(nodes, children + 1, high, jobs);
     }
-    // Puts a tree that was built on its own in the slot of its root.
+    // Puts a tree that was built on its own in the place of its root.
     static void append(std::vector<BvhNodeT<T>>& nodes, std::size_t root,
                        const std::vector<BvhNodeT<T>>& part) {
         const auto shift = static_cast<std::uint32_t>(nodes.size()) - 1;
@@ -113,7 +292,7 @@ private:
 };
 
 /// Builds a tree over boxes: top down, each range split where that is cheapest for
-/// rays, of 16 slots along each axis \cite wald2007.
+/// rays, at one of the borders of 16 bins along each axis \cite wald2007.
 /// \param boxes     Any boxes, equal and flat ones too; below 2^31.
 /// \param settings  Leaves and threads.
 /// \return The tree, the same for any number of threads; no deeper than bvh_depth.

@@ -1,6 +1,6 @@
 #pragma once
 
-/// \file ljus/accel/detail/triangle_bvh.hpp
+/// \file ljus/accel/triangle_bvh.hpp
 /// \brief A wide tree over triangles: eight of them are looked at together, and only
 /// those that this leaves in doubt are tested one by one.
 
@@ -162,14 +162,14 @@ public:
             test(slot, ray);
             return false;
         };
-        detail::walk_nearest(tree_.wide(), ray, filtered_leaf<false>(ray, ask), watch);
+        detail::walk<false>(tree_.wide(), ray, filtered_leaf<false>(ray, ask), watch);
     }
 
     /// As BvhT::any(), but a triangle that is certainly hit is not asked.
     template <typename Test, typename Watch = NoTrace>
     [[nodiscard]] bool any(const Ray& ray, Test&& test, Watch&& watch = {}) const {
-        return detail::walk_any(tree_.wide(), ray, filtered_leaf<true>(ray, test),
-                                watch);
+        return detail::walk<true>(tree_.wide(), ray, filtered_leaf<true>(ray, test),
+                                  watch);
     }
 
 private:

@@ -1,19 +1,114 @@
 #pragma once
 
-/// \file ljus/accel/detail/bvh8_nodes.hpp
-/// \brief The nodes of the fast tree, and how they are made of those of the plain one;
-/// and a ray as they are asked by it.
+/// \file ljus/accel/detail/bvh8_build.hpp
+/// \brief The nodes of the fast tree, and how they are made of those of the plain one.
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <vector>
 
-#include "ljus/accel/detail/bvh_collapse.hpp"
-#include "ljus/geometry/ray.hpp"
+#include "ljus/accel/bvh_nodes.hpp"
 #include "ljus/math/lanes.hpp"
 #include "ljus/math/require.hpp"
 
 namespace ljus::detail {
+
+/// \defgroup bvh_collapse Collapsing a tree
+/// \brief From two children a node to eight, so that rays meet as few nodes as can be.
+/// Chapter: \ref ch_bvh.
+/// \{
+
+/// The children of wide nodes, chosen so that the surfaces of all wide nodes have the
+/// least sum: a ray visits a node in proportion to its surface \cite ylitie2017.
+///
+/// What lies below a plain node can be shown as one wide node, or opened to a row of
+/// at most i nodes side by side, for which its two children share the i slots. From
+/// the leaves up, the least cost of each is known from those below.
+template <std::floating_point T>
+class BvhCollapse {
+public:
+    static constexpr int width = 8; ///< Children of a wide node.
+
+    /// The children of one wide node: nodes of the plain tree.
+    struct Children {
+        std::array<std::uint32_t, width> node{}; ///< Which ones.
+        std::size_t count = 0;                   ///< How many.
+    };
+
+    /// Finds the costs.
+    /// \param tree  Must outlive it.
+    /// \cost O(n), 56 bytes a node.
+    explicit BvhCollapse(const BvhNodesT<T>& tree)
+        : tree_(tree), cost_(tree.nodes.size()) {
+        // Children stand behind their parents.
+        for (std::size_t i = tree.nodes.size(); i-- > 0;) {
+            const BvhNodeT<T>& node = tree.nodes[i];
+            if (node.count != 0) continue; // leaves are what they are
+            const Vec3T<double> size{node.box.high - node.box.low};
+            cost_[i][0] = size.x * size.y + size.y * size.z + size.z * size.x +
+                          share(node, width).cost;
+            for (int slots = 2; slots < width; ++slots)
+                cost_[i][std::size_t(slots) - 1] =
+                    glm::min(cost_[i][0], share(node, slots).cost);
+        }
+    }
+
+    /// The children of a wide node.
+    /// \param from  The plain node that becomes one, no leaf but for the root; a root
+    ///              that is a leaf becomes its only child.
+    [[nodiscard]] Children children(std::uint32_t from) const {
+        Children result;
+        const BvhNodeT<T>& node = tree_.nodes[from];
+        if (node.count != 0)
+            open(from, 1, result);
+        else
+            open_both(node, width, result);
+        return result;
+    }
+
+private:
+    struct Share {
+        int low = 1; // slots of the first child
+        double cost = 0;
+    };
+
+    double cost(std::uint32_t node, int slots) const noexcept {
+        return cost_[node][std::size_t(slots) - 1];
+    }
+
+    // The best way for two children to share slots.
+    // [share]
+    Share share(const BvhNodeT<T>& parent, int slots) const noexcept {
+        Share best;
+        for (int low = 1; low < slots; ++low) {
+            const double sum =
+                cost(parent.first, low) + cost(parent.first + 1, slots - low);
+            if (low == 1 || sum < best.cost) best = {low, sum};
+        }
+        return best;
+    }
+    // [share]
+
+    void open_both(const BvhNodeT<T>& parent, int slots, Children& result) const {
+        const int low = share(parent, slots).low;
+        open(parent.first, low, result);
+        open(parent.first + 1, slots - low, result);
+    }
+    void open(std::uint32_t i, int slots, Children& result) const {
+        const BvhNodeT<T>& node = tree_.nodes[i];
+        if (node.count == 0 && slots > 1 && share(node, slots).cost < cost_[i][0])
+            open_both(node, slots, result);
+        else
+            result.node[result.count++] = i;
+    }
+
+    const BvhNodesT<T>& tree_;
+    std::vector<std::array<double, width - 1>> cost_; // with 1, 2, ... slots
+};
+
+/// \}
 
 /// \defgroup wide_nodes Wide nodes
 /// \brief Eight children a node. Chapter: \ref ch_bvh.
@@ -55,8 +150,9 @@ struct Bvh8Nodes {
 
 // Makes a wide node of a plain one and of what is below it.
 template <std::floating_point T>
-void widen(Bvh8Nodes& wide, const BvhNodesT<T>& tree, const BvhCollapse<T>& collapse,
-           std::uint32_t from, std::size_t to, std::uint32_t multiple) {
+void add_wide_node(Bvh8Nodes& wide, const BvhNodesT<T>& tree,
+                   const BvhCollapse<T>& collapse, std::uint32_t from, std::size_t to,
+                   std::uint32_t multiple) {
     const auto [open, count] = collapse.children(from);
     Bvh8Node node{};
     for (std::size_t i = 0; i < lane_count; ++i) {
@@ -86,8 +182,8 @@ void widen(Bvh8Nodes& wide, const BvhNodesT<T>& tree, const BvhCollapse<T>& coll
     wide.nodes[to] = node;
     for (std::size_t i = 0; i < count; ++i)
         if (tree.nodes[open[i]].count == 0)
-            widen(wide, tree, collapse, open[i], node.child[i] / Bvh8Child::stride,
-                  multiple);
+            add_wide_node(wide, tree, collapse, open[i],
+                          node.child[i] / Bvh8Child::stride, multiple);
 }
 /// Makes a tree wide.
 /// \param tree      The plain tree; its leaves have at most 16 primitives.
@@ -103,7 +199,7 @@ template <std::floating_point T>
     wide.middle = 0.5f * wide.box.low + 0.5f * wide.box.high;
     wide.half = 0.5f * wide.box.high - 0.5f * wide.box.low;
     wide.nodes.resize(1);
-    widen(wide, tree, BvhCollapse<T>(tree), 0, 0, multiple);
+    add_wide_node(wide, tree, BvhCollapse<T>(tree), 0, 0, multiple);
     require(wide.primitive_ids.size() < Bvh8Child::first,
             "the number of slots in a tree",
             static_cast<long long>(wide.primitive_ids.size()), "below 2^27");
@@ -113,63 +209,6 @@ template <std::floating_point T>
     return wide;
 }
 
-/// \}
-
-/// \defgroup wide_ray Rays for wide nodes
-/// \brief What is computed once for a ray: the signs and the slack of box_ray()
-/// \cite williams2005 \cite ize2013. Chapter: \ref ch_bvh.
-/// \{
-
-/// A ray, made ready for wide nodes.
-struct Bvh8Ray {
-    Vec3 inverse{1};                   ///< 1 / D, finite.
-    Vec3 near_shift{0};                ///< t = plane * inverse - shift, a little early,
-    Vec3 far_shift{0};                 ///< and a little late.
-    std::array<std::size_t, 3> near{}; ///< The planes that it meets first, by axis,
-    std::array<std::size_t, 3> far{};  ///< and last.
-    float length = 0;                  ///< The largest component of D.
-    float last = 0;                    ///< Beyond this t there is nothing.
-    bool moderate = false; ///< Products of three such lengths are far from infinite.
-};
-
-/// Makes a ray ready. Boxes grow by as much as box_ray() says. A component of the
-/// direction that is almost 0 is given a size: within the box that leads no ray astray
-/// by more than this.
-/// \param r       Becomes the ready ray.
-/// \param ray     The ray.
-/// \param middle  The middle of everything.
-/// \param half    From there to the sides.
-/// \return Whether that is possible: not if the direction is too long or too short, or
-///         the origin too far away, for squares of floats.
-[[nodiscard]] inline bool make_ready(Bvh8Ray& r, const Ray& ray, const Vec3& middle,
-                                     const Vec3& half) noexcept {
-    const Vec3 origin = ray.origin - middle;
-    const Vec3 size = sizes(ray.direction);
-    const float reach = max_component(sizes(origin) + half);
-    r.length = max_component(size);
-    r.last = 4 * reach / r.length;
-    const Vec3 d = glm::max(size, Vec3{1e-12f * r.length});
-    const float slack = 8 * std::numeric_limits<float>::epsilon() * reach;
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto i = static_cast<std::size_t>(axis);
-        const std::size_t back = std::signbit(ray.direction[axis]) ? 1 : 0;
-        // Not by `back ?`: a processor cannot predict which way rays go.
-        const float size_of_inverse = 1 / d[axis];
-        const float inverse = std::copysign(size_of_inverse, ray.direction[axis]);
-        const float shift = origin[axis] * inverse;
-        const float grown = slack * size_of_inverse;
-        r.inverse[axis] = inverse;
-        r.near_shift[axis] = shift + grown;
-        r.far_shift[axis] = shift - grown;
-        r.near[i] = i + 3 * back;
-        r.far[i] = i + 3 * (1 - back);
-    }
-    r.moderate = reach * reach * glm::max(reach, r.length) < 1e36f;
-    // Their squares are still numbers: those of the directions, and of the distances.
-    constexpr float most = 1e18f;
-    return r.length > 1 / most && r.length < most && reach < most &&
-           is_finite(r.near_shift) && is_finite(r.far_shift);
-}
 /// \}
 
 } // namespace ljus::detail

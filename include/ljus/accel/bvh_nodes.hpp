@@ -1,7 +1,7 @@
 #pragma once
 
-/// \file ljus/accel/detail/bvh_nodes.hpp
-/// \brief What a tree of boxes is made of.
+/// \file ljus/accel/bvh_nodes.hpp
+/// \brief What a tree of boxes is made of, and the settings that it is built with.
 
 #include <cstdint>
 #include <vector>

@@ -1,0 +1,265 @@
+#pragma once
+
+/// \file ljus/accel/detail/bvh8_walk.hpp
+/// \brief The walk of a ray through the fast tree.
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "ljus/accel/detail/bvh8_build.hpp"
+#include "ljus/geometry/ray.hpp"
+#include "ljus/math/lanes.hpp"
+
+namespace ljus::detail {
+
+/// \defgroup wide_ray Rays for wide nodes
+/// \brief What is computed once for a ray: the signs and the slack of box_ray()
+/// \cite williams2005 \cite ize2013. Chapter: \ref ch_bvh.
+/// \{
+
+/// A ray, made ready for wide nodes.
+struct Bvh8Ray {
+    Vec3 inverse{1};                   ///< 1 / D, finite.
+    Vec3 near_shift{0};                ///< t = plane * inverse - shift, a little early,
+    Vec3 far_shift{0};                 ///< and a little late.
+    std::array<std::size_t, 3> near{}; ///< The planes that it meets first, by axis,
+    std::array<std::size_t, 3> far{};  ///< and last.
+    float length = 0;                  ///< The largest component of D.
+    float last = 0;                    ///< Beyond this t there is nothing.
+    bool moderate = false; ///< Products of three such lengths are far from infinite.
+};
+
+/// Makes a ray ready. Boxes grow by as much as box_ray() says. A component of the
+/// direction that is almost 0 is given a size: within the box that leads no ray astray
+/// by more than this.
+/// \param r       Becomes the ready ray.
+/// \param ray     The ray.
+/// \param middle  The middle of everything.
+/// \param half    From there to the sides.
+/// \return Whether that is possible: not if the direction is too long or too short, or
+///         the origin too far away, for squares of floats.
+[[nodiscard]] inline bool make_ready(Bvh8Ray& r, const Ray& ray, const Vec3& middle,
+                                     const Vec3& half) noexcept {
+    const Vec3 origin = ray.origin - middle;
+    const Vec3 size = sizes(ray.direction);
+    const float reach = max_component(sizes(origin) + half);
+    r.length = max_component(size);
+    r.last = 4 * reach / r.length;
+    const Vec3 d = glm::max(size, Vec3{1e-12f * r.length});
+    const float slack = 8 * std::numeric_limits<float>::epsilon() * reach;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto i = static_cast<std::size_t>(axis);
+        const std::size_t back = std::signbit(ray.direction[axis]) ? 1 : 0;
+        // Not by `back ?`: a processor cannot predict which way rays go.
+        const float size_of_inverse = 1 / d[axis];
+        const float inverse = std::copysign(size_of_inverse, ray.direction[axis]);
+        const float shift = origin[axis] * inverse;
+        const float grown = slack * size_of_inverse;
+        r.inverse[axis] = inverse;
+        r.near_shift[axis] = shift + grown;
+        r.far_shift[axis] = shift - grown;
+        r.near[i] = i + 3 * back;
+        r.far[i] = i + 3 * (1 - back);
+    }
+    r.moderate = reach * reach * glm::max(reach, r.length) < 1e36f;
+    // Their squares are still numbers: those of the directions, and of the distances.
+    constexpr float most = 1e18f;
+    return r.length > 1 / most && r.length < most && reach < most &&
+           is_finite(r.near_shift) && is_finite(r.far_shift);
+}
+/// \}
+
+/// \defgroup wide_walk The walk through a wide tree
+/// \brief Eight boxes at once, and what to do about those that a ray enters
+/// \cite wald2008. Chapter: \ref ch_bvh.
+/// \{
+
+// How a search begins: with a ray made ready, or, where there is none, with its answer.
+struct Bvh8Start {
+    Bvh8Ray ray{};
+    bool done = true;   // nothing is left to be walked
+    bool found = false; // what the leaf said, if it was asked about everything
+};
+
+// Makes a ray ready. For a finite ray with which that is not possible, the leaf is
+// asked about all slots at once.
+template <typename Leaf>
+inline Bvh8Start begin_walk(const Bvh8Nodes& wide, const Ray& ray, Leaf& leaf) {
+    Bvh8Start start;
+    if (wide.nodes.empty() || !(ray.t_min <= ray.t_max)) return start;
+    start.done = !make_ready(start.ray, ray, wide.middle, wide.half);
+    if (start.done && is_finite(ray.origin) && is_finite(ray.direction))
+        start.found = leaf(0u, static_cast<std::uint32_t>(wide.primitive_ids.size()),
+                           static_cast<const Bvh8Ray*>(nullptr));
+    return start;
+}
+
+// Asks eight boxes at once: which ones the ray enters, and where. Each search has an
+// instance of its own, and `inline` asks for it: compilers inline what is called once.
+template <typename Search>
+inline std::uint64_t entered_lanes(Lanes& t, const Bvh8Nodes& wide, std::uint32_t node,
+                                   const Bvh8Ray& r, float t_min,
+                                   float t_max) noexcept {
+    const Lanes* const lanes = wide.nodes[0].plane.data();
+    const Lanes& near_x = (lanes + r.near[0])[node];
+    const Lanes& near_y = (lanes + r.near[1])[node];
+    const Lanes& near_z = (lanes + r.near[2])[node];
+    const Lanes& far_x = (lanes + r.far[0])[node];
+    const Lanes& far_y = (lanes + r.far[1])[node];
+    const Lanes& far_z = (lanes + r.far[2])[node];
+    const auto larger = [](float a, float b) { return a > b ? a : b; };
+    const auto smaller = [](float a, float b) { return a < b ? a : b; };
+    Lanes entry;
+    LaneMask entered;
+    for (int i = 0; i < lane_count; ++i) {
+        const float x = near_x.lane[i] * r.inverse.x - r.near_shift.x;
+        const float y = near_y.lane[i] * r.inverse.y - r.near_shift.y;
+        const float z = near_z.lane[i] * r.inverse.z - r.near_shift.z;
+        const float first = larger(larger(x, y), larger(z, t_min));
+        const float a = far_x.lane[i] * r.inverse.x - r.far_shift.x;
+        const float b = far_y.lane[i] * r.inverse.y - r.far_shift.y;
+        const float c = far_z.lane[i] * r.inverse.z - r.far_shift.z;
+        const float last = smaller(smaller(a, b), smaller(c, t_max));
+        entry.lane[i] = first;
+        entered.lane[i] = first <= last ? -1 : 0;
+    }
+    t = entry;
+    return yes_lanes(entered);
+}
+// What waits in a search for the nearest hit: children, each below the t at which the
+// ray enters it. For numbers from 0 on, the bits are in the order of the values: so the
+// nearer one is less. Each search has a type of its own, as for entered_lanes().
+template <typename Search>
+class NearestFirst {
+public:
+    // Takes the children of a node that the ray enters, at least one.
+    // Returns the nearest of them; the others wait.
+    std::uint32_t enter(const Bvh8Nodes& wide, std::uint32_t node,
+                        std::uint64_t entered, const Lanes& t) {
+        const auto& child = wide.nodes[node / Bvh8Child::stride].child;
+        const auto key = [&](std::size_t i) {
+            const auto t_bits = std::bit_cast<std::uint32_t>(t.lane[i]);
+            return std::uint64_t{t_bits} << 32 | child[i];
+        };
+        const auto wait = [&](std::uint64_t later) {
+            const auto below = static_cast<std::uint32_t>(later);
+            if ((below & Bvh8Child::leaf) == 0)
+                prefetch<4>(wide.nodes[below / Bvh8Child::stride].plane.data());
+            later_[size_++] = later;
+        };
+        std::uint64_t nearest = key(take_lane(entered));
+        // Of three the order is right, of more it nearly is: without a branch that a
+        // processor would have to predict.
+        if (entered != 0) {
+            const std::uint64_t other = key(take_lane(entered));
+            std::uint64_t second = glm::max(nearest, other);
+            nearest = glm::min(nearest, other);
+            while (entered != 0) {
+                const std::uint64_t next = key(take_lane(entered));
+                const std::uint64_t farther = glm::max(nearest, next);
+                nearest = glm::min(nearest, next);
+                wait(glm::max(second, farther));
+                second = glm::min(second, farther);
+            }
+            wait(second);
+        }
+        return static_cast<std::uint32_t>(nearest);
+    }
+    // The next child, if there is one: what was found since may lie in front of it.
+    bool next(const Bvh8Nodes&, std::uint32_t& child, float t_max) noexcept {
+        float entry = 0;
+        do {
+            if (size_ == 0) return false;
+            --size_;
+            entry =
+                std::bit_cast<float>(static_cast<std::uint32_t>(later_[size_] >> 32));
+        } while (entry > t_max);
+        child = static_cast<std::uint32_t>(later_[size_]);
+        return true;
+    }
+
+private:
+    std::array<std::uint64_t, bvh_depth*(lane_count - 1) + 1> later_;
+    std::size_t size_ = 0;
+};
+
+// What waits in a search for any hit: in no order, so that of a node only the lanes
+// wait.
+template <typename Search>
+class AnyOrder {
+public:
+    // As NearestFirst.
+    std::uint32_t enter(const Bvh8Nodes& wide, std::uint32_t node,
+                        std::uint64_t entered, const Lanes&) noexcept {
+        later_[size_] = {entered_, node_};
+        size_ += entered_ != 0 ? 1 : 0;
+        entered_ = entered;
+        node_ = node;
+        return take(wide);
+    }
+    // As NearestFirst.
+    bool next(const Bvh8Nodes& wide, std::uint32_t& child, float) noexcept {
+        while (entered_ == 0) {
+            if (size_ == 0) return false;
+            --size_;
+            node_ = later_[size_].node;
+            entered_ = later_[size_].lanes;
+        }
+        child = take(wide);
+        return true;
+    }
+
+private:
+    std::uint32_t take(const Bvh8Nodes& wide) noexcept {
+        return wide.nodes[node_ / Bvh8Child::stride].child[take_lane(entered_)];
+    }
+    struct Later {
+        std::uint64_t lanes;
+        std::uint32_t node;
+    };
+    std::array<Later, bvh_depth> later_;
+    std::size_t size_ = 0;
+    std::uint64_t entered_ = 0;
+    std::uint32_t node_ = 0;
+};
+
+/// The walk of every search: a node, eight boxes, and on to a child.
+/// \tparam any   Whether the first leaf that says true ends it: children are then
+///               visited in no order. Otherwise the nearer ones come first, and leaves
+///               shorten the ray.
+/// \param wide   The tree.
+/// \param ray    The ray; a leaf may shorten it.
+/// \param leaf   Called as leaf(first slot, count, ready ray); true ends the walk. For
+///               a ray that cannot be made ready, once, with a null pointer.
+/// \param watch  Called with the number of each node on the way.
+/// \return Whether a leaf said true.
+// [walk]
+template <bool any, typename Leaf, typename Watch>
+bool walk(const Bvh8Nodes& wide, const Ray& ray, Leaf&& leaf, Watch&& watch) {
+    const Bvh8Start start = begin_walk(wide, ray, leaf);
+    if (start.done) return start.found;
+    std::conditional_t<any, AnyOrder<Leaf>, NearestFirst<Leaf>> waiting;
+    for (std::uint32_t at = 0;;) {
+        if ((at & Bvh8Child::leaf) != 0) {
+            if (leaf(at & Bvh8Child::first, Bvh8Child::count(at), &start.ray))
+                return true;
+        } else {
+            watch(at / Bvh8Child::stride);
+            Lanes t;
+            const std::uint64_t entered =
+                entered_lanes<Leaf>(t, wide, at, start.ray, ray.t_min, ray.t_max);
+            if (entered != 0) {
+                at = waiting.enter(wide, at, entered, t);
+                continue;
+            }
+        }
+        if (!waiting.next(wide, at, ray.t_max)) return false;
+    }
+}
+// [walk]
+/// \}
+
+} // namespace ljus::detail
