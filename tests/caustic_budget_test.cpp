@@ -331,7 +331,7 @@ TEST_CASE("caustic_budget: the pilot's numbers, one photon after the other") {
     std::vector<Photon> all;
     for (std::size_t k = 0; k < 3; ++k) {
         PhotonPassSettings own = pass;
-        own.progress = {};
+        own.progress = no_progress;
         own.photons = paths;
         own.iteration = ~std::uint64_t{5} - k; // from the other end: no picture's
         own.shares = {0, 0, 0};

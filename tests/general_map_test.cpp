@@ -784,7 +784,8 @@ TEST_CASE("general map: which maps are made for what, and which photons they kee
     const auto make = [&](auto change) { return maps_of(change, room); };
     const auto kinds = [](const PhotonMap& map) {
         int bits = 0;
-        for (const auto& record : map.records) bits |= one_kind(record.kind).bits;
+        for (std::size_t i = 0; i < map.records.size(); ++i)
+            bits |= one_kind(map.records[i].kind).bits;
         return bits;
     };
     constexpr int direct = 1, caustic = 2, indirect = 4, shadow = 8;
@@ -917,7 +918,7 @@ TEST_CASE("general map: a pass that was stopped is not made up for by the next o
     CHECK_FALSE(maps.general.empty()); // that one was complete
     CHECK_FALSE(maps.complete);
     CHECK(maps.irradiance.empty()); // and nothing is worked out from half a map
-    settings.caustics.progress = {};
+    settings.caustics.progress = no_progress;
     const auto whole = make_photon_maps(room, settings);
     CHECK(whole.complete);
     CHECK_FALSE(whole.irradiance.empty());

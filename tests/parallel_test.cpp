@@ -9,11 +9,31 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <type_traits>
 #include <vector>
 
 #include "ljus/parallel.hpp"
 
 namespace {
+
+using ljus::FunctionRef;
+using ljus::Progress;
+
+struct Counter {
+    int calls = 0;
+    int operator()(int step) { return calls += step; }
+};
+struct Always {
+    bool operator()(long long, long long) const { return true; }
+};
+// With a name, constant or not; no temporary, and nothing that cannot be called so.
+static_assert(std::is_convertible_v<Always&, Progress>);
+static_assert(std::is_convertible_v<const Always&, Progress>);
+static_assert(!std::is_constructible_v<Progress, Always>);
+static_assert(!std::is_constructible_v<Progress, const Always>);
+static_assert(!std::is_constructible_v<Progress, Counter&>);
+static_assert(!std::is_default_constructible_v<Progress>);
+static_assert(std::is_trivially_copyable_v<Progress>);
 
 /// The sum of `body(block)` over all blocks, added in the order of the blocks.
 template <typename Body>
@@ -112,6 +132,21 @@ TEST_CASE("parallel: more than one thread works at a time") {
     CHECK(met);
 }
 #endif
+
+TEST_CASE("parallel: a reference to a function calls what it refers to") {
+    Counter counter;
+    const FunctionRef<int(int)> call = counter;
+    const FunctionRef<int(int)> copy = call; // of the counter, and not of the reference
+    CHECK(call(2) == 2);
+    CHECK(copy(3) == 5);
+    CHECK(counter.calls == 5);
+    const auto add = [](int& sum, int x) { sum += x; };
+    const FunctionRef<void(int&, int)> to = add;
+    int sum = 1;
+    to(sum, 6);
+    CHECK(sum == 7);
+    CHECK(ljus::no_progress(1, 2));
+}
 
 TEST_CASE("parallel: progress is told by one thread at a time, ascending, to the end") {
     for (const int threads : {1, 2, 4, 16}) {

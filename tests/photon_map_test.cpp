@@ -638,13 +638,6 @@ TEST_CASE("photon_map: records follow the order of the tree") {
         REQUIRE(map.records[i].flux == photon.flux);
         REQUIRE(map.records[i].kind == photon.kind);
     }
-    // From one end to the other, by either way of looking at a record.
-    std::size_t place = 0;
-    for (auto at = map.records.begin(); at != map.records.end(); ++at, ++place) {
-        REQUIRE(at->light == map.records[place].light);
-        REQUIRE((*at).flux == map.records[place].flux);
-    }
-    CHECK(place == 1000);
 }
 
 TEST_CASE("photon_map: at the border of the disc rounding puts no photon beyond it") {
@@ -760,18 +753,15 @@ TEST_CASE("photon_map: kind, light and normal of a record, each to the last bit"
                                    std::int8_t(numbers.between(-127, 127))}});
     const auto map = ljus::make_photon_map(photons);
     CHECK(map.records.bytes() == 98 * sizeof(map.records.blocks()[0]));
-    std::size_t i = 0;
-    for (const auto& record : map.records) {
+    REQUIRE(map.records.size() == 777);
+    for (std::size_t i = 0; i < map.records.size(); ++i) {
+        const auto record = map.records[i];
         const Photon& photon = photons[map.tree.point_ids()[i]];
         REQUIRE(record.normal == photon.normal);
         REQUIRE(record.light == photon.light);
         REQUIRE(record.kind == photon.kind);
         REQUIRE(record.flux == photon.flux);
-        ++i;
     }
-    CHECK(i == 777);
-    CHECK(map.records.begin()->light == photons[map.tree.point_ids()[0]].light);
-    CHECK(map.records.size() == 777);
     CHECK_FALSE(map.records.empty());
 }
 

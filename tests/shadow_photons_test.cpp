@@ -475,8 +475,8 @@ TEST_CASE("shadow photons: fewer rays, the same picture, for any number of threa
     const auto both = make_photon_maps(room, settings);
     CHECK_FALSE(both.general.empty());
     CHECK_FALSE(both.verdicts.empty());
-    for (const auto& record : both.general.records)
-        REQUIRE(record.kind != PhotonKind::shadow);
+    for (std::size_t i = 0; i < both.general.records.size(); ++i)
+        REQUIRE(both.general.records[i].kind != PhotonKind::shadow);
     settings.general.shadow_photons = true;
     const auto kept = make_photon_maps(room, settings);
     CHECK(kept.verdicts.known.bits == both.verdicts.known.bits);

@@ -6,10 +6,9 @@
 #include <concepts>
 #include <cstddef>
 #include <exception>
-#include <type_traits>
 
+#include "ljus/function_ref.hpp"
 #include "ljus/math/require.hpp"
-#include "ljus/progress.hpp"
 
 #ifdef _OPENMP
 #include <omp.h>
@@ -28,10 +27,32 @@ namespace ljus {
 /// The largest number of threads that one may ask for.
 inline constexpr int max_threads_allowed = 1024;
 
+/// What a long loop reports to, and is stopped by: anything with a name that can be
+/// called as `bool progress(long long done, long long total)`; false stops the loop.
+///
+///     auto progress = [&](long long done, long long total) { return !stopped; };
+///     parallel_blocks(count, body, {.progress = progress});
+///
+/// The callable must live as long as the loop: see FunctionRef.
+using Progress = FunctionRef<bool(long long done, long long total)>;
+
+namespace detail {
+
+/// Nothing to report to, and no reason to stop.
+struct NoProgress {
+    /// \return True.
+    constexpr bool operator()(long long, long long) const noexcept { return true; }
+};
+
+} // namespace detail
+
+/// The progress of loops that report to nobody.
+inline constexpr detail::NoProgress no_progress;
+
 /// How a parallel loop runs.
 struct ParallelSettings {
-    int threads = 0;        ///< 1 to max_threads_allowed; 0: one per processor.
-    Progress progress = {}; ///< Called after a block, by one thread at a time.
+    int threads = 0; ///< 1 to max_threads_allowed; 0: one per processor.
+    Progress progress = no_progress; ///< Called after a block, by one thread at a time.
 };
 
 namespace detail {
@@ -71,12 +92,9 @@ struct BlockRange {
     return {first, total - first < size ? total : first + size};
 }
 
-// A body of any type, as one that a compiled loop can call: the loop below is the same
-// for all of them, and not compiled again for each.
-struct BlockBody {
-    void* body;
-    void (*call)(void* body, long long block);
-};
+// What is done with a block. The loop below is the same for all bodies, and not
+// compiled again for each.
+using BlockBody = FunctionRef<void(long long block)>;
 
 // In blocks, by several threads; see parallel_blocks().
 LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
@@ -150,7 +168,7 @@ struct BlockLoop {
                 block = next++;
             }
             try {
-                body.call(body.body, block);
+                body(block);
                 {
                     const LockGuard turn(turns);
                     ++done;
@@ -248,12 +266,7 @@ LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
 template <std::invocable<long long> Body>
 bool parallel_blocks(long long count, Body&& body,
                      const ParallelSettings& options = {}) {
-    using B = std::remove_reference_t<Body>;
-    const auto call = [](void* any, long long block) {
-        (*static_cast<B*>(any))(block);
-    };
-    void* const any = const_cast<void*>(static_cast<const void*>(&body));
-    return detail::run_blocks(count, {any, call}, options);
+    return detail::run_blocks(count, body, options);
 }
 
 namespace detail {

@@ -10,7 +10,7 @@ problem() { echo "$*"; problems=$((problems + 1)); }
 # own room. Rooms on one floor do not know each other.
 floor() {
     case $1 in
-        ljus/version.hpp | ljus/progress.hpp | ljus/hook.hpp) echo 0 ;;
+        ljus/version.hpp | ljus/function_ref.hpp | ljus/hook.hpp) echo 0 ;;
         ljus/math/*) echo 1 ;;
         ljus/image/* | ljus/parallel.hpp) echo 2 ;;
         ljus/geometry/*) echo 3 ;;

@@ -125,8 +125,8 @@ public:
         });
     }
 
-    /// The blocks that visit_blocks() visits, for many balls of one radius together: the
-    /// one search that is another walk, see detail::find_in_balls().
+    /// The blocks that visit_blocks() visits, for many balls of one radius together:
+    /// the one search that is another walk, see detail::find_in_balls().
     template <typename Center, typename Expect>
     void find_in_balls(std::size_t balls, Center center, T radius, Expect expect,
                        detail::BallBlocks& found) const {

@@ -52,16 +52,18 @@ struct PhotonCensus {
 }
 
 /// Counts photons, whatever holds them.
-/// \param photons  Photons or the records of a map: anything with a kind and a flux.
+/// \param photons  Photons or the records of a map: a list by index and size() of
+///                 anything with a kind and a flux.
 /// \return The census.
 /// \cost One pass.
 template <typename Photons>
 requires requires(const Photons& p) {
-    { p.begin()->kind } -> std::convertible_to<PhotonKind>;
+    { p[p.size() - 1].kind } -> std::convertible_to<PhotonKind>;
 }
 [[nodiscard]] PhotonCensus census(const Photons& photons) {
     PhotonCensus result;
-    for (const auto& photon : photons) {
+    for (std::size_t i = 0; i < photons.size(); ++i) {
+        const auto& photon = photons[i];
         PhotonCount& count = result.kinds[static_cast<std::size_t>(photon.kind)];
         ++count.photons;
         count.flux += RgbT<double>(photon.flux);

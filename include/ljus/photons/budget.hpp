@@ -102,7 +102,7 @@ trace_pilot(const S& scene, PhotonPassSettings pass, std::size_t object,
     pass.shares[object] = 1;
     pass.photons = pass.give_up = paths;
     pass.iteration = ~pass.iteration - object;
-    pass.progress = {};
+    pass.progress = no_progress;
     return trace_photons(scene, MapType::caustics, pass);
 }
 

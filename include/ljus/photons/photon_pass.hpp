@@ -52,10 +52,10 @@ struct PhotonPassSettings {
     /// Of the caustics' photons: an object each, in the order of specular_objects(),
     /// with the sum 1; none: as lights see them. See \ref budget.
     std::vector<double> shares = {};
-    double max_memory = 4e9;       ///< Bytes that the photons may take while traced.
-    long long give_up = 1LL << 20; ///< Ends after so many paths if none was stored.
-    int threads = 0;               ///< 0: all that there are.
-    Progress progress = {};        ///< Called with (done, total); false stops.
+    double max_memory = 4e9;         ///< Bytes that the photons may take while traced.
+    long long give_up = 1LL << 20;   ///< Ends after so many paths if none was stored.
+    int threads = 0;                 ///< 0: all that there are.
+    Progress progress = no_progress; ///< Called with (done, total); false stops.
 };
 
 /// Refuses a pass that cannot be made.

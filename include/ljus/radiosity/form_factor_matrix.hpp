@@ -46,7 +46,7 @@ struct FormFactorSettings {
     bool closed = false;    ///< No light leaves: make each row's sum exactly 1.
     std::uint64_t seed = 1; ///< Of the random streams.
     int threads = 0;        ///< 0: all that there are.
-    Progress progress = {}; ///< Called with (done, total); false stops.
+    Progress progress = no_progress; ///< Called with (done, total); false stops.
 };
 
 namespace detail {

@@ -48,7 +48,7 @@ caustic_shares(const S& scene, const PhotonMappingSettings& settings) {
         pass.photons = 20000;
         pass.shadow_photons = false;
         pass.iteration = ~pass.iteration;
-        pass.progress = {};
+        pass.progress = no_progress;
         light = trace_photons(scene, MapType::general, pass).photons;
     }
     return caustic_shares(budget,

@@ -28,7 +28,7 @@ struct RenderSettings {
     int samples = 64;       ///< Primary rays in a pixel, at least 1; exactly as many.
     std::uint64_t seed = 1; ///< Of the random streams.
     int threads = 0;        ///< 0: all that there are.
-    Progress progress = {}; ///< Called with (done, total); false stops.
+    Progress progress = no_progress; ///< Called with (done, total); false stops.
     Sampling sampling = Sampling::multi_jittered; ///< Where in a pixel they go.
     Filter filter = Filter::box;                  ///< How much each place counts.
 };

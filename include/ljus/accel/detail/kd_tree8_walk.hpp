@@ -242,6 +242,7 @@ struct BallBlock {
     std::uint32_t block = 0; ///< Which block of the tree.
     std::uint32_t found = 0; ///< Which of its points: a bit each.
 };
+
 /// What a search for many balls finds: room that is kept from one to the next.
 struct BallBlocks {
     /// A node of the tree that a ball reaches, or a leaf.
@@ -253,11 +254,12 @@ struct BallBlocks {
     std::vector<Place> below{};      ///< Of the next level, in the same order.
     std::vector<BallBlock> blocks{}; ///< What is found, in the same order.
 };
+
 /// The other walk: the points within many balls together, one level of the tree after
-/// the other for all balls, then the leaves. In the walk of one ball each step waits for
-/// the memory that the step before has asked for. Those of different balls do not wait
-/// for each other: the processor works on several at once, and fetches what the next
-/// step reads meanwhile.
+/// the other for all balls, then the leaves. In the walk of one ball each step waits
+/// for the memory that the step before has asked for. Those of different balls do not
+/// wait for each other: the processor works on several at once, and fetches what the
+/// next step reads meanwhile.
 ///
 /// That is all it is good for: each ball finds what walk() would find, in the same
 /// order. It stays because the caustics of 64 samples, asked together, make a whole

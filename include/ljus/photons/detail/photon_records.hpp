@@ -60,42 +60,11 @@ struct RecordCode {
     }
 };
 
-/// Records in the order of a tree. To the reader a list of PhotonRecordT.
+/// Records in the order of a tree, eight side by side. To the reader a list of
+/// PhotonRecordT, by operator[] and size().
 template <std::floating_point T>
 class PhotonRecordsT {
 public:
-    /// Walks over the records.
-    class Iterator {
-    public:
-        /// What operator->() gives: a record to look at.
-        struct Arrow {
-            PhotonRecordT<T> record; ///< A copy.
-            /// The record.
-            const PhotonRecordT<T>* operator->() const noexcept { return &record; }
-        };
-        /// \param records  What to walk over.
-        /// \param index    Where to begin.
-        Iterator(const PhotonRecordsT& records, std::size_t index) noexcept
-            : records_(&records), index_(index) {}
-        /// The record here.
-        PhotonRecordT<T> operator*() const noexcept { return (*records_)[index_]; }
-        /// The record here.
-        Arrow operator->() const noexcept { return {(*records_)[index_]}; }
-        /// On to the next one.
-        Iterator& operator++() noexcept {
-            ++index_;
-            return *this;
-        }
-        /// Whether both are at the same place.
-        bool operator==(const Iterator& other) const noexcept {
-            return index_ == other.index_;
-        }
-
-    private:
-        const PhotonRecordsT* records_;
-        std::size_t index_;
-    };
-
     /// No records.
     PhotonRecordsT() = default;
 
@@ -124,10 +93,6 @@ public:
         return {block.direction[i], block.flux[i], block.light[i],
                 RecordCode::kind(block.code[i]), RecordCode::normal(block.code[i])};
     }
-    /// The first one.
-    [[nodiscard]] Iterator begin() const noexcept { return {*this, 0}; }
-    /// Behind the last one.
-    [[nodiscard]] Iterator end() const noexcept { return {*this, size_}; }
     /// The memory that they take.
     [[nodiscard]] std::size_t bytes() const noexcept {
         return blocks_.size() * sizeof(RecordBlockT<T>);

@@ -1,0 +1,53 @@
+#pragma once
+
+/// \file ljus/function_ref.hpp
+/// \brief A reference to anything that can be called.
+
+#include <concepts>
+#include <type_traits>
+
+#include "ljus/version.hpp"
+
+namespace ljus {
+
+/// \addtogroup parallel
+/// \{
+
+template <typename Signature>
+class FunctionRef;
+
+/// A reference to anything that can be called as `R callable(A...)`: what takes it is
+/// compiled once, and not again for each type of callable. As std::function_ref of
+/// C++26, but for objects only.
+///
+/// It refers to a callable with a name and does not own it, so that the callable must
+/// live as long as the reference is used. A temporary does not compile.
+template <typename R, typename... A>
+class FunctionRef<R(A...)> {
+public:
+    /// Refers to a callable with a name.
+    template <typename F>
+    requires(
+        !std::same_as<std::remove_cv_t<F>, FunctionRef> && std::is_object_v<F> &&
+        std::is_invocable_r_v<R, F&, A...>) constexpr FunctionRef(F& callable) noexcept
+        : callable_(&callable), call_([](const void* f, A... a) -> R {
+              return static_cast<R>(
+                  (*static_cast<F*>(const_cast<void*>(f)))(static_cast<A&&>(a)...));
+          }) {}
+
+    /// Not to a temporary: give the callable a name.
+    template <typename F>
+    requires(!std::same_as<std::remove_cvref_t<F>, FunctionRef>) FunctionRef(const F&&)
+    = delete;
+
+    /// Calls it.
+    R operator()(A... a) const { return call_(callable_, static_cast<A&&>(a)...); }
+
+private:
+    const void* callable_;
+    R (*call_)(const void*, A...);
+};
+
+/// \}
+
+} // namespace ljus
