@@ -127,9 +127,8 @@ Borders measure_borders(int maps, std::uint64_t seed) {
     for (int m = 0; m < maps; ++m) {
         const PhotonMap map = even_photons(6000, seed + std::uint64_t(m));
         const auto estimate = [&](float x, float y, const auto& how) {
-            return double(detail::estimate_irradiance(scene, map,
-                                                      square_vertex(scene, x, y), up,
-                                                      how, border_radius, all_photons)
+            return double(estimate_irradiance(scene, map, square_vertex(scene, x, y),
+                                              up, how, border_radius, all_photons)
                               .x);
         };
         for (int i = 0; i <= border_steps; ++i)
@@ -226,7 +225,7 @@ Deviation deviation(const PhotonMap& map, const IrradiancePointSettings& how,
         if (!chosen(i) || std::max(std::abs(p.x - 0.5f), std::abs(p.y - 0.5f)) > 0.4f)
             continue;
         places.push_back(p);
-        known.push_back(double(detail::estimate_irradiance(
+        known.push_back(double(estimate_irradiance(
                                    scene, map, square_vertex(scene, p.x, p.y), up, how,
                                    0.15f, [&](std::uint32_t k) { return wanted(i, k); })
                                    .x) /

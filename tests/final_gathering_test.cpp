@@ -149,9 +149,9 @@ TEST_CASE("final gathering: photons that all lie in one point have no area") {
                                           .flux = Rgb{1},
                                           .kind = PhotonKind::indirect,
                                           .normal = small_normal(Vec3{0, 0, 1})});
-    CHECK(detail::estimate_irradiance(scene, make_photon_map(photons),
-                                      at(scene, 0.5f, 0.5f), Vec3{0, 0, 1},
-                                      {.nearest = 5}, 0.3f, all_photons) == Rgb{0});
+    CHECK(estimate_irradiance(scene, make_photon_map(photons), at(scene, 0.5f, 0.5f),
+                              Vec3{0, 0, 1}, {.nearest = 5}, 0.3f,
+                              all_photons) == Rgb{0});
 }
 
 TEST_CASE("final gathering: an even light is found in the middle and at the edge") {
@@ -166,8 +166,8 @@ TEST_CASE("final gathering: an even light is found in the middle and at the edge
     for (std::uint64_t seed = 1; seed <= 16; ++seed) {
         const PhotonMap map = even_photons(20000, seed);
         const auto estimate = [&](float x, float y, const IrradiancePointSettings& s) {
-            return double(detail::estimate_irradiance(scene, map, at(scene, x, y), up,
-                                                      s, 0.3f, all_photons)
+            return double(estimate_irradiance(scene, map, at(scene, x, y), up, s, 0.3f,
+                                              all_photons)
                               .x);
         };
         for (int i = 0; i < 10; ++i) {
@@ -183,17 +183,15 @@ TEST_CASE("final gathering: an even light is found in the middle and at the edge
             const Vec3 p = map.tree.point(i);
             if (std::abs(p.x - 0.5f) > 0.4f || std::abs(p.y - 0.5f) > 0.4f) continue;
             const Vertex there = at(scene, p.x, p.y);
-            own.add(double(detail::estimate_irradiance(scene, map, there, up, how, 0.3f,
-                                                       all_photons)
-                               .x));
+            own.add(double(
+                estimate_irradiance(scene, map, there, up, how, 0.3f, all_photons).x));
             const auto not_i = [i](std::uint32_t k) { return k != i; };
-            others.add(double(
-                detail::estimate_irradiance(scene, map, there, up, how, 0.3f, not_i)
-                    .x));
+            others.add(
+                double(estimate_irradiance(scene, map, there, up, how, 0.3f, not_i).x));
         }
         // From the other side nothing comes.
-        below.add(double(detail::estimate_irradiance(scene, map, at(scene, 0.5f, 0.5f),
-                                                     -up, how, 0.3f, all_photons)
+        below.add(double(estimate_irradiance(scene, map, at(scene, 0.5f, 0.5f), -up,
+                                             how, 0.3f, all_photons)
                              .x));
     }
     CHECK(std::abs(apart(middle, 1)) < 4);
@@ -211,9 +209,9 @@ TEST_CASE("final gathering: fewer photons than asked for are spread over the dis
     const Flat scene = square(false);
     Mean few;
     for (std::uint64_t seed = 1; seed <= 400; ++seed)
-        few.add(double(detail::estimate_irradiance(scene, even_photons(100, seed),
-                                                   at(scene, 0.5f, 0.5f), Vec3{0, 0, 1},
-                                                   {.nearest = 64}, 0.3f, all_photons)
+        few.add(double(estimate_irradiance(scene, even_photons(100, seed),
+                                           at(scene, 0.5f, 0.5f), Vec3{0, 0, 1},
+                                           {.nearest = 64}, 0.3f, all_photons)
                            .x));
     CHECK(std::abs(apart(few, 1)) < 4);
 }
@@ -342,8 +340,8 @@ TEST_CASE("final gathering: an estimate of few photons, added up by hand") {
             const detail::PhotonRecordT<float> record = map.records[i];
             return record.kind == PhotonKind::indirect;
         };
-        return detail::estimate_irradiance(scene, map, at(scene, 0.5f, 0.5f), up, how,
-                                           radius, indirect);
+        return estimate_irradiance(scene, map, at(scene, 0.5f, 0.5f), up, how, radius,
+                                   indirect);
     };
     const auto near = [](const Rgb& a, const glm::dvec3& b) {
         for (int c = 0; c < 3; ++c)
@@ -363,9 +361,9 @@ TEST_CASE("final gathering: an estimate of few photons, added up by hand") {
     const auto beside = [&](bool edges) {
         const PhotonMap alone = make_photon_map(
             std::vector{photon(0.2f, PhotonKind::indirect, 1, {1, 1, 1})});
-        return double(detail::estimate_irradiance(scene, alone, at(scene, 0.1f, 0.5f),
-                                                  up, {.nearest = 50, .edges = edges},
-                                                  0.2f, all_photons)
+        return double(estimate_irradiance(scene, alone, at(scene, 0.1f, 0.5f), up,
+                                          {.nearest = 50, .edges = edges}, 0.2f,
+                                          all_photons)
                           .x);
     };
     CHECK(beside(false) == ljus_test::within(2 * 0.75 / (pi * 0.04), 1e-5));

@@ -134,6 +134,55 @@ float kernel_weight(const Parabola& parabola, float x) {
 
 } // namespace
 
+TEST_CASE("photon_map: the irradiance of a side, times the BRDF, is the radiance") {
+    Draws numbers{84};
+    auto photons = rain(20000, numbers);
+    for (std::size_t i = 0; i < photons.size(); ++i)
+        if (i % 4 == 0) { // from below, on a surface that they know
+            photons[i].direction.z *= -1;
+            photons[i].normal = ljus::small_normal(Vec3{0, 0, 1});
+        }
+    const auto map = ljus::make_photon_map(photons);
+    const auto floor = floor_at<float>(Vec3{0.1f, 0.2f, 0});
+    for (const std::size_t k : {0u, 2u, 50u, 500u})
+        for (const float up : {1.0f, -1.0f}) {
+            CAPTURE(k);
+            CAPTURE(up);
+            const DensityEstimateSettings gather{.radius = 0.2f, .nearest = k};
+            std::uint64_t gathered = 0;
+            const Rgb radiance = ljus::estimate_radiance(
+                map, floor, matt, Vec3{0, 0, up}, gather, ljus::light_kinds, gathered);
+            const Rgb irradiance = ljus::estimate_irradiance(
+                map, floor.point, Vec3{0, 0, up}, gather, ljus::light_kinds);
+            for (int c = 0; c < 3; ++c)
+                CHECK(matt.albedo[c] / std::numbers::pi_v<float> * irradiance[c] ==
+                      doctest::Approx(radiance[c]).epsilon(1e-6));
+            if (k != 2) CHECK(irradiance.x > 0);
+        }
+}
+
+TEST_CASE("photon_map: photons of the user's own need no normal, scene or material") {
+    // A photon whose normal is left 0 matches every surface.
+    std::vector<Photon> photons;
+    for (int i = 0; i < 100; ++i)
+        photons.push_back(
+            {.position{0.01f * float(i), 0, 0},
+             .direction{0, -1, 0},
+             .flux = Rgb{1},
+             .kind = i % 2 == 0 ? PhotonKind::caustic : PhotonKind::shadow});
+    const auto map = ljus::make_photon_map(photons);
+    const DensityEstimateSettings gather{.radius = 10, .kernel = Kernel::box};
+    const double one = 50 / (std::numbers::pi * 100); // 50 photons, 1 W each
+    const auto ask = [&](const PhotonMap& of, const Vec3& side) {
+        return double(ljus::estimate_irradiance(
+                          of, {.position{0.5f, 0, 0}, .normal{0, 1, 0}}, side, gather)
+                          .x);
+    };
+    CHECK(ask(map, {0, 1, 0}) == doctest::Approx(one)); // shadow photons do not count
+    CHECK(ask(map, {0, -1, 0}) == 0);
+    CHECK(ask(PhotonMap{}, {0, 1, 0}) == 0);
+}
+
 TEST_CASE("photon_map: a kernel of the user's own, in lanes and one by one") {
     Draws numbers{83};
     const auto map = ljus::make_photon_map(rain(20000, numbers));

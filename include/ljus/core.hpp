@@ -74,10 +74,10 @@ LJUS_CORE_EXTERN template RgbT<double>
 detail::flux_in_disc(const KdTree8&, const detail::PhotonRecordsT<float>&,
                      const detail::FluxDiscT<float>&, std::uint64_t&);
 namespace detail {
-LJUS_CORE_EXTERN template std::size_t nearest_photons(const PhotonMap&,
-                                                      const SurfacePointT<float>&,
-                                                      float, PhotonKinds,
-                                                      std::span<Neighbor>);
+LJUS_CORE_EXTERN template NearestPhotons nearest_photons(const PhotonMap&,
+                                                         const SurfacePointT<float>&,
+                                                         float, std::span<Neighbor>,
+                                                         const OfKinds&);
 } // namespace detail
 LJUS_CORE_EXTERN template Rgb estimate_radiance(const PhotonMap&, const VertexT<float>&,
                                                 const Lambertian&, const Vec3&,

@@ -1,17 +1,17 @@
 # The report's gain, set by hand.
-ljus_break_it(NAME caustics-gain HEADER photons/density_estimate.hpp TEST caustics
+ljus_break_it(NAME caustics-gain HEADER photons/irradiance_estimate.hpp TEST caustics
     FROM "sum / (std::numbers::pi * radius2)"
     TO   "5.0 * sum / (std::numbers::pi * radius2)"
     CASES "caustics: the estimate is*")
 
 # The report's clamp: no caustic brighter than a white wall.
-ljus_break_it(NAME caustics-clamp HEADER photons/density_estimate.hpp TEST caustics
+ljus_break_it(NAME caustics-clamp HEADER photons/irradiance_estimate.hpp TEST caustics
     FROM "sum / (std::numbers::pi * radius2)"
     TO   "glm::min(sum / (std::numbers::pi * radius2), RgbT<double>{0.1})"
     CASES "caustics: the estimate is*")
 
 # A cube's range query used as a ball: the corners count, over the disc's area.
-ljus_break_it(NAME caustics-cube HEADER photons/density_estimate.hpp TEST caustics
+ljus_break_it(NAME caustics-cube HEADER photons/irradiance_estimate.hpp TEST caustics
     FROM "sum / (std::numbers::pi * radius2)"
     TO   "sum * (4 / std::numbers::pi) / (std::numbers::pi * radius2)"
     CASES "caustics: the estimate is*")
@@ -23,7 +23,7 @@ ljus_break_it(NAME caustics-kernel HEADER photons/kernel.hpp TEST caustics
     CASES "caustics: the estimate is*")
 
 # The k-th photon sets the radius and is counted, too.
-ljus_break_it(NAME caustics-k HEADER photons/density_estimate.hpp TEST caustics
+ljus_break_it(NAME caustics-k HEADER photons/irradiance_estimate.hpp TEST caustics
     FROM "full ? 1 : 0"
     TO   "0"
     CASES "caustics: k nearest*")

@@ -12,11 +12,11 @@ ljus_break_it(NAME final-gathering-own-photon HEADER photons/irradiance_points.h
     TO   "true"
     CASES "final gathering: what is looked up*")
 
-# Fewer photons than asked for, over a disc of the radius that the settings leave open.
-ljus_break_it(NAME final-gathering-few HEADER photons/irradiance_points.hpp
+# Fewer photons than asked for, over the disc of the farthest of them.
+ljus_break_it(NAME final-gathering-few HEADER photons/irradiance_estimate.hpp
     TEST final_gathering
-    FROM "const double radius2 = full ? found[0].distance2 : double(radius) * double(radius);"
-    TO   "const double radius2 = full ? found[0].distance2 : double(settings.radius) * double(settings.radius);"
+    FROM "full ? room[0].distance2 : double(radius) * double(radius)"
+    TO   "room[0].distance2"
     CASES "final gathering: fewer photons*")
 
 # Light from the other side of a wall shines through it.

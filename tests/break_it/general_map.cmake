@@ -61,7 +61,7 @@ ljus_break_it(NAME general-map-cosine HEADER photons/photon_path.hpp TEST genera
     CASES "general map: direct and indirect*")
 
 # A disc of the wrong area.
-ljus_break_it(NAME general-map-area HEADER photons/density_estimate.hpp TEST general_map
+ljus_break_it(NAME general-map-area HEADER photons/irradiance_estimate.hpp TEST general_map
     FROM [[return RgbT<T>(sum / (std::numbers::pi * radius2));]]
     TO   [[return RgbT<T>(sum / radius2);]]
     CASES "general map: a flat estimate*")

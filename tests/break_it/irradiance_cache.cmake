@@ -31,8 +31,8 @@ ljus_break_it(NAME irradiance-cache-side HEADER render/final_gathering.hpp
 # Photons compared by the side that is seen, not by the normal that they keep.
 ljus_break_it(NAME irradiance-cache-turned HEADER photons/irradiance_points.hpp
     TEST irradiance_cache
-    FROM "const Vec3T<T> surface = vertex.point.normal;"
-    TO   "const Vec3T<T> surface = normal;"
+    FROM "map, vertex.point, radius, std::span"
+    TO   "map, {.position = vertex.point.position, .normal = normal}, radius, std::span"
     CASES "irradiance cache: surfaces seen*")
 
 # The weight of the visible share forgotten: lamps shine through walls.

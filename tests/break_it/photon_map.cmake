@@ -1,17 +1,17 @@
 # k photons over the disc of the k-th: k/(k-1) too bright.
-ljus_break_it(NAME photon-map-k HEADER photons/density_estimate.hpp TEST photon_map
-    FROM "k = full ? 1 : 0"
-    TO   "k = 0"
+ljus_break_it(NAME photon-map-k HEADER photons/irradiance_estimate.hpp TEST photon_map
+    FROM "skip = full ? 1 : 0"
+    TO   "skip = 0"
     CASES "photon_map: with the k nearest*")
 
 # (k-1)/k as well as the k-th photon left out: too dark by as much.
-ljus_break_it(NAME photon-map-twice HEADER photons/density_estimate.hpp TEST photon_map
-    FROM "sum / (std::numbers::pi * radius2)"
-    TO   "sum * (gather.nearest > 0 ? 1 - 1.0 / double(gather.nearest) : 1) / (std::numbers::pi * radius2)"
+ljus_break_it(NAME photon-map-twice HEADER photons/irradiance_estimate.hpp TEST photon_map
+    FROM "weight * factor(photon) * photon.flux"
+    TO   "(1 - 1 / T(gather.nearest)) * weight * factor(photon) * photon.flux"
     CASES "photon_map: with the k nearest*")
 
 # The area of the cube's side instead of the disc's.
-ljus_break_it(NAME photon-map-area HEADER photons/density_estimate.hpp TEST photon_map
+ljus_break_it(NAME photon-map-area HEADER photons/irradiance_estimate.hpp TEST photon_map
     FROM "std::numbers::pi * radius2"
     TO   "4 * radius2"
     CASES "photon_map: within a fixed*")
@@ -42,21 +42,21 @@ ljus_break_it(NAME photon-map-turned HEADER photons/density_estimate.hpp TEST ph
     CASES "photon_map: eight*")
 
 # A disc so flat that a ball of twice its radius loses the rim.
-ljus_break_it(NAME photon-map-flat HEADER photons/density_estimate.hpp TEST photon_map
+ljus_break_it(NAME photon-map-flat HEADER photons/irradiance_estimate.hpp TEST photon_map
     FROM "float thickness = 0.5f;"
     TO   "float thickness = 0.1f;"
     CASES "photon_map: on a ball as small*"
     COMPILED)
 
 # The k nearest of all kinds, of which shadow photons are then left out.
-ljus_break_it(NAME photon-map-kinds HEADER photons/density_estimate.hpp TEST photon_map
-    FROM "found, counts)"
-    TO   "found, [](std::uint32_t) { return true; })"
+ljus_break_it(NAME photon-map-kinds HEADER photons/irradiance_estimate.hpp TEST photon_map
+    FROM "return kinds.has(photon.kind);"
+    TO   "return true;"
     CASES "photon_map: photons of other kinds*")
 
 # 0/0 where all photons lie in one point.
-ljus_break_it(NAME photon-map-one-point HEADER photons/density_estimate.hpp TEST photon_map
-    FROM "if (!(radius2 > 1e-30 * widest2)) return RgbT<T>{T(0)};"
+ljus_break_it(NAME photon-map-one-point HEADER photons/irradiance_estimate.hpp TEST photon_map
+    FROM "if (!(radius2 > 1e-30 * widest2)) return {};"
     TO   ""
     CASES "photon_map: photons that all*")
 
@@ -85,7 +85,7 @@ ljus_break_it(NAME lane-estimate-float HEADER photons/detail/flux_in_disc.hpp TE
     CASES "photon_map: two million*")
 
 # A radius whose disc is so small that the radiance is infinite.
-ljus_break_it(NAME photon-map-radius HEADER photons/density_estimate.hpp TEST photon_map
+ljus_break_it(NAME photon-map-radius HEADER photons/irradiance_estimate.hpp TEST photon_map
     FROM "gather.radius >= 1e-15f"
     TO   "gather.radius > 0"
     CASES "photon_map: a way to gather*")
@@ -112,7 +112,7 @@ ljus_break_it(NAME together-side HEADER photons/detail/estimates_together.hpp
     CASES "photon_map: estimates that are*")
 
 # The disc of the k nearest is as high as the widest one.
-ljus_break_it(NAME photon-map-k-height HEADER photons/density_estimate.hpp
+ljus_break_it(NAME photon-map-k-height HEADER photons/irradiance_estimate.hpp
     TEST photon_map
     FROM "height * height > limit * limit * radius2"
     TO   "height * height > limit * limit * widest2"

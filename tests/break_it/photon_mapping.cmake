@@ -13,8 +13,8 @@ ljus_break_it(NAME photon-mapping-flux HEADER photons/photon_path.hpp TEST photo
 # A cosine in the estimate, which the arriving flux holds already: photons one by one, and
 # eight at a time.
 ljus_break_it(NAME photon-mapping-cosine HEADER photons/density_estimate.hpp TEST photon_mapping
-    FROM "weight * evaluate(material, wo, from_light)"
-    TO   "weight * std::abs(from_light.z) * evaluate(material, wo, from_light)"
+    FROM "return evaluate(material, wo, from_light);"
+    TO   "return std::abs(from_light.z) * evaluate(material, wo, from_light);"
     CASES "photon mapping: a matt ball embedded*")
 ljus_break_it(NAME photon-mapping-lane-cosine HEADER photons/detail/flux_in_disc.hpp
     TEST photon_mapping

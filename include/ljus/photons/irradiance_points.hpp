@@ -4,6 +4,7 @@
 /// \brief Irradiance, worked out once at some of the photons, for rays to look up.
 
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include "ljus/materials/lambertian.hpp"
@@ -73,8 +74,11 @@ template <std::floating_point T>
     return map.tree.point_ids()[index] % static_cast<std::size_t>(every) == 0;
 }
 
+} // namespace detail
+
 /// The irradiance on one side of a surface that the nearest photons make, by
-/// Epanechnikov's kernel.
+/// Epanechnikov's kernel, with edges made up for: estimate_irradiance() for those who
+/// know the scene.
 /// \param scene     The scene.
 /// \param map       The photons.
 /// \param vertex    Where.
@@ -88,34 +92,29 @@ template <SceneLike S, std::floating_point T, typename Wanted>
 estimate_irradiance(const S& scene, const PhotonMapT<T>& map, const VertexT<T>& vertex,
                     const Vec3T<T>& normal, const IrradiancePointSettings& settings,
                     T radius, const Wanted& wanted) {
-    std::array<Neighbor, max_nearest> room;
-    const std::span<Neighbor> found(room.data(), settings.nearest);
-    // By the shape's own normal, as photons have it; the side is told by where they go.
-    const Vec3T<T> surface = vertex.point.normal;
-    const auto counts = [&](std::uint32_t i) {
-        return wanted(i) &&
-               !turned_away(PhotonRecordT<T>(map.records[i]).normal, surface);
-    };
     // [estimate_irradiance]
-    const std::size_t count = map.tree.template nearest<max_nearest>(
-        vertex.point.position, radius, found, counts);
-    const bool full = count == settings.nearest;
-    const double radius2 = full ? found[0].distance2 : double(radius) * double(radius);
+    // By the shape's own normal, as photons have it; the side is told by where they go.
+    const auto counts = [&](std::uint32_t i, const auto&) { return wanted(i); };
+    std::array<Neighbor, max_nearest> room;
+    const auto [photons, radius2] = detail::nearest_photons(
+        map, vertex.point, radius, std::span(room.data(), settings.nearest), counts);
     if (!(radius2 > 0)) return RgbT<T>{T(0)};
     RgbT<double> sum{0};
-    for (std::size_t k = full ? 1 : 0; k < count; ++k) {
-        const PhotonRecordT<T> photon = map.records[found[k].index];
+    for (const Neighbor& near : photons) {
+        const detail::PhotonRecordT<T> photon = map.records[near.index];
         if (!(glm::dot(photon.direction, normal) < T(0))) continue;
         const double weight =
-            kernel_weight(Kernel::epanechnikov, found[k].distance2 / radius2);
+            kernel_weight(Kernel::epanechnikov, near.distance2 / radius2);
         sum += weight * RgbT<double>(photon.flux);
     }
-    const T part = settings.edges
-                       ? part_on_surface(scene, vertex, normal, T(std::sqrt(radius2)))
-                       : T(1);
-    return RgbT<T>(sum / (std::numbers::pi * radius2)) / part;
+    const T part = settings.edges ? detail::part_on_surface(scene, vertex, normal,
+                                                            T(std::sqrt(radius2)))
+                                  : T(1);
+    return detail::per_area<T>(sum, radius2) / part;
     // [estimate_irradiance]
 }
+
+namespace detail {
 
 /// The irradiance at a point: direct light by shadow rays, which know where its shadows
 /// end; caustics and indirect light from the maps.

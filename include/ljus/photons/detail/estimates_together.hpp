@@ -73,13 +73,8 @@ void estimates_together(const PhotonMapT<T>& map,
     while (at != found.blocks.end()) {
         const std::uint32_t ball = at->ball;
         const EstimatePlaceT<T>& place = places[ball];
-        const FluxDiscT<T, K> disc{.center = place.center,
-                                   .normal = place.normal,
-                                   .from = place.from,
-                                   .radius = radius,
-                                   .thickness = T(gather.thickness),
-                                   .kernel = gather.kernel,
-                                   .kinds = kinds};
+        const FluxDiscT<T, K> disc =
+            flux_disc(place.center, place.normal, place.from, gather, kinds);
         DiscFluxT<T, K> flux(map.records, disc);
         for (; at != found.blocks.end() && at->ball == ball; ++at) {
             const Lanes3T<T>& points = map.tree.blocks()[at->block];
@@ -88,7 +83,7 @@ void estimates_together(const PhotonMapT<T>& map,
         }
         const RgbT<double> sum = RgbT<double>(place.brdf) * flux.sum();
         gathered += flux.gathered();
-        give(place, RgbT<T>(sum / (std::numbers::pi * r2)));
+        give(place, per_area<T>(sum, r2));
     }
 }
 // [estimates_together]
