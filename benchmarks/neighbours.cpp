@@ -94,15 +94,13 @@ struct WideTree {
     }
     float sum_blocks(Vec3 center, float radius) const {
         ljus::detail::LanesT<float> sums{};
-        tree.visit_blocks(
-            center, radius, [&](const ljus::detail::FoundBlockT<float>& block) {
-                const float* const value = &values[block.first];
-                ljus::detail::for_lanes([&](int i) {
-                    sums.lane[i] += (block.found & ljus::detail::lane_bit[i]) != 0
-                                        ? value[i]
-                                        : 0.0f;
-                });
+        tree.visit_blocks(center, radius, [&](const auto& block) {
+            const float* const value = &values[block.first];
+            ljus::detail::for_lanes([&](int i) {
+                sums.lane[i] +=
+                    (block.found & ljus::detail::lane_bit[i]) != 0 ? value[i] : 0.0f;
             });
+        });
         float sum = 0;
         for (const float x : sums.lane) sum += x;
         return sum;

@@ -12,11 +12,11 @@ ljus_break_it(NAME final-gathering-own-photon HEADER photons/irradiance_points.h
     TO   "true"
     CASES "final gathering: what is looked up*")
 
-# Fewer photons than asked for, over the disc of the farthest of them.
-ljus_break_it(NAME final-gathering-few HEADER photons/irradiance_estimate.hpp
+# Photons are looked for within the radius that the settings leave open.
+ljus_break_it(NAME final-gathering-few HEADER photons/irradiance_points.hpp
     TEST final_gathering
-    FROM "full ? room[0].distance2 : double(radius) * double(radius)"
-    TO   "room[0].distance2"
+    FROM "vertex.point, radius, std::span"
+    TO   "vertex.point, T(settings.radius), std::span"
     CASES "final gathering: fewer photons*")
 
 # Light from the other side of a wall shines through it.

@@ -176,8 +176,8 @@ template <std::floating_point T>
 // [walk]
 template <std::floating_point T, typename Results>
 bool walk(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, Results& results) {
-    const auto& [shape, nodes, blocks] = tree;
-    if (shape.levels == 0) return results.leaf(tree, center, 0, blocks.size());
+    const KdTree8Shape& shape = tree.shape;
+    if (shape.levels == 0) return results.leaf(tree, center, 0, tree.blocks.size());
     // Of the nodes above, one on each level: which of their children have not been
     // looked at, and how far these are.
     struct Open {
@@ -195,7 +195,8 @@ bool walk(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, Results& results
     for (;;) {
         // Down into a node.
         LanesT<T>& far = near[Results::nearest_first ? level : 0];
-        far = near2<Results>(nodes[shape.first[std::size_t(level)] + number], center);
+        far = near2<Results>(tree.nodes[shape.first[std::size_t(level)] + number],
+                             center);
         if constexpr (!Results::nearest_first) {
             left &= lanes_up_to(far, results.reach.last);
             if (level + 1 == shape.levels)
@@ -217,7 +218,7 @@ bool walk(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, Results& results
             }
             left &= Results::nearest_first ? ~(1u << i) : left - 1;
             if constexpr (Results::nearest_first) {
-                const auto& node = nodes[shape.first[std::size_t(level)] + number];
+                const auto& node = tree.nodes[shape.first[std::size_t(level)] + number];
                 if (near[level].lane[i] > results.reach.sure && // T cannot tell
                     !results.reach.holds(
                         box_distance2(node.low[i], node.high[i], center)))
