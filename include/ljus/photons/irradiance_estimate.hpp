@@ -210,8 +210,8 @@ template <std::floating_point T, KernelLike<T> K>
 ///
 /// estimate_radiance() of a matt surface is this times its BRDF, and says which photons
 /// count. No scene, no material and no vertex are asked for, so that photons of your
-/// own will do: position, direction, flux and kind, and nothing else. One whose `normal`
-/// is left 0 matches every surface.
+/// own will do: position, direction, flux and kind, and nothing else. One whose
+/// `normal` is left 0 matches every surface.
 ///
 ///     const PhotonMap map = make_photon_map(photons);
 ///     const Rgb E = estimate_irradiance(map, {.position = x, .normal = n}, n,
