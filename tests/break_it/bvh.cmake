@@ -11,7 +11,7 @@ ljus_break_it(NAME box-slack HEADER geometry/box.hpp TEST box
     CASES "box: no ray at an edge*")
 
 # The corner across of a quad is left out.
-ljus_break_it(NAME box-quad HEADER geometry/box.hpp TEST box
+ljus_break_it(NAME box-quad HEADER geometry/quad.hpp TEST box
     FROM "{quad.edge_u, quad.edge_v, quad.edge_u + quad.edge_v}"
     TO   "{quad.edge_u, quad.edge_v}"
     CASES "box: no point of a shape*")

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ljus/radiosity/patch_grid.hpp"
 #include "ljus/render/detail/choose_passes.hpp"
 #include "ljus/render/detail/scene_remarks.hpp"
 #include "ljus/scene/index.hpp"
