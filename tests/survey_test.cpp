@@ -120,8 +120,8 @@ TEST_CASE("survey: each pass is on or off for a reason that is printed") {
     CHECK(plan.skipped_rays.why.starts_with("0 photons, and each light takes "));
     CHECK(plan.skipped_bounces.why == "0 photons were asked for");
     plan = survey(glass, settings = {});
-    CHECK_FALSE(plan.tree.on);
-    CHECK(plan.tree.why == "8 objects, eight are asked at a time");
+    CHECK(plan.tree.on);
+    CHECK(plan.tree.why == "8 objects, a tree finds the first on a ray");
     Room one;
     one.add(Sphere{}, one.add(Lambertian{}));
     CHECK_FALSE(survey(one, settings).tree.on);
@@ -223,7 +223,7 @@ TEST_CASE("survey: the lines as they are printed, and one photon is enough") {
     CHECK(plan.general_map.why == "indirect light is asked of it");
     CHECK(plan.indirect_rays.why == "7 of 8 objects light each other");
     CHECK(to_text(plan.tree) ==
-          "tree             off  8 objects, eight are asked at a time\n");
+          "tree             on   8 objects, a tree finds the first on a ray\n");
     CHECK(to_text(plan.thin_film) == "thin film        off  no material is one\n");
     std::string all;
     for (const PlanItem* item : plan.items()) all += to_text(*item);

@@ -88,8 +88,8 @@ concept FlatShape = Samplable<S> && requires(const S& shape) {
 
 namespace detail {
 
-/// Whether a flat shape takes its normal() as an argument instead of computing it again.
-/// Then the normal is computed once, when a scene is made.
+/// Whether a flat shape takes its normal() as an argument instead of computing it
+/// again. Then the normal is computed once, when a scene is made.
 template <typename S>
 inline constexpr bool is_plane = requires(const S& shape, Vec2T<ScalarOf<S>> u) {
     requires FlatShape<S>;

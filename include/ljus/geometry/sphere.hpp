@@ -361,9 +361,9 @@ template <std::floating_point T>
     return shape;
 }
 
-/// The texture coordinates of a point of a sphere: longitude and latitude, as a GlobeMap
-/// at its centre has them. They come from the normal, which is known well also far from
-/// the origin.
+/// The texture coordinates of a point of a sphere: longitude and latitude, as a
+/// GlobeMap at its centre has them. They come from the normal, which is known well also
+/// far from the origin.
 /// \param point  Of surface_point().
 /// \return (u, v) in [0, 1].
 /// \cost Two arc tangents.
