@@ -3,7 +3,6 @@
 /// \file ljus/geometry/sphere.hpp
 /// \brief The sphere |X - C|^2 = R^2: where a ray meets it, and all else it can do.
 
-#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <limits>
@@ -92,7 +91,7 @@ chord(const RayT<T>& ray, const SphereT<T>& sphere) noexcept {
     constexpr C max = std::numeric_limits<C>::max();
     if (!(std::abs(large) <= max && std::abs(small) <= max)) return std::nullopt;
     // By their size, not by q's sign: two roots that are almost one may change places.
-    return ChordT<C>{.enter = std::min(small, large), .leave = std::max(small, large)};
+    return ChordT<C>{.enter = glm::min(small, large), .leave = glm::max(small, large)};
 }
 // [chord ends]
 
@@ -169,8 +168,8 @@ template <std::floating_point T>
 }
 /// A mistake: it does not compile, and says why.
 template <std::floating_point T, std::floating_point Other>
-requires(!std::same_as<T, Other>)
-Vec3T<T> normal(const SphereT<T>&, const Vec3T<Other>&) {
+requires(!std::same_as<T, Other>) Vec3T<T> normal(const SphereT<T>&,
+                                                  const Vec3T<Other>&) {
     static_assert(sizeof(T) == 0, "The sphere and the point have two precisions.");
     return {};
 }
