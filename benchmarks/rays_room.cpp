@@ -204,13 +204,12 @@ void add_to(rays::Embree& embree, const Scene& scene) {
 template <typename Scene>
 void print_crossover(const Scene& whole, const std::vector<Ray>& set,
                      const std::string& folder) {
-    examples::Table table{.name = "bvh-first",
-                          .columns = {"objects"},
-                          .rows = {{"loop"}, {"wide tree"}, {"eight at once"}}};
+    examples::Table table{
+        .name = "bvh-first", .columns = {"objects"}, .rows = {{"loop"}, {"wide tree"}}};
     using Part = ljus::Scene<ljus::Shapes<ljus::Quad, ljus::Sphere, ljus::Triangle>,
                              ljus::Materials<ljus::Lambertian>>;
-    std::printf("\ndiffuse rays, the first objects only, ns per ray\n%8s %8s %8s %8s\n",
-                "objects", "loop", "tree", "lanes");
+    std::printf("\ndiffuse rays, the first objects only, ns per ray\n%8s %8s %8s\n",
+                "objects", "loop", "tree");
     for (const std::size_t count : {1u, 2u, 3u, 4u, 6u, 8u, 12u, 16u, 22u}) {
         Part part;
         const auto matt = part.add(ljus::Lambertian{});
@@ -219,16 +218,13 @@ void print_crossover(const Scene& whole, const std::vector<Ray>& set,
                 if (part.size() < count) part.add(shape, matt);
         };
         std::apply([&](const auto&... shapes) { (add(shapes), ...); }, whole.shapes);
-        const auto by_tree = ljus::index_scene(part, false);
-        const auto by_lanes = ljus::index_scene(part);
+        const auto by_tree = ljus::index_scene(part);
         const House loop{part};
         const House tree{by_tree};
-        const House lanes{by_lanes};
-        const auto t = rays::compare(set, false, loop, tree, lanes);
-        std::printf("%8zu %8.1f %8.1f %8.1f\n", count, t.nanoseconds[0],
-                    t.nanoseconds[1], t.nanoseconds[2]);
+        const auto t = rays::compare(set, false, loop, tree);
+        std::printf("%8zu %8.1f %8.1f\n", count, t.nanoseconds[0], t.nanoseconds[1]);
         table.columns.push_back(std::to_string(count));
-        for (const std::size_t k : {0u, 1u, 2u})
+        for (const std::size_t k : {0u, 1u})
             table.rows[k].push_back(examples::text(t.nanoseconds[k], "%.0f"));
     }
     save_csv(folder, table);
@@ -246,7 +242,7 @@ int main(int argc, char** argv) {
                                       "Embree / tree"}};
     const auto room = ljus::final_room();
     const auto& scene = room.scene;
-    const auto indexed = ljus::index_scene(scene, false); // by the tree
+    const auto indexed = ljus::index_scene(scene);
     const auto in_double = ljus::index_scene<double>(scene);
     const report::Loop as_report(scene);
     const Virtual objects(scene);

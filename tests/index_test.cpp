@@ -184,7 +184,7 @@ Ray hard_ray(Numbers& n, const S& scene) {
 
 } // namespace
 
-TEST_CASE("few shapes: the loop's answers where rounding decides") {
+TEST_CASE("indexed scene: the loop's answers where rounding decides") {
     Numbers n;
     int hits = 0;
     for (const int count : {3, 9, 20, 32})
@@ -200,7 +200,7 @@ TEST_CASE("few shapes: the loop's answers where rounding decides") {
 }
 
 TEST_CASE(
-    "few shapes: the loop's answers from far away, to a range that ends at a hit") {
+    "indexed scene: the loop's answers from far away, to a range that ends at a hit") {
     // From 1e6 away t is rounded by a tenth of a ball of radius 1.
     Numbers n;
     const auto scene = crowd<float>(n, 20, 5, 1);
@@ -220,10 +220,11 @@ TEST_CASE(
     CHECK(hits > 2000);
 }
 
-TEST_CASE("few shapes: the loop's answers about small ones far from where rays begin") {
+TEST_CASE(
+    "indexed scene: the loop's answers about small ones far from where rays begin") {
     // What is rounded there is the place of the shapes, in no number of the ray.
     Numbers n{3};
-    int hits = 0, scenes = 0;
+    int hits = 0;
     for (int repeat = 0; repeat < 80; ++repeat) {
         const double far = n.power(1, 5), size = far * n.power(-4, -1);
         CrowdT<float> scene;
@@ -237,8 +238,6 @@ TEST_CASE("few shapes: the loop's answers about small ones far from where rays b
             scene.add(Triangle{corner, corner + edge(), corner + edge()}, grey);
         }
         const auto indexed = index_scene(scene);
-        if (indexed.few.empty()) continue; // a sliver among them
-        ++scenes;
         for (int k = 0; k < 240; ++k) {
             const auto j = std::size_t(n.below(4));
             const Vec3 to =
@@ -257,40 +256,7 @@ TEST_CASE("few shapes: the loop's answers about small ones far from where rays b
             hits += same(scene, indexed, ray);
         }
     }
-    CHECK(scenes > 40);
     CHECK(hits > 10000);
-}
-
-TEST_CASE("few shapes: which scenes a tree is made for") {
-    Numbers n;
-    const auto few = [](const auto& scene) {
-        const auto indexed = index_scene(scene);
-        CHECK(indexed.few.empty() == !indexed.tree.primitive_ids().empty());
-        CHECK(indexed.ids.size() == scene.size());
-        return !indexed.few.empty();
-    };
-    CHECK(few(crowd<float>(n, 32, 5, 1)));
-    CHECK_FALSE(few(crowd<float>(n, 33, 5, 1)));
-    CHECK_FALSE(few(crowd<double>(n, 12, 5, 1)));
-    CrowdT<float> scene = crowd<float>(n, 12, 5, 1);
-    CHECK(index_scene<double>(scene).few.empty());
-    CHECK(index_scene(scene, false).few.empty());
-    CHECK_FALSE(index_scene(scene, false).tree.primitive_ids().empty());
-    const auto grey = scene.add(Lambertian{});
-    scene.add(Quad{{0, 0, 0}, {1, 0, 0}, {1, 1e-7f, 0}}, grey); // a sliver
-    CHECK_FALSE(few(scene));
-    scene = crowd<float>(n, 12, 5, 1);
-    scene.add(Sphere{{1e9f, 0, 0}, 1}, scene.add(Lambertian{}));
-    CHECK_FALSE(few(scene));
-    // Rays from so far away that the bounds do not hold ask every shape.
-    scene = crowd<float>(n, 12, 5, 1);
-    const auto indexed = index_scene(scene);
-    for (const float far : {1e9f, 1e12f})
-        for (int i = 0; i < 1000; ++i) {
-            const Vec3 origin = far * Vec3(n.direction());
-            same(scene, indexed,
-                 Ray{.origin = origin, .direction = Vec3(n.point(5)) - origin});
-        }
 }
 
 TEST_CASE_TEMPLATE(
@@ -334,140 +300,6 @@ TEST_CASE("indexed scene: of many at one place the first wins, as in the loop") 
     }
 }
 
-TEST_CASE("few shapes: who is asked, in which order, and who is not") {
-    // Balls and walls one behind the other along z, in any order.
-    FewShapes few;
-    CHECK(few.empty());
-    const std::array<float, 6> starts{5, 1, 4, 2, 6, 3};
-    for (std::uint32_t i = 0; i < 6; ++i) {
-        const float z = starts[i];
-        CHECK((i % 3 == 0 ? few.add(Sphere{{0, 0, z + 0.25f}, 0.25f}, i)
-               : i % 3 == 1
-                   ? few.add(Quad{{-1, -1, z}, {2, 0, 0}, {0, 2, 0}}, i)
-                   : few.add(Triangle{{-1, -1, z}, {3, -1, z}, {-1, 3, z}}, i)));
-        CHECK_FALSE(few.empty());
-    }
-    const auto asked = [](const FewShapes& shapes, const Ray& ray) {
-        std::vector<std::uint32_t> numbers;
-        shapes.closest(ray, [&](std::uint32_t i, Ray&) { numbers.push_back(i); });
-        std::vector<std::uint32_t> any, sorted = numbers;
-        CHECK_FALSE(shapes.any(ray, [&](std::uint32_t i) {
-            any.push_back(i);
-            return false;
-        }));
-        std::sort(any.begin(), any.end());
-        std::sort(sorted.begin(), sorted.end());
-        CHECK(any == sorted);
-        return numbers;
-    };
-    const Ray along{.origin{0.01f, 0.02f, 0}, .direction{0, 0, 1}};
-    CHECK(asked(few, along) == std::vector<std::uint32_t>{1, 3, 5, 2, 0, 4});
-    CHECK(asked(few, {.origin{0.01f, 0.02f, 9}, .direction{0, 0, -1}}) ==
-          std::vector<std::uint32_t>{4, 0, 2, 5, 3, 1});
-    // The ray's ends; and a hit on the way ends the search.
-    Ray part = along;
-    part.t_max = 3.5f;
-    CHECK(asked(few, part) == std::vector<std::uint32_t>{1, 3, 5});
-    part = along;
-    part.t_min = 3.75f;
-    CHECK(asked(few, part) == std::vector<std::uint32_t>{2, 0, 4});
-    int count = 0;
-    few.closest(along, [&](std::uint32_t, Ray& rest) {
-        ++count;
-        rest.t_max = 1;
-    });
-    CHECK(count == 1);
-    CHECK(few.any(along, [](std::uint32_t i) { return i == 4; }));
-    // Beside all of them nobody is asked; beside a triangle, within the
-    // parallelogram of its edges, it is not.
-    CHECK(asked(few, {.origin{9, 0, 0}, .direction{0, 0, 1}}).empty());
-    FewShapes one;
-    CHECK(one.add(Triangle{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, 7));
-    CHECK(asked(one, {.origin{0.3f, 0.3f, 0}, .direction{0, 0, 1}}).size() == 1);
-    CHECK(asked(one, {.origin{0.7f, 0.7f, 0}, .direction{0, 0, 1}}).empty());
-
-    // Two balls around the ray's beginning, and one before it: whoever ends the search
-    // right there, the other one is as near, and is asked.
-    FewShapes balls;
-    CHECK(balls.add(Sphere{{0, 0, 5}, 1}, 0));
-    CHECK(balls.add(Sphere{{0, 0, 0}, 1}, 1));
-    CHECK(balls.add(Sphere{{0, 0.1f, 0}, 1}, 2));
-    CHECK_FALSE(balls.empty());
-    for (const float zero : {0.0f, -0.0f}) {
-        Ray from = along;
-        from.t_min = zero;
-        std::vector<std::uint32_t> numbers;
-        balls.closest(from, [&](std::uint32_t i, Ray& rest) {
-            numbers.push_back(i);
-            rest.t_max = 0;
-        });
-        std::sort(numbers.begin(), numbers.end());
-        CHECK(numbers == std::vector<std::uint32_t>{1, 2});
-        CHECK(asked(balls, from).back() == 0);
-    }
-}
-
-TEST_CASE("few shapes: a ray for which no bound holds is asked of all") {
-    FewShapes few;
-    CHECK(few.add(Sphere{{0, 0, 5}, 1}, 0));
-    CHECK(few.add(Sphere{{0, 0, -5}, 1}, 1));
-    CHECK(few.add(Quad{{-1, 7, -1}, {2, 0, 0}, {0, 0, 2}}, 2));
-    const auto asked = [&](const Ray& ray) {
-        int count = 0;
-        CHECK_FALSE(few.any(ray, [&](std::uint32_t) { return ++count < 0; }));
-        return count;
-    };
-    CHECK(asked({.origin{0, 0, 0}, .direction{0, 0, 1}}) == 1);
-    CHECK(asked({.origin{0, 0, 0}, .direction{0, 0, 1e-5f}}) == 1);
-    CHECK(asked({.origin{0, 0, 0}, .direction{0, 0, 1e7f}}) == 1);
-    const float huge = 1e9f, nan = std::numeric_limits<float>::quiet_NaN();
-    CHECK(asked({.origin{0, 0, 0}, .direction{0, 0, 1e-7f}}) == 3);
-    CHECK(asked({.origin{0, 0, 0}, .direction{0, 0, 1e-30f}}) == 3);
-    CHECK(asked({.origin{0, 0, 0}, .direction{0, 0, huge}}) == 3);
-    CHECK(asked({.origin{0, 0, -huge}, .direction{0, 0, 1}}) == 3);
-    CHECK(asked({.origin{0, nan, 0}, .direction{0, 0, 1}}) == 3);
-    CHECK(asked({.origin{0, 0, 0}, .direction{0, nan, 1}}) == 3);
-    // Behind its origin a ray may begin, too.
-    Ray back{.origin{0, 0, 0}, .direction{0, 0, 1}};
-    back.t_min = -6;
-    CHECK(asked(back) == 3);
-    back.t_min = nan;
-    CHECK(asked(back) == 3);
-}
-
-TEST_CASE("few shapes: what has room there") {
-    FewShapes few;
-    // Without an area nothing is ever met: that does no harm, and takes no room.
-    CHECK(few.add(Quad{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, 0));
-    CHECK(few.add(Triangle{{0, 0, 0}, {1, 0, 0}, {3, 0, 0}}, 1));
-    CHECK(few.empty());
-    for (std::uint32_t i = 0; i < FewShapes::most; ++i)
-        CHECK((i % 2 ? few.add(Sphere{{float(i), 0, 0}, 0.25f}, i)
-                     : few.add(Quad{{float(i), 0, 0}, {0, 1, 0}, {0, 0, 1}}, i)));
-    CHECK(FewShapes::most == 32);
-    CHECK_FALSE(few.add(Sphere{}, 32));
-    CHECK_FALSE(few.add(Quad{}, 32));
-    CHECK_FALSE(FewShapes{}.add(Sphere{{1e9f, 0, 0}, 1}, 0));
-    CHECK_FALSE(FewShapes{}.add(Sphere{{0, 0, 0}, 1e-10f}, 0)); // too small
-    CHECK_FALSE(FewShapes{}.add(Quad{{0, 0, 0}, {1e-10f, 0, 0}, {0, 1e-10f, 0}}, 0));
-    // Numbers go on from list to list; another kind of shape has no place.
-    std::tuple<std::vector<Sphere>, std::vector<Quad>> lists{
-        {Sphere{{0, 0, 5}, 1}, Sphere{{0, 0, 9}, 1}},
-        {Quad{{-1, -1, 20}, {2, 0, 0}, {0, 2, 0}}}};
-    std::vector<std::uint32_t> numbers;
-    const Ray along{.origin{0.1f, 0.1f, 0}, .direction{0, 0, 1}};
-    make_few_shapes(lists).closest(
-        along, [&](std::uint32_t i, Ray&) { numbers.push_back(i); });
-    CHECK(numbers == std::vector<std::uint32_t>{0, 1, 2});
-    struct Other {};
-    CHECK_FALSE(make_few_shapes(
-                    std::tuple<std::vector<Sphere>, std::vector<Other>>{{Sphere{}}, {}})
-                    .empty());
-    CHECK(make_few_shapes(std::tuple<std::vector<Sphere>, std::vector<Other>>{
-                              {Sphere{}}, {Other{}}})
-              .empty());
-}
-
 TEST_CASE("indexed scene: the frames of its flat shapes face as the objects do") {
     Scene<Shapes<Sphere, Quad, Triangle>, Materials<Lambertian>> scene;
     const auto grey = scene.add(Lambertian{});
@@ -484,21 +316,15 @@ TEST_CASE("indexed scene: the frames of its flat shapes face as the objects do")
     CHECK(frames[2][0].normal == Vec3{0, 0, -1});
     CHECK(glm::dot(frames[1][1].tangent, frames[1][1].normal) == 0);
     CHECK(index_scene(scene).frames[1][1].normal == Vec3{0, 0, -1});
-    // From how many shapes on there is a tree, or eight are asked at a time.
+    // From how many shapes on there is a tree.
     CHECK_FALSE(detail::needs_tree(0));
     CHECK_FALSE(detail::needs_tree(2));
     CHECK(detail::needs_tree(3));
-    CHECK(detail::are_few(scene));
-    CHECK(detail::are_few(index_scene(scene)));
-    CHECK_FALSE(detail::are_few(index_scene(scene, false)));
     Scene<Shapes<Sphere>, Materials<Lambertian>> two;
     const auto matt = two.add(Lambertian{});
     for (int i = 0; i < 2; ++i) two.add(Sphere{}, matt);
-    CHECK_FALSE(detail::are_few(two));
     CHECK(index_scene(two).ids.empty());
-    CHECK_FALSE(detail::are_few(index_scene(two)));
     two.add(Sphere{}, matt);
-    CHECK(detail::are_few(two));
     CHECK(index_scene(two).ids.size() == 3);
     // It stands for the scene: what is asked of one is what the other says.
     const auto indexed = index_scene(scene);

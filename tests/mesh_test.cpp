@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "ljus/geometry/solid_angle.hpp"
+#include "ljus/geometry/shape.hpp"
 #include "ljus/geometry/watertight.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"

@@ -117,6 +117,6 @@ TEST_CASE_TEMPLATE("moving: a shape is where its time says, and in its bounds", 
     CHECK_THROWS_AS(check(Moving<S>{nowhere, {1, 2, 3}}), std::invalid_argument);
     CHECK(detail::is_moving<Moving<S>>);
     CHECK_FALSE(detail::is_moving<S>);
-    CHECK(detail::is_flat<S> == !std::is_same_v<S, Sphere>);
+    CHECK(FlatShape<S> == !std::is_same_v<S, Sphere>);
     CHECK(std::is_same_v<decltype(at_time(any(), 0.5f)), const S&>);
 }

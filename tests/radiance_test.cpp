@@ -12,9 +12,7 @@
 #include <numbers>
 #include <vector>
 
-#include "ljus/geometry/quad.hpp"
-#include "ljus/geometry/solid_angle.hpp"
-#include "ljus/geometry/sphere.hpp"
+#include "ljus/geometry/shape.hpp"
 #include "ljus/inspect/class_means.hpp"
 #include "ljus/inspect/explain.hpp"
 #include "ljus/ljus.hpp"

@@ -12,7 +12,9 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "ljus/geometry/moving.hpp"
@@ -295,15 +297,31 @@ TEST_CASE("shape: what there is without more said") {
 
 namespace reader {
 
-/// A ball of a reader that has all that a shape may have, and one that has nothing.
-struct Rich {
-    Sphere ball{};
-};
+/// The rows of the table of hooks, in their order.
+constexpr std::array<std::string_view, 16> rows{
+    "bounds",      "meets",          "shading_normal",      "area",
+    "sample_area", "sample_towards", "pdf_towards",         "center_sample",
+    "normal",      "point_at",       "form_factor_from",    "facet_of",
+    "patch_grid",  "corners_of",     "texture_coordinates", "translated"};
+/// The number of a row.
+constexpr std::size_t row(std::string_view name) {
+    std::size_t i = 0;
+    while (rows[i] != name) ++i;
+    return i;
+}
+
+/// A ball of a reader that has what a shape must have, and one that has one hook more.
 struct Poor {
     Sphere ball{};
 };
+template <std::size_t Row>
+struct One {
+    Sphere ball{};
+};
 template <typename S>
-inline constexpr bool is_shape = std::is_same_v<S, Rich> || std::is_same_v<S, Poor>;
+inline constexpr bool is_shape = std::is_same_v<S, Poor>;
+template <std::size_t Row>
+inline constexpr bool is_shape<One<Row>> = true;
 template <typename S>
 requires is_shape<S> std::optional<float> intersect(const Ray& ray, const S& s) {
     return ljus::intersect(ray, s.ball);
@@ -320,36 +338,82 @@ requires is_shape<S> Sphere bounding_sphere(const S& s) {
 template <typename S>
 requires is_shape<S>
 void check(const S&) {}
-inline Box bounds(const Rich& s) {
-    return ljus::bounds(s.ball);
+
+// The hooks, each of the one shape that has it.
+template <std::size_t R>
+requires(R == row("bounds")) Box bounds(const One<R>&) {
+    return {};
 }
-template <typename Compute>
-bool meets(const Ray&, const Rich&) {
+template <typename Compute, std::size_t R>
+requires(R == row("meets")) bool meets(const Ray&, const One<R>&) {
     return false;
 }
-inline Vec3 shading_normal(const Rich&, const FlatHitT<float>&, const Vec3& n) {
+template <std::size_t R>
+requires(R == row("shading_normal")) Vec3
+    shading_normal(const One<R>&, const FlatHitT<float>&, const Vec3& n) {
     return n;
 }
-inline float area(const Rich& s) {
-    return ljus::area(s.ball);
+template <std::size_t R>
+requires(R == row("area")) float area(const One<R>&) {
+    return 1;
 }
-inline SurfacePoint sample_area(const Rich& s, const Vec2& u) {
-    return ljus::sample_area(s.ball, u);
+template <std::size_t R>
+requires(R == row("sample_area")) SurfacePoint sample_area(const One<R>&, const Vec2&) {
+    return {};
 }
-inline int sample_towards(const Rich&, const Vec3&, const Vec2&) {
+template <std::size_t R>
+requires(R == row("sample_towards")) SeenPointT<float> sample_towards(const One<R>&,
+                                                                      const Vec3&,
+                                                                      const Vec2&) {
+    return {};
+}
+template <std::size_t R>
+requires(R == row("pdf_towards")) float pdf_towards(const One<R>&, const Vec3&,
+                                                    const SurfacePoint&) {
     return 0;
 }
-inline int pdf_towards(const Rich&, const Vec3&, const SurfacePoint&) {
+template <std::size_t R>
+requires(R == row("center_sample")) Vec2 center_sample(const One<R>&) {
+    return Vec2{0};
+}
+template <std::size_t R>
+requires(R == row("normal")) Vec3 normal(const One<R>&) {
+    return Vec3{0, 0, 1};
+}
+template <std::size_t R>
+requires(R == row("point_at")) SurfacePoint
+    point_at(const One<R>&, float, float, const Vec3&) {
+    return {};
+}
+template <std::size_t R>
+requires(R == row("point_at")) SurfacePoint
+    sample_area(const One<R>&, const Vec2&, const Vec3&) {
+    return {};
+}
+template <std::size_t R>
+requires(R == row("form_factor_from")) std::optional<float> form_factor_from(
+    const Vec3&, const Vec3&, const One<R>&, bool) {
+    return {};
+}
+template <std::size_t R>
+requires(R == row("facet_of")) Facet facet_of(const One<R>&) {
+    return {};
+}
+template <std::size_t R>
+requires(R == row("patch_grid")) int patch_grid(const One<R>&, double) {
     return 0;
 }
-inline Vec2 center_sample(const Rich&) {
+template <std::size_t R>
+requires(R == row("corners_of")) std::array<Vec3, 3> corners_of(const One<R>&) {
+    return {};
+}
+template <std::size_t R>
+requires(R == row("texture_coordinates")) Vec2
+    texture_coordinates(const One<R>&, const FlatHitT<float>&, const SurfacePoint&) {
     return Vec2{0};
 }
-inline Vec2 texture_coordinates(const Rich&, const FlatHitT<float>&,
-                                const SurfacePoint&) {
-    return Vec2{0};
-}
-inline Rich translated(const Rich& s, const Vec3&) {
+template <std::size_t R>
+requires(R == row("translated")) One<R> translated(const One<R>& s, const Vec3&) {
     return s;
 }
 
@@ -362,17 +426,32 @@ TEST_CASE("shape: which hooks a shape has, by name") {
             if (hook.provided) all.append(hook.name).append(" ");
         return all;
     };
-    static_assert(Shape<reader::Poor> && Samplable<reader::Rich>);
-    static_assert(!HasArea<reader::Poor> && HasArea<reader::Rich>);
+    static_assert(Shape<reader::Poor> && !HasArea<reader::Poor>);
+    using Sized = reader::One<reader::row("area")>;
+    static_assert(HasArea<Sized> && !Samplable<Sized>);
+    // What has no point to be aimed at is not aimed at.
+    static_assert(!FlatShape<reader::One<reader::row("normal")>>);
+    static_assert(FlatShape<Quad> && FlatShape<Triangle> && !FlatShape<Sphere>);
     CHECK(names(detail::shape_hooks<reader::Poor>()).empty());
-    CHECK(names(detail::shape_hooks<reader::Rich>()) ==
-          "bounds meets shading_normal area sample_area sample_towards pdf_towards "
-          "center_sample texture_coordinates translated ");
+    // Each hook alone is told from all others.
+    const auto alone = [&]<std::size_t... R>(std::index_sequence<R...>) {
+        const auto check_one = [&](const auto& table, std::size_t row) {
+            REQUIRE(table.size() == reader::rows.size());
+            CHECK(table[row].name == reader::rows[row]);
+            CHECK(names(table) == std::string(reader::rows[row]) + " ");
+        };
+        (check_one(detail::shape_hooks<reader::One<R>>(), R), ...);
+    };
+    alone(std::make_index_sequence<reader::rows.size()>());
     CHECK(names(detail::shape_hooks<Sphere>()) ==
-          "bounds area sample_area translated ");
-    CHECK(names(detail::shape_hooks<Triangle>()) ==
-          "bounds area sample_area translated is_flat ");
-    CHECK(names(detail::shape_hooks<Moving<Quad>>()) == "bounds area sample_area ");
+          "bounds area sample_area sample_towards pdf_towards center_sample "
+          "form_factor_from texture_coordinates translated ");
+    for (const auto& flat :
+         {names(detail::shape_hooks<Triangle>()), names(detail::shape_hooks<Quad>())})
+        CHECK(flat == "bounds area sample_area normal point_at facet_of corners_of "
+                      "translated ");
+    CHECK(names(detail::shape_hooks<Moving<Quad>>()) ==
+          "bounds area sample_area texture_coordinates ");
     // A shape without an area has no points to choose; the one there is is of no use.
     const SurfacePoint none = sample_area(reader::Poor{}, Vec2{0.5f});
     CHECK(none.position == Vec3{0});

@@ -5,6 +5,7 @@
 /// shape; a test of a mean gives a false alarm once in 1.7 million, of counts once in a
 /// million.
 
+#include "ljus/geometry/shape.hpp"
 #include "ljus/geometry/solid_angle.hpp"
 
 #include <doctest/doctest.h>

@@ -10,6 +10,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "ljus/geometry/shape.hpp"
 #include "ljus/geometry/solid_angle.hpp"
 #include "support/numbers.hpp"
 

@@ -120,8 +120,8 @@ TEST_CASE("survey: each pass is on or off for a reason that is printed") {
     CHECK(plan.skipped_rays.why.starts_with("0 photons, and each light takes "));
     CHECK(plan.skipped_bounces.why == "0 photons were asked for");
     plan = survey(glass, settings = {});
-    CHECK_FALSE(plan.tree.on);
-    CHECK(plan.tree.why == "8 objects, eight are asked at a time");
+    CHECK(plan.tree.on);
+    CHECK(plan.tree.why == "8 objects, a tree finds the first on a ray");
     Room one;
     one.add(Sphere{}, one.add(Lambertian{}));
     CHECK_FALSE(survey(one, settings).tree.on);
@@ -223,7 +223,7 @@ TEST_CASE("survey: the lines as they are printed, and one photon is enough") {
     CHECK(plan.general_map.why == "indirect light is asked of it");
     CHECK(plan.indirect_rays.why == "7 of 8 objects light each other");
     CHECK(to_text(plan.tree) ==
-          "tree             off  8 objects, eight are asked at a time\n");
+          "tree             on   8 objects, a tree finds the first on a ray\n");
     CHECK(to_text(plan.thin_film) == "thin film        off  no material is one\n");
     std::string all;
     for (const PlanItem* item : plan.items()) all += to_text(*item);
@@ -283,8 +283,10 @@ TEST_CASE("survey: a hook that is misspelt shows") {
           "shape 1          has meets, area; without bounds (its sphere's box), "
           "shading_normal (the geometric one), sample_area (refused as a light), "
           "sample_towards (points of its area), pdf_towards (points of its area), "
-          "center_sample (u = v = 1/2), texture_coordinates (those of the hit), "
-          "translated (does not compile), is_flat (at its sphere)");
+          "center_sample (u = v = 1/2), normal (at its sphere), point_at (at each "
+          "point), form_factor_from (by facet_of()), facet_of (by rays), patch_grid "
+          "(left out of it), corners_of (darker at them), texture_coordinates (those "
+          "of the hit), translated (does not compile)");
     CHECK(plan.types[1].find("shape 2          has bounds, area, ") == 0);
     CHECK(plan.types[2] ==
           "material 1       has emission; without absorption (clear), at_point (the "
@@ -304,18 +306,21 @@ TEST_CASE("survey: the hooks of the house's own types") {
         return false;
     };
     const auto sphere = detail::shape_hooks<Sphere>();
-    for (const auto* name :
-         {"bounds", "area", "sample_area", "sample_towards", "pdf_towards",
-          "center_sample", "texture_coordinates", "translated"})
+    for (const auto* name : {"bounds", "area", "sample_area", "sample_towards",
+                             "pdf_towards", "center_sample", "form_factor_from",
+                             "patch_grid", "texture_coordinates", "translated"})
         CHECK_MESSAGE(has(sphere, name), name);
-    for (const auto* name : {"meets", "shading_normal", "is_flat"})
+    for (const auto* name :
+         {"meets", "shading_normal", "normal", "point_at", "facet_of", "corners_of"})
         CHECK_FALSE_MESSAGE(has(sphere, name), name);
     const auto mesh = detail::shape_hooks<Mesh>();
     for (const auto* name :
          {"bounds", "meets", "shading_normal", "area", "texture_coordinates"})
         CHECK_MESSAGE(has(mesh, name), name);
     CHECK_FALSE(has(mesh, "sample_towards"));
-    CHECK(has(detail::shape_hooks<Triangle>(), "is_flat"));
+    for (const auto* name :
+         {"normal", "point_at", "facet_of", "corners_of", "patch_grid"})
+        CHECK_MESSAGE(has(detail::shape_hooks<Triangle>(), name), name);
     CHECK_FALSE(has(detail::shape_hooks<Metaballs>(), "area"));
     CHECK_FALSE(has(detail::shape_hooks<Metaballs>(), "sample_area"));
 

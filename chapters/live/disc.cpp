@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "../../examples/common/two_rooms.hpp"
-#include "ljus/math/facet.hpp"
+#include "ljus/geometry/facet.hpp"
 #include "ljus/photons/density_estimate.hpp"
 #include "ljus/photons/detail/kernel_border.hpp"
 #include "ljus/photons/tracing.hpp"

@@ -11,7 +11,7 @@ ljus_break_it(NAME box-slack HEADER geometry/box.hpp TEST box
     CASES "box: no ray at an edge*")
 
 # The corner across of a quad is left out.
-ljus_break_it(NAME box-quad HEADER geometry/box.hpp TEST box
+ljus_break_it(NAME box-quad HEADER geometry/quad.hpp TEST box
     FROM "{quad.edge_u, quad.edge_v, quad.edge_u + quad.edge_v}"
     TO   "{quad.edge_u, quad.edge_v}"
     CASES "box: no point of a shape*")
@@ -64,24 +64,6 @@ ljus_break_it(NAME indexed-scene-type HEADER scene/index.hpp TEST index
     TO   "type += 0;"
     CASES "indexed scene: in double*")
 
-# Flat shapes in lanes are asked as if nothing were rounded.
-ljus_break_it(NAME few-shapes-slack HEADER geometry/detail/shape_lanes.hpp TEST index
-    FROM "r.length * (r.reach * flat.slack_by.lane[i] + flat.slack.lane[i]);"
-    TO   "0 * r.length * (r.reach * flat.slack_by.lane[i] + flat.slack.lane[i]);"
-    CASES "few shapes: the loop's answers*")
-
-# So are balls.
-ljus_break_it(NAME few-shapes-ball HEADER geometry/detail/shape_lanes.hpp TEST index
-    FROM "64 * roundoff * (q.lane[i] + radius2);"
-    TO   "0 * roundoff * (q.lane[i] + radius2);"
-    CASES "few shapes: the loop's answers*")
-
-# Of what waits the first is forgotten, whichever was asked.
-ljus_break_it(NAME few-shapes-order HEADER accel/few_shapes.hpp TEST index
-    FROM "*nearest = waiting[count - 1];"
-    TO   "waiting[0] = waiting[count - 1];"
-    CASES "few shapes: the loop's answers*")
-
 # The first child of a wide node's two gets all places but one, whatever they cost.
 ljus_break_it(NAME bvh-collapse HEADER accel/detail/bvh8_build.hpp TEST bvh8
     FROM "if (low == 1 || sum < best.cost) best = {low, sum};"
@@ -106,30 +88,6 @@ ljus_break_it(NAME bvh8-as-far HEADER accel/detail/bvh8_walk.hpp TEST bvh8
     FROM "entry > t_max"
     TO   "entry >= t_max"
     CASES "wide bvh: who is asked*")
-
-# Before its origin a ray meets nothing: but it may begin there.
-ljus_break_it(NAME few-shapes-behind HEADER accel/few_shapes.hpp TEST index
-    FROM " && ray.t_min >= 0;"
-    TO   ";"
-    CASES "few shapes: a ray for which*")
-
-# From far away t is rounded by more than a ball's own place.
-ljus_break_it(NAME few-shapes-far HEADER geometry/detail/shape_lanes.hpp TEST index
-    FROM "(ball.radius.lane[i] + 32 * roundoff * r.reach) * r.inverse_d"
-    TO   "ball.radius.lane[i] * r.inverse_d"
-    CASES "few shapes: the loop's answers from far away*")
-
-# What is far from the origin on the negative side is rounded as much.
-ljus_break_it(NAME few-shapes-offset HEADER geometry/detail/shape_lanes.hpp TEST index
-    FROM "std::max(std::abs(a0), std::abs(b0))"
-    TO   "std::max(a0, b0)"
-    CASES "few shapes: the loop's answers about small*")
-
-# Nor is the place of a far ball known to less than its own rounding.
-ljus_break_it(NAME few-shapes-far-ball HEADER geometry/detail/shape_lanes.hpp TEST index
-    FROM "ball.radius + 32 * roundoff * size;"
-    TO   "ball.radius;"
-    CASES "few shapes: the loop's answers about small*")
 
 # A triangle is as large as its longer edge, whichever that is.
 ljus_break_it(NAME triangle-bvh-edges HEADER accel/triangle_bvh.hpp TEST bvh8

@@ -23,7 +23,7 @@ ljus_break_it(NAME exchange-area-far HEADER radiosity/exchange_area.hpp TEST for
     CASES "exchange_area: sizes*")
 
 # What lies below the horizon counts against what lies above.
-ljus_break_it(NAME form-factor-horizon HEADER math/facet.hpp TEST form_factor
+ljus_break_it(NAME form-factor-horizon HEADER geometry/facet.hpp TEST form_factor
     FROM "const Facet seen = detail::clipped(facet, point, normal);"
     TO   "const Facet seen = facet;"
     CASES "form_factor: from a point*")
@@ -131,13 +131,13 @@ ljus_break_it(NAME radiosity-grey HEADER radiosity/radiosity_lu.hpp TEST radiosi
     CASES "radiosity: patches of different areas*")
 
 # What only touches a plane is left as a facet of two corners.
-ljus_break_it(NAME facet-touch HEADER math/facet.hpp TEST form_factor
+ljus_break_it(NAME facet-touch HEADER geometry/facet.hpp TEST form_factor
     FROM "return part.count < 3 ? Facet{} : part;"
     TO   "return part;"
     CASES "facet: what only touches*")
 
 # The width of the plane forgotten.
-ljus_break_it(NAME facet-width HEADER math/facet.hpp TEST form_factor
+ljus_break_it(NAME facet-width HEADER geometry/facet.hpp TEST form_factor
     FROM "std::abs(h) <= width ? 0.0 : h"
     TO   "h"
     CASES "facet: what only touches*")

@@ -1,10 +1,10 @@
 # The place of the centre rounds the way from it.
-ljus_break_it(NAME shape-far-sphere HEADER geometry/shape.hpp TEST shape
+ljus_break_it(NAME shape-far-sphere HEADER geometry/sphere.hpp TEST shape
     FROM "(ray.origin - sphere.center) + hit.t * ray.direction"
     TO   "point_at(ray, hit.t) - sphere.center"
     CASES "shape: a hit point of a sphere*")
 
-ljus_break_it(NAME shape-grain HEADER geometry/shape.hpp TEST shape
+ljus_break_it(NAME shape-grain HEADER geometry/sphere.hpp TEST shape
     FROM "way == Vec3T<WideT<T>>{0}"
     TO   "false"
     CASES "shape: a sphere too small*")

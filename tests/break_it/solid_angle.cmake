@@ -17,7 +17,7 @@ ljus_break_it(NAME solid-angle-distance HEADER geometry/solid_angle.hpp TEST sol
     CASES "solid angle: triangles and quads*")
 
 # A point on the wall of a room is rounded to its outside half of the time.
-ljus_break_it(NAME solid-angle-doubt HEADER geometry/solid_angle.hpp TEST solid_angle
+ljus_break_it(NAME solid-angle-doubt HEADER geometry/sphere.hpp TEST solid_angle
     FROM "sphere.radius + doubt;"
     TO   "sphere.radius;"
     CASES "solid angle: on the wall*")

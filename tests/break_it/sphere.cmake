@@ -51,7 +51,7 @@ ljus_break_it(NAME sphere-infinite-t HEADER geometry/sphere.hpp TEST sphere
 
 # Two roots that are almost one, by the sign of q: they change places.
 ljus_break_it(NAME sphere-order HEADER geometry/sphere.hpp TEST sphere
-    FROM ".enter = std::min(small, large), .leave = std::max(small, large)"
+    FROM ".enter = glm::min(small, large), .leave = glm::max(small, large)"
     TO   ".enter = q > C(0) ? small : large, .leave = q > C(0) ? large : small"
     CASES "sphere: both ends of a chord*")
 

@@ -37,9 +37,9 @@ ljus_break_it(NAME texture-no-uv HEADER path/vertex.hpp TEST texture
     CASES "texture: a UvMap*")
 
 # A ball by the coordinates of its hit, which has none.
-ljus_break_it(NAME texture-ball HEADER scene/texture_coordinates.hpp TEST texture
-    FROM "map_coordinates(GlobeMapT<T>{}, point.normal)"
-    TO   "map_coordinates(GlobeMapT<T>{}, point.position)"
+ljus_break_it(NAME texture-ball HEADER geometry/sphere.hpp TEST texture
+    FROM "globe_coordinates(point.normal)"
+    TO   "globe_coordinates(point.position)"
     CASES "texture: each shape*")
 
 # The repetitions forgotten.

@@ -17,7 +17,7 @@ ljus_break_it(NAME whitted-diffuse HEADER render/whitted.hpp TEST whitted
     CASES "whitted: every path*")
 
 # A lamp made of a sphere lights from any point of its cone's rim.
-ljus_break_it(NAME whitted-middle HEADER geometry/solid_angle.hpp TEST whitted
+ljus_break_it(NAME whitted-middle HEADER geometry/sphere.hpp TEST whitted
     FROM "return Vec2T<T>{T(0)};"
     TO   "return Vec2T<T>{T(1)};"
     CASES "whitted: a lamp with a size*")

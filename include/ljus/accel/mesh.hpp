@@ -149,6 +149,7 @@ template <typename Compute = void, std::floating_point T>
         return intersect<Compute>(ray, mesh.triangle_at(slot), prepared).has_value();
     });
 }
+
 /// The point of a mesh that a ray hit; its normal is that of the triangle.
 /// \param mesh  The mesh.
 /// \param hit   What intersect() returned.
@@ -177,6 +178,7 @@ template <std::floating_point T>
     if (!(glm::dot(n, geometric) > T(0))) return geometric;
     return Vec3T<T>(glm::normalize(Vec3T<WideT<T>>(n)));
 }
+
 /// Where a mesh was hit on its texture: the coordinates of the vertices, interpolated.
 /// \param mesh   The mesh.
 /// \param hit    What intersect() returned.
@@ -190,6 +192,7 @@ template <std::floating_point T>
     return (T(1) - hit.u - hit.v) * uv[corner[0]] + hit.u * uv[corner[1]] +
            hit.v * uv[corner[2]];
 }
+
 /// A point of a mesh, uniform over its area: a triangle by its share, then a point of
 /// it, from what the choice left of u.x.
 /// \param mesh  The mesh.
@@ -219,6 +222,7 @@ template <std::floating_point T>
     const auto part = static_cast<std::uint32_t>(found);
     return sample_area(mesh.triangle(part), Vec2T<T>{T(left), u.y});
 }
+
 /// The area, in squared scene units.
 template <std::floating_point T>
 [[nodiscard]] T area(const MeshT<T>& mesh) noexcept {

@@ -5,6 +5,7 @@
 /// those that this leaves in doubt are tested one by one.
 
 #include "ljus/accel/bvh8.hpp"
+#include "ljus/geometry/triangle.hpp"
 
 namespace ljus {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/geometry/box.hpp
-/// \brief Boxes along the axes: around what, and whether a ray meets them.
+/// \brief Boxes along the axes, and whether a ray meets them.
 
 #include <array>
 #include <cmath>
@@ -9,9 +9,7 @@
 #include <limits>
 #include <optional>
 
-#include "ljus/geometry/quad.hpp"
-#include "ljus/geometry/sphere.hpp"
-#include "ljus/geometry/triangle.hpp"
+#include "ljus/geometry/ray.hpp"
 
 namespace ljus {
 
@@ -39,36 +37,6 @@ template <std::floating_point T>
                                           const Vec3T<T>& point) noexcept {
     return {glm::min(a.low, point), glm::max(a.high, point)};
 }
-/// \name Boxes around shapes
-/// \{
-
-/// A box around a shape: no point of it lies outside, not by a rounding either.
-/// \return The box; where corners are sums, a few units in the last place too large.
-template <std::floating_point T>
-[[nodiscard]] BoxT<T> bounds(const TriangleT<T>& triangle) noexcept {
-    return {glm::min(glm::min(triangle.v1, triangle.v2), triangle.v3),
-            glm::max(glm::max(triangle.v1, triangle.v2), triangle.v3)};
-}
-template <std::floating_point T>
-[[nodiscard]] BoxT<T> bounds(const SphereT<T>& sphere) noexcept {
-    const Vec3T<T> size =
-        detail::rounding_bound<T>(3) * (detail::sizes(sphere.center)) +
-        (T(1) + detail::rounding_bound<T>(3)) * Vec3T<T>{sphere.radius} +
-        std::numeric_limits<T>::min();
-    return {sphere.center - size, sphere.center + size};
-}
-template <std::floating_point T>
-[[nodiscard]] BoxT<T> bounds(const QuadT<T>& quad) noexcept {
-    BoxT<T> box{quad.corner, quad.corner};
-    for (const Vec3T<T>& way : {quad.edge_u, quad.edge_v, quad.edge_u + quad.edge_v})
-        box = box_union(box, quad.corner + way);
-    const Vec3T<T> size = detail::rounding_bound<T>(4) *
-                              (detail::sizes(quad.corner) + detail::sizes(quad.edge_u) +
-                               detail::sizes(quad.edge_v)) +
-                          std::numeric_limits<T>::min();
-    return {box.low - size, box.high + size};
-}
-/// \}
 
 namespace detail {
 

@@ -13,35 +13,6 @@ namespace ljus {
 /// \ref ch_distributed_rays.
 /// \{
 
-/// \name Moved shapes
-/// \{
-
-/// A shape in another place.
-/// \param shape  The shape.
-/// \param by     In scene units.
-/// \return The same shape there.
-template <std::floating_point T>
-[[nodiscard]] constexpr SphereT<T> translated(SphereT<T> shape,
-                                              const Vec3T<T>& by) noexcept {
-    shape.center += by;
-    return shape;
-}
-
-template <std::floating_point T>
-[[nodiscard]] constexpr QuadT<T> translated(QuadT<T> shape,
-                                            const Vec3T<T>& by) noexcept {
-    shape.corner += by;
-    return shape;
-}
-
-template <std::floating_point T>
-[[nodiscard]] constexpr TriangleT<T> translated(const TriangleT<T>& shape,
-                                                const Vec3T<T>& by) noexcept {
-    return {.v1 = shape.v1 + by, .v2 = shape.v2 + by, .v3 = shape.v3 + by};
-}
-
-/// \}
-
 /// A shape that is moved at little cost, so that it can be at each ray's own time.
 template <typename S>
 concept Movable = Shape<S> && requires(const S& shape, const Vec3T<ScalarOf<S>>& by) {
@@ -161,6 +132,18 @@ template <typename S>
         (glm::max(glm::abs(first.low), glm::abs(first.high)) + glm::abs(moving.way));
     const BoxT<T> both = box_union(first, last);
     return BoxT<T>{both.low - rounding, both.high + rounding};
+}
+
+/// The texture coordinates: those of the shape, wherever it is.
+/// \param moving  The shape.
+/// \param hit     What intersect() returned.
+/// \param point   Of surface_point().
+/// \return (u, v), without a unit.
+template <typename S, std::floating_point T>
+[[nodiscard]] Vec2T<T> texture_coordinates(const Moving<S>& moving,
+                                           const FlatHitT<T>& hit,
+                                           const SurfacePointT<T>& point) noexcept {
+    return texture_coordinates(moving.shape, hit, point);
 }
 
 /// Refuses a way that is not finite, and what the shape refuses.

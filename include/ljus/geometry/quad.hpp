@@ -3,7 +3,17 @@
 /// \file ljus/geometry/quad.hpp
 /// \brief The parallelogram: the report's lamps and walls.
 
+#include <array>
+#include <limits>
+#include <optional>
+
+#include "ljus/geometry/box.hpp"
+#include "ljus/geometry/facet.hpp"
+#include "ljus/geometry/ray.hpp"
+#include "ljus/geometry/sphere.hpp"
+#include "ljus/geometry/surface_point.hpp"
 #include "ljus/geometry/triangle.hpp"
+#include "ljus/math/require.hpp"
 
 namespace ljus {
 
@@ -119,6 +129,76 @@ template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const QuadT<T>& quad,
                                            const Vec2T<T>& u) noexcept {
     return sample_area(quad, u, normal(quad));
+}
+
+/// The point of a quad that a ray hit, from its coordinates u and v.
+/// \param quad  The quad.
+/// \param hit   What intersect() returned.
+/// \return Position, its error bound, the normal.
+template <std::floating_point T>
+[[nodiscard]] SurfacePointT<T> surface_point(const QuadT<T>& quad,
+                                             const RayT<T>& /*ray*/,
+                                             const FlatHitT<T>& hit) noexcept {
+    return point_at(quad, hit.u, hit.v);
+}
+
+/// The corners of a quad, counter-clockwise around its normal.
+template <std::floating_point T>
+[[nodiscard]] std::array<Vec3T<T>, 4> corners_of(const QuadT<T>& quad) noexcept {
+    return {quad.corner, quad.corner + quad.edge_u,
+            quad.corner + quad.edge_u + quad.edge_v, quad.corner + quad.edge_v};
+}
+
+/// The facet of a quad; it faces along the normal.
+template <std::floating_point T>
+[[nodiscard]] Facet facet_of(const QuadT<T>& quad) noexcept {
+    const glm::dvec3 c(quad.corner), u(quad.edge_u), v(quad.edge_v);
+    return {{c, c + u, c + u + v, c + v}, 4};
+}
+
+/// A sphere around a quad, not always the smallest. Photons are aimed at it.
+template <std::floating_point T>
+[[nodiscard]] SphereT<T> bounding_sphere(const QuadT<T>& quad) noexcept {
+    return {.center = quad.corner + (quad.edge_u + quad.edge_v) / T(2),
+            .radius = glm::max(glm::length(quad.edge_u + quad.edge_v),
+                               glm::length(quad.edge_u - quad.edge_v)) /
+                      T(2)};
+}
+
+/// A box around a quad. No point of the quad lies outside of it, not by a rounding
+/// either.
+/// \return The box, a few units in the last place too large.
+template <std::floating_point T>
+[[nodiscard]] BoxT<T> bounds(const QuadT<T>& quad) noexcept {
+    BoxT<T> box{quad.corner, quad.corner};
+    for (const Vec3T<T>& way : {quad.edge_u, quad.edge_v, quad.edge_u + quad.edge_v})
+        box = box_union(box, quad.corner + way);
+    const Vec3T<T> size = detail::rounding_bound<T>(4) *
+                              (detail::sizes(quad.corner) + detail::sizes(quad.edge_u) +
+                               detail::sizes(quad.edge_v)) +
+                          std::numeric_limits<T>::min();
+    return {box.low - size, box.high + size};
+}
+
+/// A quad in another place.
+/// \param shape  The quad.
+/// \param by     The displacement, in scene units.
+/// \return The same quad there.
+template <std::floating_point T>
+[[nodiscard]] constexpr QuadT<T> translated(QuadT<T> shape,
+                                            const Vec3T<T>& by) noexcept {
+    shape.corner += by;
+    return shape;
+}
+
+/// Refuses a quad of which no picture can be made.
+/// \param quad  The quad.
+/// \throws std::invalid_argument  with the name and the value.
+template <std::floating_point T>
+void check(const QuadT<T>& quad) {
+    require_finite("quad.corner", quad.corner);
+    require_finite("quad.edge_u", quad.edge_u);
+    require_finite("quad.edge_v", quad.edge_v);
 }
 
 /// \}

@@ -3,6 +3,7 @@
 /// \file ljus/geometry/ray.hpp
 /// \brief The ray R(t) = O + tD, and the range of t that counts.
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 
@@ -45,6 +46,16 @@ template <std::floating_point T>
 }
 // [at]
 
+/// Where a ray meets a shape. Of a flat shape, u and v are coordinates along its edges;
+/// other shapes may leave them 0.
+template <std::floating_point T>
+struct FlatHitT {
+    T t = T(0);             ///< Distance, in units of the direction's length.
+    T u = T(0);             ///< Coordinate along the first edge.
+    T v = T(0);             ///< Coordinate along the second edge.
+    std::uint32_t part = 0; ///< Which triangle of a mesh; 0 for other shapes.
+};
+
 /// \name Mistakes
 /// \{
 
@@ -61,8 +72,8 @@ std::optional<T> intersect(const Shape&, const RayT<T>&) {
 }
 template <typename Test = void, std::floating_point T,
           template <std::floating_point> typename ShapeT, std::floating_point Other>
-requires(!std::same_as<T, Other>)
-std::optional<T> intersect(const RayT<T>&, const ShapeT<Other>&) {
+requires(!std::same_as<T, Other>) std::optional<T> intersect(const RayT<T>&,
+                                                             const ShapeT<Other>&) {
     static_assert(sizeof(T) == 0, "The ray and the shape have two precisions.");
     return {};
 }

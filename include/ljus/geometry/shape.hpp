@@ -1,18 +1,19 @@
 #pragma once
 
 /// \file ljus/geometry/shape.hpp
-/// \brief What every shape can do, and the shapes of the library together.
+/// \brief What every shape can do, and the simple shapes of the library together.
 
 #include <array>
-#include <numbers>
-#include <string>
+#include <concepts>
+#include <optional>
+#include <utility>
 
+#include "ljus/geometry/facet.hpp"
 #include "ljus/geometry/quad.hpp"
+#include "ljus/geometry/solid_angle.hpp"
 #include "ljus/geometry/sphere.hpp"
 #include "ljus/geometry/triangle.hpp"
 #include "ljus/hook.hpp"
-#include "ljus/math/require.hpp"
-#include "ljus/math/sampling.hpp"
 
 namespace ljus {
 
@@ -25,12 +26,12 @@ namespace ljus {
 ///
 /// \snippet{lineno} ljus/geometry/shape.hpp shape hooks
 ///
-/// The survey prints which of these each shape of a scene has. Two more are for
-/// radiosity alone, patch_grid(shape, size) and facet_of(): a shape without them is
-/// left out, and Patches::left_out says so.
+/// The survey prints which of these each shape of a scene has. The functions stand
+/// beside the shape, in its own header and namespace, where a call finds them by their
+/// argument.
 /// \{
 
-/// Where a ray meets any shape; a sphere has no use for u and v.
+/// A hit of any shape, of what intersect() returned: a sphere has no u and v.
 template <std::floating_point T>
 [[nodiscard]] constexpr FlatHitT<T> as_hit(T t) noexcept {
     return {.t = t};
@@ -42,138 +43,20 @@ template <std::floating_point T>
     return hit;
 }
 
-/// The point of a sphere that a ray hit: O + tD, put back onto the sphere. The way from
-/// the centre is summed without the centre's own place, which far from the origin would
-/// round it away; what is left of a sphere too small and far for t faces the ray.
-/// \param sphere  The sphere.
-/// \param ray     The ray.
-/// \param hit     What intersect() returned.
-/// \return Position, its error bound, the outer normal.
-// [surface_point]
-template <std::floating_point T>
-[[nodiscard]] SurfacePointT<T> surface_point(const SphereT<T>& sphere,
-                                             const RayT<T>& ray,
-                                             const FlatHitT<T>& hit) noexcept {
-    Vec3T<WideT<T>> way{(ray.origin - sphere.center) + hit.t * ray.direction};
-    if (way == Vec3T<WideT<T>>{0}) way = -Vec3T<WideT<T>>{ray.direction};
-    const Vec3T<T> n{glm::normalize(way)};
-    const Vec3T<T> offset = sphere.radius * n;
-    return {.position = sphere.center + offset,
-            .error = detail::rounding_bound<T>(5) *
-                     (detail::sizes(sphere.center) + detail::sizes(offset)),
-            .normal = n};
-}
-// [surface_point]
-
-/// The point of a flat shape that a ray hit, from its coordinates u and v.
-/// \param shape  A triangle or a quad.
-/// \param hit    What intersect() returned.
-/// \return Position, its error bound, the normal.
-template <typename Flat, std::floating_point T>
-[[nodiscard]] SurfacePointT<T> surface_point(const Flat& shape, const RayT<T>&,
-                                             const FlatHitT<T>& hit) noexcept {
-    return point_at(shape, hit.u, hit.v);
-}
-
-/// A point of a sphere, uniform over its area.
-/// \param sphere  The sphere.
-/// \param u       Point of the unit square.
-/// \return The point; density 1 / area per squared scene unit.
-template <std::floating_point T>
-[[nodiscard]] SurfacePointT<T> sample_area(const SphereT<T>& sphere,
-                                           const Vec2T<T>& u) noexcept {
-    const Vec3T<T> n = sample_uniform_sphere(u);
-    const Vec3T<T> sizes = detail::sizes(sphere.center) + sphere.radius;
-    return {.position = sphere.center + sphere.radius * n,
-            .error = detail::rounding_bound<T>(5) * sizes,
-            .normal = n};
-}
-
-/// \name Bounding spheres
-/// \{
-
-/// A sphere around the shape, not always the smallest. Photons are aimed at it.
-template <std::floating_point T>
-[[nodiscard]] SphereT<T> bounding_sphere(const SphereT<T>& sphere) noexcept {
-    return sphere;
-}
-template <std::floating_point T>
-[[nodiscard]] SphereT<T> bounding_sphere(const TriangleT<T>& triangle) noexcept {
-    const Vec3T<T> center = (triangle.v1 + triangle.v2 + triangle.v3) / T(3);
-    return {.center = center,
-            .radius = max_component(Vec3T<T>{glm::distance(center, triangle.v1),
-                                             glm::distance(center, triangle.v2),
-                                             glm::distance(center, triangle.v3)})};
-}
-template <std::floating_point T>
-[[nodiscard]] SphereT<T> bounding_sphere(const QuadT<T>& quad) noexcept {
-    return {.center = quad.corner + (quad.edge_u + quad.edge_v) / T(2),
-            .radius = glm::max(glm::length(quad.edge_u + quad.edge_v),
-                               glm::length(quad.edge_u - quad.edge_v)) /
-                      T(2)};
-}
-/// \}
-
-/// \name Checks
-/// \{
-
-/// Refuses data that no picture can be made of, with a sentence.
-/// \throws std::invalid_argument  with the name and the value.
-template <std::floating_point T>
-void check(const SphereT<T>& sphere) {
-    require_finite("sphere.center", sphere.center);
-    require_positive("sphere.radius", sphere.radius);
-}
-template <std::floating_point T>
-void check(const TriangleT<T>& triangle) {
-    require_finite("triangle.v1", triangle.v1);
-    require_finite("triangle.v2", triangle.v2);
-    require_finite("triangle.v3", triangle.v3);
-}
-template <std::floating_point T>
-void check(const QuadT<T>& quad) {
-    require_finite("quad.corner", quad.corner);
-    require_finite("quad.edge_u", quad.edge_u);
-    require_finite("quad.edge_v", quad.edge_v);
-}
-/// \}
-
 /// The precision of a shape's data.
 template <typename S>
 using ScalarOf = decltype(bounding_sphere(std::declval<const S&>()).radius);
 
-/// What has bounds; asked first, so that the message for what is no shape is short.
+/// What has a bounding sphere; asked first, so that the message for what is no shape is
+/// short.
 template <typename S>
-concept HasBounds = !detail::is_stand_in<S> && requires(const S& shape) {
+concept HasBoundingSphere = !detail::is_stand_in<S> && requires(const S& shape) {
     bounding_sphere(shape);
 };
 
-namespace detail {
-
-/// Whether a type of shape lies in a plane: it fills little of its bounding sphere and
-/// no ray meets it twice, so that photons are aimed at points of its area.
-template <typename S>
-inline constexpr bool is_flat = false;
-
-/// A triangle is flat.
-template <std::floating_point T>
-inline constexpr bool is_flat<TriangleT<T>> = true;
-/// A quad is flat.
-template <std::floating_point T>
-inline constexpr bool is_flat<QuadT<T>> = true;
-
-/// Whether a shape has one normal(), and does not work it out again if it is told it.
-template <typename S>
-inline constexpr bool is_plane = requires(const S& shape, Vec2T<ScalarOf<S>> u) {
-    point_at(shape, u.x, u.y, normal(shape));
-    sample_area(shape, u, normal(shape));
-};
-
-} // namespace detail
-
 /// What a scene asks of a shape.
 template <typename S>
-concept Shape = HasBounds<S> &&
+concept Shape = HasBoundingSphere<S> &&
     requires(const S& shape, RayT<ScalarOf<S>> ray, FlatHitT<ScalarOf<S>> hit) {
     as_hit(*intersect(ray, shape));
     { surface_point(shape, ray, hit) } -> std::same_as<SurfacePointT<ScalarOf<S>>>;
@@ -195,6 +78,31 @@ concept Samplable = Shape<S> && HasArea<S> &&
     { sample_area(shape, u) } -> std::same_as<SurfacePointT<ScalarOf<S>>>;
 };
 
+/// A shape that lies in a plane and says so by having one normal, `normal(shape)`. It
+/// fills little of its bounding sphere, and no ray meets it twice, so photons are aimed
+/// at points of its area.
+template <typename S>
+concept FlatShape = Samplable<S> && requires(const S& shape) {
+    { normal(shape) } -> std::same_as<Vec3T<ScalarOf<S>>>;
+};
+
+namespace detail {
+
+/// Whether a flat shape takes its normal() as an argument instead of computing it
+/// again. Then the normal is computed once, when a scene is made.
+template <typename S>
+inline constexpr bool is_plane = requires(const S& shape, Vec2T<ScalarOf<S>> u) {
+    requires FlatShape<S>;
+    point_at(shape, u.x, u.y, normal(shape));
+    sample_area(shape, u, normal(shape));
+};
+
+} // namespace detail
+
+/// \name What any shape can do
+/// Used for a shape that has no such function of its own.
+/// \{
+
 /// A shape without an area has no points to choose. A scene refuses it as a light, so
 /// that none is ever asked for.
 /// \return A point of no use.
@@ -203,6 +111,70 @@ requires(!HasArea<S>) [[nodiscard]] SurfacePointT<ScalarOf<S>> sample_area(
     const S&, const Vec2T<ScalarOf<S>>&) noexcept {
     return {};
 }
+
+/// A point of any shape, uniform over its area.
+/// \param shape  The shape.
+/// \param from   The observer.
+/// \param u      Point of the unit square.
+/// \return The point and its density per steradian of the observer: 0 for a shape
+///         without an area, which is no light, and where the observer is that point.
+template <Shape S, std::floating_point T>
+[[nodiscard]] SeenPointT<T> sample_towards(const S& shape, const Vec3T<T>& from,
+                                           const Vec2T<T>& u) noexcept {
+    if constexpr (HasArea<S>) {
+        const SurfacePointT<T> point = sample_area(shape, u);
+        return {.point = point, .pdf = detail::pdf_from_area(from, point, area(shape))};
+    } else
+        return {};
+}
+
+/// The density of sample_towards() at a point of the shape.
+/// \param shape  The shape.
+/// \param from   The observer.
+/// \param point  The point of the shape in question.
+/// \return Per steradian; 0 for a shape without an area.
+template <Shape S, std::floating_point T>
+[[nodiscard]] T pdf_towards(const S& shape, const Vec3T<T>& from,
+                            const SurfacePointT<T>& point) noexcept {
+    if constexpr (HasArea<S>)
+        return detail::pdf_from_area(from, point, area(shape));
+    else
+        return T(0);
+}
+
+/// The point of the unit square whose sample, by sample_towards(), stands for the whole
+/// lamp: the middle of a quad.
+/// \return (1/2, 1/2).
+template <Shape Lamp>
+[[nodiscard]] auto center_sample(const Lamp&) noexcept {
+    return Vec2T<ScalarOf<Lamp>>{ScalarOf<Lamp>(0.5)};
+}
+
+/// The texture coordinates of a hit: those that intersect() found.
+/// \param hit  What intersect() returned.
+/// \return (u, v), without a unit; see the group \ref texture_coordinates.
+template <Shape S, std::floating_point T>
+[[nodiscard]] Vec2T<T> texture_coordinates(const S& /*shape*/, const FlatHitT<T>& hit,
+                                           const SurfacePointT<T>& /*point*/) noexcept {
+    return {hit.u, hit.v};
+}
+
+/// The form factor from a point to a shape that has a facet_of(): the share of the
+/// hemisphere over the point that it fills, weighted by the cosine, in closed form.
+/// \param from        The point.
+/// \param normal      Unit, of the surface at the point.
+/// \param lamp        It counts from the side that its normal points to.
+/// \param inside_out  From the other side.
+/// \return In [0, 1]: the irradiance over pi times the lamp's radiance.
+template <Shape Flat, std::floating_point T>
+[[nodiscard]] auto form_factor_from(const Vec3T<T>& from, const Vec3T<T>& normal,
+                                    const Flat& lamp, bool inside_out) noexcept
+    -> decltype(facet_of(lamp), std::optional<T>{}) {
+    const Facet facet = facet_of(lamp);
+    return static_cast<T>(form_factor_at(glm::dvec3(from), glm::dvec3(normal),
+                                         inside_out ? detail::turned(facet) : facet));
+}
+/// \}
 
 namespace detail {
 
@@ -222,7 +194,7 @@ template <Shape S>
         Hook{"meets", "faster shadow rays", "intersect()",
              requires(O s, RayT<T> ray) { meets<void>(ray, s); }},
         Hook{"shading_normal", "smooth normals", "the geometric one",
-             requires(O s, H hit, V normal) { shading_normal(s, hit, normal); }},
+             requires(O s, H hit, V n) { shading_normal(s, hit, n); }},
         Hook{"area", "being a light", "refused as a light",
              requires(O s) { area(s); }},
         Hook{"sample_area", "being a light", "refused as a light",
@@ -233,11 +205,25 @@ template <Shape S>
              requires(O s, V from, P point) { pdf_towards(s, from, point); }},
         Hook{"center_sample", "the centre of a lamp", "u = v = 1/2",
              requires(O s) { center_sample(s); }},
+        Hook{"normal", "photons aimed at its area", "at its sphere",
+             requires(O s) { normal(s); }},
+        Hook{"point_at", "normal() computed once", "at each point",
+             requires(O s, T u, Vec2T<T> uv, V n) {
+                 point_at(s, u, u, n);
+                 sample_area(s, uv, n);
+             }},
+        Hook{"form_factor_from", "a lamp's light without noise", "by facet_of()",
+             requires(O s, V from) { form_factor_from(from, from, s, false); }},
+        Hook{"facet_of", "form factors of a polygon", "by rays",
+             requires(O s) { facet_of(s); }},
+        Hook{"patch_grid", "radiosity", "left out of it",
+             requires(O s) { patch_grid(s, 1.0); }},
+        Hook{"corners_of", "irradiance up to its edges", "darker at them",
+             requires(O s) { corners_of(s); }},
         Hook{"texture_coordinates", "images by (u, v)", "those of the hit",
              requires(O s, H hit, P point) { texture_coordinates(s, hit, point); }},
         Hook{"translated", "Moving", "does not compile",
              requires(O s, V by) { translated(s, by); }},
-        Hook{"is_flat", "photons aimed at its area", "at its sphere", is_flat<S>},
         // [shape hooks]
     };
 // clang-format on
@@ -246,5 +232,17 @@ template <Shape S>
 } // namespace detail
 
 /// \}
+
+/// \defgroup texture_coordinates Texture coordinates
+/// \brief Where a shape was hit, in its own terms: what a UvMap looks up by.
+///
+/// | shape           | (u, v)                                                     |
+/// |-----------------|------------------------------------------------------------|
+/// | quad            | along its two edges, from its corner: [0, 1] x [0, 1]      |
+/// | triangle        | along its two edges, from its first vertex: u + v <= 1     |
+/// | sphere          | longitude and latitude, as a GlobeMap at its centre has it |
+/// | mesh            | of its vertices, interpolated; without any, the triangle's |
+/// | moving shape    | the shape's                                                |
+/// | any other shape | the u and v of its hit; (0, 0) if it has none              |
 
 } // namespace ljus

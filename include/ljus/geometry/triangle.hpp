@@ -1,15 +1,19 @@
 #pragma once
 
 /// \file ljus/geometry/triangle.hpp
-/// \brief The triangle, and where a ray meets it (Moeller and Trumbore).
+/// \brief The triangle: where a ray meets it (Moeller and Trumbore), and all else.
 
+#include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <optional>
 
+#include "ljus/geometry/box.hpp"
+#include "ljus/geometry/facet.hpp"
 #include "ljus/geometry/ray.hpp"
+#include "ljus/geometry/sphere.hpp"
 #include "ljus/geometry/surface_point.hpp"
+#include "ljus/math/require.hpp"
 
 namespace ljus {
 
@@ -28,15 +32,6 @@ struct TriangleT {
     Vec3T<T> v3{T(0)}; ///< \f$V_3\f$, in scene units.
 };
 using Triangle = TriangleT<float>; ///< TriangleT in float.
-
-/// Where a ray meets the plane of a flat shape.
-template <std::floating_point T>
-struct FlatHitT {
-    T t = T(0);             ///< Distance, in units of the direction's length.
-    T u = T(0);             ///< Coordinate along the first edge.
-    T v = T(0);             ///< Coordinate along the second edge.
-    std::uint32_t part = 0; ///< Which triangle of a mesh; 0 for other shapes.
-};
 
 namespace detail {
 
@@ -179,6 +174,7 @@ intersect(const RayT<T>& ray, const TriangleT<T>& triangle) noexcept {
     if (hit && !detail::has_area(triangle)) hit.reset();
     return hit;
 }
+
 /// The unit normal: of the side from which the vertices turn counter-clockwise.
 /// \param triangle  A triangle with an area.
 /// \return Unit vector.
@@ -242,6 +238,69 @@ template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const TriangleT<T>& triangle,
                                            const Vec2T<T>& u) noexcept {
     return sample_area(triangle, u, normal(triangle));
+}
+
+/// The point of a triangle that a ray hit, from its coordinates u and v.
+/// \param triangle  The triangle.
+/// \param hit       What intersect() returned.
+/// \return Position, its error bound, the normal.
+template <std::floating_point T>
+[[nodiscard]] SurfacePointT<T> surface_point(const TriangleT<T>& triangle,
+                                             const RayT<T>& /*ray*/,
+                                             const FlatHitT<T>& hit) noexcept {
+    return point_at(triangle, hit.u, hit.v);
+}
+
+/// The corners of a triangle, counter-clockwise around its normal.
+template <std::floating_point T>
+[[nodiscard]] std::array<Vec3T<T>, 3>
+corners_of(const TriangleT<T>& triangle) noexcept {
+    return {triangle.v1, triangle.v2, triangle.v3};
+}
+
+/// The facet of a triangle; it faces along the normal.
+template <std::floating_point T>
+[[nodiscard]] Facet facet_of(const TriangleT<T>& triangle) noexcept {
+    return {{glm::dvec3(triangle.v1), glm::dvec3(triangle.v2), glm::dvec3(triangle.v3)},
+            3};
+}
+
+/// A sphere around a triangle, not always the smallest. Photons are aimed at it.
+template <std::floating_point T>
+[[nodiscard]] SphereT<T> bounding_sphere(const TriangleT<T>& triangle) noexcept {
+    const Vec3T<T> center = (triangle.v1 + triangle.v2 + triangle.v3) / T(3);
+    return {.center = center,
+            .radius = max_component(Vec3T<T>{glm::distance(center, triangle.v1),
+                                             glm::distance(center, triangle.v2),
+                                             glm::distance(center, triangle.v3)})};
+}
+
+/// A box around a triangle: the smallest one, without a rounding.
+/// \return The box.
+template <std::floating_point T>
+[[nodiscard]] BoxT<T> bounds(const TriangleT<T>& triangle) noexcept {
+    return {glm::min(glm::min(triangle.v1, triangle.v2), triangle.v3),
+            glm::max(glm::max(triangle.v1, triangle.v2), triangle.v3)};
+}
+
+/// A triangle in another place.
+/// \param shape  The triangle.
+/// \param by     The displacement, in scene units.
+/// \return The same triangle there.
+template <std::floating_point T>
+[[nodiscard]] constexpr TriangleT<T> translated(const TriangleT<T>& shape,
+                                                const Vec3T<T>& by) noexcept {
+    return {.v1 = shape.v1 + by, .v2 = shape.v2 + by, .v3 = shape.v3 + by};
+}
+
+/// Refuses a triangle of which no picture can be made.
+/// \param triangle  The triangle.
+/// \throws std::invalid_argument  with the name and the value.
+template <std::floating_point T>
+void check(const TriangleT<T>& triangle) {
+    require_finite("triangle.v1", triangle.v1);
+    require_finite("triangle.v2", triangle.v2);
+    require_finite("triangle.v3", triangle.v3);
 }
 
 /// \}

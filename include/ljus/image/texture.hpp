@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <string>
 
 #include "ljus/image/image.hpp"
@@ -76,10 +75,7 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> map_coordinates(const GlobeMapT<T>& map, const Vec3T<T>& place,
                                        const Vec2T<T>& = Vec2T<T>{T(0)}) noexcept {
-    const Vec3T<T> d = place - map.center;
-    const T u = std::atan2(-d.z, d.x) * (std::numbers::inv_pi_v<T> / T(2));
-    const T v = std::atan2(d.y, std::hypot(d.x, d.z)) * std::numbers::inv_pi_v<T>;
-    return {u < T(0) ? u + T(1) : u, v + T(0.5)};
+    return globe_coordinates(place - map.center);
 }
 
 /// The coordinates of a place on its own shape.

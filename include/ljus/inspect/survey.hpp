@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ljus/radiosity/patch_grid.hpp"
 #include "ljus/render/detail/choose_passes.hpp"
 #include "ljus/render/detail/scene_remarks.hpp"
 #include "ljus/scene/index.hpp"
@@ -171,12 +172,11 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
     plan.thin_film = {"thin film", found.films,
                       found.films ? "paths pass through the listed films"
                                   : "no material is one"};
-    const bool tree = detail::needs_tree(found.objects) && !found.few;
+    const bool tree = detail::needs_tree(found.objects);
     plan.tree = {"tree", tree,
                  std::to_string(found.objects) +
-                     (tree        ? " objects, a tree finds the first on a ray"
-                      : found.few ? " objects, eight are asked at a time"
-                                  : " object(s), a loop asks each")};
+                     (tree ? " objects, a tree finds the first on a ray"
+                           : " object(s), a loop asks each")};
     return plan;
 }
 #endif

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <concepts>
+#include <numbers>
 #include <type_traits>
 
 #include <glm/common.hpp>
@@ -73,6 +74,18 @@ template <std::floating_point T>
 [[nodiscard]] constexpr T max_component(const Vec3T<T>& v) noexcept {
     const T yz = v.y < v.z ? v.z : v.y;
     return v.x < yz ? yz : v.x;
+}
+
+/// Longitude and latitude of a direction, north along y: u in [0, 1) once around from
+/// +x towards -z, v from 0 at the south pole to 1 at the north pole.
+/// \param d  Of any length.
+/// \return (u, v) in [0, 1]; (0, 0.5) for the zero vector.
+/// \cost Two arc tangents.
+template <std::floating_point T>
+[[nodiscard]] Vec2T<T> globe_coordinates(const Vec3T<T>& d) noexcept {
+    const T u = std::atan2(-d.z, d.x) * (std::numbers::inv_pi_v<T> / T(2));
+    const T v = std::atan2(d.y, std::hypot(d.x, d.z)) * std::numbers::inv_pi_v<T>;
+    return {u < T(0) ? u + T(1) : u, v + T(0.5)};
 }
 
 /// \}

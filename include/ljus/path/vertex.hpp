@@ -3,9 +3,10 @@
 /// \file ljus/path/vertex.hpp
 /// \brief The vertex of a path: everything that is known of the place where it arrived.
 
+#include "ljus/geometry/shape.hpp"
+#include "ljus/image/texture.hpp"
 #include "ljus/math/frame.hpp"
 #include "ljus/scene/query.hpp"
-#include "ljus/scene/texture_coordinates.hpp"
 
 namespace ljus {
 

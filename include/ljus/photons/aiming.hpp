@@ -54,7 +54,7 @@ template <SceneLike S, std::floating_point T>
         if (cone.one_minus_cos == T(2) && light.object) // inside
             return AimT<T>{{from.normal, T(1)}, false, T(1)};
         if (cone.one_minus_cos == T(2) ||
-            !detail::is_flat<std::remove_cvref_t<decltype(shape)>>)
+            !FlatShape<std::remove_cvref_t<decltype(shape)>>)
             return AimT<T>{cone, false, cone.one_minus_cos};
         const Vec3T<T> way = bound.center - from.position;
         T size = T(0);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "ljus/geometry/solid_angle.hpp"
+#include "ljus/geometry/facet.hpp"
 
 namespace ljus {
 

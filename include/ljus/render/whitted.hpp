@@ -3,7 +3,7 @@
 /// \file ljus/render/whitted.hpp
 /// \brief Whitted's ray tracing: a tree of mirrors and glass, with hard shadows.
 
-#include "ljus/geometry/solid_angle.hpp"
+#include "ljus/geometry/shape.hpp"
 #include "ljus/path/continue_path.hpp"
 #include "ljus/path/direct_light.hpp"
 #include "ljus/path/renderer.hpp"

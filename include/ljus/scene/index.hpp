@@ -4,7 +4,6 @@
 /// \brief A scene that knows where its shapes are: the fast way to the first hit.
 
 #include "ljus/accel/bvh8.hpp"
-#include "ljus/accel/few_shapes.hpp"
 #include "ljus/math/frame.hpp"
 #include "ljus/scene/query.hpp"
 
@@ -26,16 +25,6 @@ inline constexpr std::size_t flat_loop_limit = 2;
 /// \param shapes  How many.
 [[nodiscard]] constexpr bool needs_tree(std::size_t shapes) noexcept {
     return shapes > flat_loop_limit;
-}
-
-/// Whether a scene's shapes are asked eight at a time.
-/// \param scene  The scene, indexed or not.
-template <typename S>
-[[nodiscard]] bool are_few(const S& scene) {
-    if constexpr (requires { scene.few; })
-        return !scene.few.empty();
-    else
-        return needs_tree(scene.size()) && !make_few_shapes(scene.shapes).empty();
 }
 
 /// A box around a shape of any type: its own bounds(), or those of its bounding sphere.
@@ -93,14 +82,11 @@ struct IndexedScene {
     using Tree = std::conditional_t<std::is_same_v<Scalar, float>, Bvh8, BvhT<Scalar>>;
 
     /// Indexes a scene.
-    /// \param of     Must outlive the index.
-    /// \param lanes  Whether a few shapes may be asked eight at a time; if not, they
-    ///               have a tree as many do.
-    IndexedScene(const S& of, bool lanes = true)
+    /// \param of  Must outlive the index.
+    IndexedScene(const S& of)
         : scene(of), shapes(of.shapes), objects(of.objects), materials(of.materials),
           lights(of.lights), frames(detail::frames_of(of)) {
         if (!detail::needs_tree(scene.size())) return;
-        if (std::is_void_v<Compute> && lanes) few = make_few_shapes(shapes);
         std::vector<BoxT<Scalar>> boxes(scene.size());
         std::vector<ObjectId> all(scene.size());
         std::uint32_t type = 0;
@@ -113,10 +99,6 @@ struct IndexedScene {
             ++type;
         };
         std::apply([&](const auto&... lists) { (add(lists), ...); }, shapes);
-        if (!few.empty()) {
-            ids = all;
-            return;
-        }
         tree = Tree(boxes, {.leaf_size = 1});
         ids = std::vector<ObjectId>(scene.size());
         for (std::size_t slot = 0; slot < ids.size(); ++slot)
@@ -124,7 +106,7 @@ struct IndexedScene {
     }
 
     /// Not of a temporary: the scene would be gone before it is asked.
-    IndexedScene(const S&&, bool = true) = delete;
+    IndexedScene(const S&&) = delete;
 
     const S& scene;                          ///< Which scene.
     const decltype(S::shapes)& shapes;       ///< As the scene has them.
@@ -132,10 +114,9 @@ struct IndexedScene {
     const decltype(S::materials)& materials; ///< As the scene has them.
     const decltype(S::lights)& lights;       ///< As the scene has them.
     detail::FramesT<S> frames;   ///< Around the normals of what is flat, by object.
-    FewShapes few{};             ///< All shapes, if there are few; else empty.
     Tree tree{};                 ///< Over all shapes, if there are many; else empty.
-    std::vector<ObjectId> ids{}; ///< Of the shapes, in the tree's order or by number;
-                                 ///< empty for the flat loop.
+    std::vector<ObjectId> ids{}; ///< Of the shapes, in the tree's order; empty for the
+                                 ///< flat loop.
 
     /// As the scene does.
     [[nodiscard]] const detail::ObjectT<Scalar>& object(ObjectId id) const noexcept {
@@ -167,15 +148,14 @@ struct IndexedScene {
 
 /// Indexes a scene, with a choice of arithmetic: `index_scene<double>(scene)`.
 /// \param scene  Must outlive the index.
-/// \param lanes  As for the constructor.
 /// \return The index.
 template <typename Compute = void, typename S>
-[[nodiscard]] IndexedScene<S, Compute> index_scene(const S& scene, bool lanes = true) {
-    return IndexedScene<S, Compute>(scene, lanes);
+[[nodiscard]] IndexedScene<S, Compute> index_scene(const S& scene) {
+    return IndexedScene<S, Compute>(scene);
 }
 /// Not of a temporary: the scene would be gone before it is asked.
 template <typename Compute = void, typename S>
-IndexedScene<S, Compute> index_scene(const S&& scene, bool = true) = delete;
+IndexedScene<S, Compute> index_scene(const S&& scene) = delete;
 
 namespace detail {
 
@@ -206,20 +186,14 @@ closest_hit(const IndexedScene<S, Compute>& scene, const RayT<T>& ray) {
     if (scene.ids.empty()) return closest_hit<Compute>(scene.scene, ray);
     NearestHitT<T> nearest;
     ObjectId object;
-    const auto ask = [&](const ObjectId& id, std::uint32_t number, RayT<T>& rest) {
+    scene.tree.closest(ray, [&](std::uint32_t slot, RayT<T>& rest) {
+        const ObjectId id = scene.ids[slot];
         const auto hit = scene.scene.visit_shape(id, [&](const auto& shape) {
             return detail::hit_of<Compute>(rest, shape);
         });
-        if (hit && nearest.offer(*hit, number, rest)) object = id;
-    };
-    if (scene.few.empty())
-        scene.tree.closest(ray, [&](std::uint32_t place, RayT<T>& rest) {
-            ask(scene.ids[place], scene.tree.primitive_ids()[place], rest);
-        });
-    else if constexpr (std::is_same_v<T, float>)
-        scene.few.closest(ray, [&](std::uint32_t number, Ray& rest) {
-            ask(scene.ids[number], number, rest);
-        });
+        if (hit && nearest.offer(*hit, scene.tree.primitive_ids()[slot], rest))
+            object = id;
+    });
     if (!nearest.found) return std::nullopt;
     return SceneHitT<T>{nearest.at, object};
 }
@@ -231,14 +205,11 @@ closest_hit(const IndexedScene<S, Compute>& scene, const RayT<T>& ray) {
 template <typename S, typename Compute, std::floating_point T>
 [[nodiscard]] bool occluded(const IndexedScene<S, Compute>& scene, const RayT<T>& ray) {
     if (scene.ids.empty()) return occluded<Compute>(scene.scene, ray);
-    const auto ask = [&](std::uint32_t place) {
-        return scene.scene.visit_shape(scene.ids[place], [&](const auto& shape) {
+    return scene.tree.any(ray, [&](std::uint32_t slot) {
+        return scene.scene.visit_shape(scene.ids[slot], [&](const auto& shape) {
             return detail::is_met<Compute>(ray, shape);
         });
-    };
-    if constexpr (std::is_same_v<T, float>)
-        if (!scene.few.empty()) return scene.few.any(ray, ask);
-    return scene.tree.any(ray, ask);
+    });
 }
 
 /// \}

@@ -3,7 +3,6 @@
 /// \file ljus/photons/detail/kernel_border.hpp
 /// \brief How much of a kernel's disc lies on the surface, near the surface's border.
 
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -30,19 +29,6 @@ template <std::floating_point T>
     return T(0.5) + integral / (T(3) * std::numbers::pi_v<T>);
 }
 // [kernel_part]
-
-/// The corners of a flat shape with straight edges, in order.
-template <std::floating_point T>
-[[nodiscard]] std::array<Vec3T<T>, 4> corners_of(const QuadT<T>& quad) noexcept {
-    return {quad.corner, quad.corner + quad.edge_u,
-            quad.corner + quad.edge_u + quad.edge_v, quad.corner + quad.edge_v};
-}
-/// Of a triangle.
-template <std::floating_point T>
-[[nodiscard]] std::array<Vec3T<T>, 3>
-corners_of(const TriangleT<T>& triangle) noexcept {
-    return {triangle.v1, triangle.v2, triangle.v3};
-}
 
 /// The surface at a place: what a short ray straight down meets there.
 /// \param scene   The scene.

@@ -22,7 +22,6 @@ struct SceneNeeds {
     std::size_t specular = 0; ///< Those with a part that is.
     std::size_t lights = 0;   ///< Emissive objects and point lights.
     bool films = false;       ///< Whether a material is a thin surface.
-    bool few = false;         ///< Whether eight objects are asked at a time.
 };
 
 /// Counts what a scene is made of.
@@ -32,8 +31,7 @@ template <SceneLike S>
 [[nodiscard]] SceneNeeds needs(const S& scene) {
     SceneNeeds found{.objects = scene.size(),
                      .lights = scene.lights.size(),
-                     .films = detail::has_thin_surfaces(scene),
-                     .few = detail::are_few(scene)};
+                     .films = detail::has_thin_surfaces(scene)};
     for (const auto& objects : scene.objects)
         for (const auto& object : objects) {
             const Lobes parts = scene.visit_material(

@@ -1,6 +1,6 @@
 #pragma once
 
-/// \file ljus/math/facet.hpp
+/// \file ljus/geometry/facet.hpp
 /// \brief Flat polygons, and how much of a hemisphere one of them fills.
 
 #include <array>
