@@ -6,11 +6,10 @@
 #include <string>
 #include <vector>
 
-#include <flatland/material.hpp>
-#include <flatland/scene.hpp>
-
 #include "common/command_line.hpp"
 #include "common/drawing.hpp"
+#include "flatland/material.hpp"
+#include "flatland/scene.hpp"
 
 namespace {
 
