@@ -57,8 +57,8 @@ ljus_break_it(NAME progressive-first HEADER render/progressive.hpp TEST progress
     CASES "progressive: what cannot be*")
 
 # A damaged checkpoint is believed.
-ljus_break_it(NAME progressive-checksum HEADER io/detail/map_bytes.hpp TEST progressive
-    FROM "checksum != map_checksum(file.bytes)"
+ljus_break_it(NAME progressive-checksum HEADER io/binary_file.hpp TEST progressive
+    FROM "checksum != detail::checksum(file.bytes)"
     TO   "false"
     CASES "progressive: a checkpoint*")
 
