@@ -16,7 +16,7 @@
 #include <ljus/io/light_map_file.hpp>
 #include <ljus/ljus.hpp>
 #include <ljus/math/sum.hpp>
-#include <ljus/radiosity/form_factor.hpp>
+#include <ljus/radiosity/exchange_area.hpp>
 #include <ljus/radiosity/form_factor_matrix.hpp>
 #include <ljus/radiosity/light_map.hpp>
 #include <ljus/radiosity/patch_grid.hpp>
