@@ -214,8 +214,8 @@ void progress(const examples::Options& options) {
     int shot = 0;
     for (const int shots : {4, 30, 100, 1000}) {
         for (; shot < shots; ++shot)
-            detail::relax(*factors, patches.patches,
-                          detail::brightest(*factors, unsent), radiosity, unsent);
+            relax_patch(*factors, patches.patches, brightest_patch(*factors, unsent),
+                        radiosity, unsent);
         const auto map = make_light_map(room.scene, patches, *factors, radiosity);
         save_png(rendered("shots", make_light_map_view(room.scene, map), room.camera,
                           options),

@@ -61,7 +61,7 @@ TEST_CASE("light_map: vertices are numbered, each by all of its cells") {
         for (std::uint32_t cell = 0; cell < grid.size(); ++cell)
             for (const std::uint32_t vertex :
                  detail::cell_vertices(grid, place_of(grid, cell)))
-                if (vertex != detail::no_grid) {
+                if (vertex != no_grid) {
                     REQUIRE(vertex < cells.size());
                     ++cells[vertex];
                 }

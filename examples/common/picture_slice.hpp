@@ -184,7 +184,7 @@ inline void save_slice(const std::string& path, const PictureSlice& part) {
     detail::each_slice_number(
         part, [&]<typename Number>(Number& number) { number = file.take<Number>(); });
     const auto letters = file.take<std::uint64_t>();
-    constexpr auto most = static_cast<std::uint32_t>(ljus::detail::max_pixels);
+    constexpr auto most = static_cast<std::uint32_t>(ljus::max_pixels);
     const bool sized = width >= 1 && height >= 1 && width <= most / height;
     const bool numbered = part.slice.number >= 1 && part.slice.count <= max_slices &&
                           part.slice.number <= part.slice.count;

@@ -18,7 +18,7 @@ ljus_break_it(NAME progressive-photons HEADER render/progressive.hpp TEST progre
 
 # The same camera rays in each pass.
 ljus_break_it(NAME progressive-camera HEADER render/progressive.hpp TEST progressive
-    FROM "picture.seed = detail::mix_bits(detail::mix_bits(picture.seed) + number);"
+    FROM "picture.seed = mix_bits(mix_bits(picture.seed) + number);"
     TO   ""
     CASES "progressive: both radii*")
 

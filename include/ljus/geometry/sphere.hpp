@@ -39,7 +39,6 @@ struct ChordT {
     T enter = T(0); ///< The smaller root, in units of the direction's length.
     T leave = T(0); ///< The larger root, at least `enter`.
 };
-using Chord = ChordT<float>; ///< ChordT in float.
 
 /// Both distances at which the whole line of a ray meets a sphere.
 ///

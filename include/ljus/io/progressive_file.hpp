@@ -92,9 +92,8 @@ inline void save_checkpoint(const std::string& path, const ProgressiveState& sta
 /// \throws std::runtime_error  "cannot read 'a.check': its checksum is wrong, ...":
 ///         what is cut short, damaged, of another version or no checkpoint is refused.
 [[nodiscard]] inline ProgressiveState load_checkpoint(const std::string& path) {
-    FileReader file =
-        open_file(path, detail::file_limit(std::size_t(detail::max_pixels), 96),
-                  detail::checkpoint_format);
+    FileReader file = open_file(path, detail::file_limit(std::size_t(max_pixels), 96),
+                                detail::checkpoint_format);
     ProgressiveState state = detail::empty_state_of(file);
     detail::each_checkpoint_number(state, [&]<typename Number>(Number& number) {
         number = file.take<Number>();
