@@ -241,7 +241,7 @@ LJUS_GUARD guard_png() {
     Image image = make_image<float>(64, 64);
     for (std::size_t i = 0; i < image.pixels.size(); ++i)
         image.pixels[i] = Rgb{float(i % 61) / 61};
-    result = result + double(detail::encode_png(image, {}).size());
+    result = result + double(encode_png(image, {}).size());
 }
 
 int main() {

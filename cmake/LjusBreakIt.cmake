@@ -1,7 +1,7 @@
 # Break it: does a test notice when one term of a header is wrong?
 #
 #   ljus_break_it(NAME   sphere-discriminant      # unique
-#                 HEADER geometry/sphere.hpp      # below include/ljus
+#                 HEADER geometry/sphere.hpp      # below include/ljus; or examples/...
 #                 TEST   sphere                   # tests/sphere_test.cpp must notice
 #                 FROM   "discriminant >= C(0)"   # occurs exactly once in the header
 #                 TO     "discriminant <= C(0)"
@@ -49,8 +49,15 @@ function(ljus_break_it_program target test cases how)
         if(how STREQUAL "alone")
             set(include_folder "${folder}/rows/${row}")
         endif()
-        list(APPEND written "${include_folder}/ljus/${header}")
-        list(APPEND read "${LJUS_INCLUDE_DIR}/ljus/${header}"
+        set(source "${LJUS_INCLUDE_DIR}/ljus/${header}")
+        set(included "ljus/${header}")
+        if(header MATCHES "^examples/(.*)")
+            get_filename_component(root "${LJUS_INCLUDE_DIR}" DIRECTORY)
+            set(source "${root}/${header}")
+            set(included "${CMAKE_MATCH_1}")
+        endif()
+        list(APPEND written "${include_folder}/${included}")
+        list(APPEND read "${source}"
             "${folder}/rows/${row}/from.txt" "${folder}/rows/${row}/to.txt")
     endwhile()
     list(APPEND written "${include_folder}/${test}_test.cpp")

@@ -27,7 +27,7 @@ namespace ljus_break_it {
 /// What there is to tell of a row.
 struct Told {
     const char* name;   ///< Of the row; it is empty for "nothing is broken".
-    const char* header; ///< Below include/ljus.
+    const char* header; ///< As the row names it.
     const char* from;   ///< The text as it is.
     const char* to;     ///< The text of the mistake.
     const char* test;   ///< tests/TEST_test.cpp notices.
@@ -143,7 +143,7 @@ def main():
         sys.exit(1)
     for source, bodies in rows_of.items():
         text = patch.switched(patch.read(source), source, bodies)
-        patch.write(folder / source.relative_to(headers), text)
+        patch.write(folder / patch.as_included(source, headers), text)
     patch.write(folder / "ljus_break_it.hpp", SWITCH.replace("ROWS", "".join(told)))
 
 

@@ -3,8 +3,9 @@
     break_it_patch.py HEADERS FOLDER TEST CASES switched ROW HEADER [ROW HEADER]...
     break_it_patch.py HEADERS FOLDER TEST CASES alone ROW HEADER
 
-HEADERS is the folder that has ljus/ in it. In FOLDER/rows/ROW, from.txt and to.txt say
-what the row replaces by what; the header in which this is done is written there, too.
+HEADERS is the folder that has ljus/ in it. HEADER is a path below ljus/, or begins with
+examples/, the folder beside HEADERS. In FOLDER/rows/ROW, from.txt and to.txt say what the
+row replaces by what; the header in which this is done is written there, too.
 
 A row that is alone is compiled against that header. Other rows share one program, and its
 headers, in FOLDER/switched, hold all of them: the body of a function that rows break is
@@ -153,13 +154,21 @@ def function_bodies(text):
     return bodies
 
 
+def as_included(source, headers):
+    """How a program names a header: ljus/geometry/sphere.hpp, or flatland/light.hpp for
+    examples/flatland/light.hpp."""
+    beside = headers.parent / "examples"
+    return source.relative_to(beside if beside in source.parents else headers)
+
+
 class Row:
     def __init__(self, number, name, header, headers, folder):
         self.number = number
         self.name = name
-        self.source = headers / "ljus" / header
+        of_example = header.startswith("examples/")
+        self.source = (headers.parent if of_example else headers / "ljus") / header
         self.folder = folder / "rows" / name
-        self.broken = self.folder / "ljus" / header
+        self.broken = self.folder / as_included(self.source, headers)
         self.old = read(self.folder / "from.txt")
         self.new = read(self.folder / "to.txt")
 
@@ -176,7 +185,9 @@ class Row:
             )
         self.start = text.index(self.old)
         self.end = self.start + len(self.old)
-        shutil.rmtree(self.folder / "ljus", ignore_errors=True)  # another header, before
+        for other in self.folder.iterdir():  # another header, before
+            if other.is_dir():
+                shutil.rmtree(other)
         write(self.broken, text[: self.start] + self.new + text[self.end :])
 
     def find_body(self):
@@ -266,7 +277,7 @@ def main():
         write(target / "ljus_break_it.hpp", SWITCH.replace("NAMES", names))
         for source, bodies in rows_of.items():
             text = switched(read(source), source, bodies)
-            write(target / source.relative_to(headers), text)
+            write(target / as_included(source, headers), text)
     text = read(test)
     write(target / test.name, line_of(text, 0, test) + without_other_cases(text, cases))
 

@@ -127,8 +127,7 @@ void draw_pixel_with_rays(Figure3& figure) {
               examples::colors::red);
     const auto pattern = make_pattern(Sampling::multi_jittered, 5);
     for (int i = 0; i < 5; ++i)
-        draw_camera_ray(figure,
-                        Vec2{2, 1} + ljus::detail::spread(pattern, i, 3, Vec2{0.5f}),
+        draw_camera_ray(figure, Vec2{2, 1} + ljus::spread(pattern, i, 3, Vec2{0.5f}),
                         {.color = examples::colors::red, .width = 1.3});
 }
 
@@ -194,7 +193,7 @@ void draw_patterns(const std::string& folder) {
                       {.width = 1});
             auto stream = ljus::random_stream(4, ljus::Pass::user, 0, 0);
             for (int i = 0; i < count; ++i) {
-                const Vec2 p = ljus::detail::spread(pattern, i, 5, next_2d(stream));
+                const Vec2 p = ljus::spread(pattern, i, 5, next_2d(stream));
                 draw_dot(drawing, at(double(p.x), double(p.y)), 2.4,
                          examples::colors::blue);
             }
@@ -315,8 +314,8 @@ void plot_errors(const std::string& folder, int pixels, int most) {
             Vec2 sum{0};
             for (std::uint64_t key = 0; key < 500; ++key)
                 for (int i = 0; i < 64; ++i)
-                    sum += ljus::detail::spread(pattern, i, ljus::detail::mix_bits(key),
-                                                Vec2{0.3f, 0.6f});
+                    sum +=
+                        ljus::spread(pattern, i, ljus::mix_bits(key), Vec2{0.3f, 0.6f});
             keep = keep + sum.x + sum.y;
             best = std::min(best, watch.seconds() * 1e9 / (500 * 64));
         }

@@ -304,7 +304,7 @@ void solid_angles(const std::string& folder, int shots) {
     for (const double r : {1.2, 2.0, 5.0})
         add_row("a ball of radius 1, distance " + text(r),
                 Sphere{.center{0, 0, -r}, .radius = 1},
-                2 * pi * ljus::detail::one_minus_cosine(1 / (r * r)), pi / (r * r));
+                2 * pi * ljus::one_minus_cosine(1 / (r * r)), pi / (r * r));
     save_table(folder, table);
 }
 
@@ -465,7 +465,7 @@ void step_back(const std::string& folder, int shots) {
                        .image.pixels[0]
                        .x);
         // Cosine-weighted directions of the cone: E is the mean of L cos over p.
-        const double one_minus_cos = ljus::detail::one_minus_cosine(0.25 / (r * r));
+        const double one_minus_cos = ljus::one_minus_cosine(0.25 / (r * r));
         const double omega = 2 * pi * one_minus_cos;
         auto stream = ljus::random_stream(17, ljus::Pass::user, 0, 0);
         Estimate irradiance;

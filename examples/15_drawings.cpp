@@ -87,7 +87,7 @@ void draw_distribution(const std::string& folder) {
     } curves[] = {{0.25, colors::red}, {0.5, colors::orange}, {1.0, colors::blue}};
     for (const auto& curve : curves) {
         const auto share = [&](double a) {
-            return ljus::detail::ggx_distribution(
+            return ljus::ggx_distribution(
                 curve.alpha, ljus::Vec3T<double>{std::sin(a), 0, std::cos(a)});
         };
         std::vector<Point> points;

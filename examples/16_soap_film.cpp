@@ -44,7 +44,7 @@ glm::dvec3 beforehand(double c, double d) {
 /// Waves that are not turned over at the denser side: the sine becomes a cosine.
 glm::dvec3 not_turned(double c, double d) {
     const double g = std::sqrt(ljus::film_cosine2(c, water));
-    return ljus::into_gamut(ljus::detail::seen<double>([&](double wavelength) {
+    return ljus::into_gamut(ljus::spectrum_color<double>([&](double wavelength) {
         const double phase = 2 * std::numbers::pi * d * g / wavelength;
         const double beat = (water * water - 1) * std::cos(phase) / g;
         return ljus::film_shares(c, water, beat).reflected;
@@ -289,7 +289,7 @@ void figure_4(const examples::Options& options, const ljus::FilmTable& table) {
                            .color = ljus::FilmColor::table,
                            .table = table});
     ball(4, ljus::Lambertian{.albedo = color});
-    ljus::detail::add_ceiling_lamp(scene, 5.0f, -1.0f, 2.0f, Rgb{1});
+    ljus::add_ceiling_lamp(scene, 5.0f, -1.0f, 2.0f, Rgb{1});
 
     ljus::PhotonMappingSettings settings;
     settings.caustics = {.photons = options.pick(30000, 300000, 3000000),

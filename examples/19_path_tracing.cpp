@@ -17,7 +17,7 @@
 #include <ljus/ljus.hpp>
 #include <ljus/scenes/cornell_box.hpp>
 #include <ljus/scenes/furnaces.hpp>
-#include <ljus/scenes/room.hpp>
+#include <ljus/scene/camera.hpp>
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"

@@ -16,7 +16,7 @@
 #include <ljus/io/light_map_file.hpp>
 #include <ljus/ljus.hpp>
 #include <ljus/math/sum.hpp>
-#include <ljus/radiosity/form_factor.hpp>
+#include <ljus/radiosity/exchange_area.hpp>
 #include <ljus/radiosity/form_factor_matrix.hpp>
 #include <ljus/radiosity/light_map.hpp>
 #include <ljus/radiosity/patch_grid.hpp>
@@ -214,8 +214,8 @@ void progress(const examples::Options& options) {
     int shot = 0;
     for (const int shots : {4, 30, 100, 1000}) {
         for (; shot < shots; ++shot)
-            detail::relax(*factors, patches.patches,
-                          detail::brightest(*factors, unsent), radiosity, unsent);
+            relax_patch(*factors, patches.patches, brightest_patch(*factors, unsent),
+                        radiosity, unsent);
         const auto map = make_light_map(room.scene, patches, *factors, radiosity);
         save_png(rendered("shots", make_light_map_view(room.scene, map), room.camera,
                           options),

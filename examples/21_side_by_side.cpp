@@ -22,7 +22,7 @@
 #include <ljus/radiosity/patches.hpp>
 #include <ljus/radiosity/radiosity.hpp>
 #include <ljus/scenes/cornell_box.hpp>
-#include <ljus/scenes/room.hpp>
+#include <ljus/scene/camera.hpp>
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"

@@ -6,24 +6,23 @@
 #include <string>
 #include <vector>
 
-#include <ljus/flatland/material.hpp>
-#include <ljus/flatland/scene.hpp>
-
 #include "common/command_line.hpp"
 #include "common/drawing.hpp"
+#include "flatland/material.hpp"
+#include "flatland/scene.hpp"
 
 namespace {
 
 using examples::Drawing;
 using examples::flat;
-using ljus::flatland::Vec2;
+using flatland::Vec2;
 namespace colors = examples::colors;
 
 /// A floor, a wall at its left end and a ceiling.
-const ljus::flatland::Scene room{{
-    {ljus::flatland::Segment{.from{0, 0}, .to{7, 0}}},
-    {ljus::flatland::Segment{.from{0, 3}, .to{0, 0}}},
-    {ljus::flatland::Segment{.from{7, 3}, .to{0, 3}}},
+const flatland::Scene room{{
+    {flatland::Segment{.from{0, 0}, .to{7, 0}}},
+    {flatland::Segment{.from{0, 3}, .to{0, 0}}},
+    {flatland::Segment{.from{7, 3}, .to{0, 3}}},
 }};
 
 /// The gather rays of a point of the floor.
@@ -31,8 +30,8 @@ const ljus::flatland::Scene room{{
 double draw_gather_rays(Drawing& drawing, double x, int rays, const char* color) {
     double inverse = 0;
     for (int k = 0; k < rays; ++k) {
-        const Vec2 d = ljus::flatland::sample_cosine_half_circle((k + 0.5) / rays);
-        const ljus::flatland::Ray ray{.origin{x, 0}, .direction = d};
+        const Vec2 d = flatland::sample_cosine_half_circle((k + 0.5) / rays);
+        const flatland::Ray ray{.origin{x, 0}, .direction = d};
         const auto hit = closest_hit(room, ray);
         const double shown = hit ? hit->t : 3.0 / d.y; // as far as the ceiling would be
         if (hit) inverse += 1 / (rays * hit->t);

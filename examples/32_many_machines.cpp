@@ -188,7 +188,7 @@ void body(examples::CommandLine& line) {
     settings.caustics.threads = options.threads;
     RenderSettings picture{options.width, options.height, options.samples, options.seed,
                            options.threads};
-    detail::require_image_size(picture.width, picture.height);
+    require_image_size(picture.width, picture.height);
     if (scene.empty()) {
         const auto room = four_glass_room();
         render_room(room.scene, room.camera, picture, settings, rank, path,

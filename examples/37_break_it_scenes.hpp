@@ -472,7 +472,7 @@ Room<Stage> wide_lamp_box() {
     room.scene.add(Sphere{.center{0.42f, 0.38f, 0.3f}, .radius = 0.38f},
                    matt(room.scene, Rgb{0.7f}));
     add_lamp(room.scene, {0, 1.98f, 0}, 1.4f, 1.3f);
-    room.camera = ljus::detail::cornell_camera();
+    room.camera = ljus::cornell_camera();
     return room;
 }
 
@@ -538,7 +538,7 @@ Image cards(const Eye& eye) {
 /// \param eye  Its seed chooses the places.
 Image lamp_places(const Eye& eye) {
     const int rays = 3 + std::min(4, eye.size); // no constant: it is to break
-    const auto strata = ljus::detail::strata_for(rays);
+    const auto pattern = ljus::make_pattern(ljus::Sampling::jittered, rays);
     Image image = make_image(eye.size, eye.size, Rgb{0.03f});
     const auto at = [&](float x, float y) -> Rgb& { // the lamp in the middle
         const auto scaled = [&](float u) {
@@ -555,8 +555,7 @@ Image lamp_places(const Eye& eye) {
         for (int i = 0; i < rays; ++i) {
             RandomStream stream = random_stream(eye.seed, Pass::camera, 0,
                                                 8 * point + static_cast<unsigned>(i));
-            const Vec2 place =
-                ljus::detail::stratified(strata, i, point, next_2d<float>(stream));
+            const Vec2 place = ljus::spread(pattern, i, point, next_2d<float>(stream));
             at(place.x, place.y) = Rgb{0.95f, 0.8f, 0.35f};
         }
     return image;
@@ -565,8 +564,7 @@ Image lamp_places(const Eye& eye) {
 /// What a reader of the file sees, in which a picture with a bright lamp is kept.
 Image as_saved(const Eye& eye) {
     const Image image = box_direct(eye);
-    return ljus::detail::decode_image<float>(ljus::detail::encode_png(image),
-                                             "the picture");
+    return ljus::decode_image<float>(ljus::encode_png(image), "the picture");
 }
 
 // --- Photons -------------------------------------------------------------------------

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "ljus/flatland/density_estimate.hpp"
-#include "ljus/flatland/path_tracing.hpp"
-#include "ljus/flatland/room.hpp"
+#include "flatland/density_estimate.hpp"
+#include "flatland/path_tracing.hpp"
+#include "flatland/room.hpp"
 
 #include "common/clock.hpp"
 #include "common/command_line.hpp"
@@ -22,7 +22,7 @@
 
 namespace {
 
-using namespace ljus::flatland;
+using namespace flatland;
 using examples::Drawing, examples::Point, examples::text;
 using ljus::Kernel, ljus::PhotonKind;
 

@@ -676,7 +676,7 @@ RenderSettings picture_of(const LoadedSceneT<T>& loaded, const Request& request,
         .seed = options.seed,
         .threads = options.threads,
         .sampling = chosen<Sampling>(patterns, request.sampling)};
-    detail::require_image_size(picture.width, picture.height);
+    require_image_size(picture.width, picture.height);
     return picture;
 }
 

@@ -268,7 +268,7 @@ TEST_CASE("file: a pipe and a device are no files, and are not waited for") {
 #endif
 
 TEST_CASE("file: a message shows letters, and nothing that moves the cursor") {
-    using ljus::detail::shown;
+    using ljus::shown;
     CHECK(shown("a\tb\x1b[31m\x7f\n") == "a?b?[31m??");
     CHECK(shown("\xc3\xa5\xe2\x82\xac\xf0\x9f\x92\xa1 ") ==
           "\xc3\xa5\xe2\x82\xac\xf0\x9f\x92\xa1 "); // two, three and four bytes

@@ -4,9 +4,9 @@
 /// Its statistical cases were run with 20 further seeds (`./scripts/test --seeds 20`):
 /// none failed.
 
-#include "ljus/flatland/density_estimate.hpp"
-#include "ljus/flatland/path_tracing.hpp"
-#include "ljus/flatland/room.hpp"
+#include "flatland/density_estimate.hpp"
+#include "flatland/path_tracing.hpp"
+#include "flatland/room.hpp"
 
 #include <doctest/doctest.h>
 
@@ -23,7 +23,7 @@
 #include "support/statistics.hpp"
 #include "support/within.hpp"
 
-using namespace ljus::flatland;
+using namespace flatland;
 using ljus::Kernel, ljus::Pass, ljus::PhotonKind, ljus::Transport;
 using ljus_test::Mean, ljus_test::apart, ljus_test::test_seed, ljus_test::within;
 

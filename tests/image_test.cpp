@@ -48,10 +48,10 @@ TEST_CASE("image: a size that is not positive, or absurd, is refused with its va
         (void)ljus::make_image(0, 400),
         "The image's size is 0 x 400; width and height must be at least 1, "
         "and their product at most 268435456.");
-    CHECK_NOTHROW(ljus::detail::require_image_size(1LL << 28, 1));
-    CHECK_THROWS_AS(ljus::detail::require_image_size((1LL << 28) + 1, 1),
+    CHECK_NOTHROW(ljus::require_image_size(1LL << 28, 1));
+    CHECK_THROWS_AS(ljus::require_image_size((1LL << 28) + 1, 1),
                     std::invalid_argument);
-    CHECK_THROWS_AS(ljus::detail::require_image_size(1LL << 62, 1LL << 62),
+    CHECK_THROWS_AS(ljus::require_image_size(1LL << 62, 1LL << 62),
                     std::invalid_argument);
 }
 
@@ -69,16 +69,13 @@ TEST_CASE("image: one whose pixels do not fit its size is refused") {
 }
 
 TEST_CASE("image: neither side alone may be beyond what both allow") {
-    const long long most = ljus::detail::max_pixels;
-    CHECK_NOTHROW(ljus::detail::require_image_size(most, 1));
-    CHECK_NOTHROW(ljus::detail::require_image_size(1, most));
-    CHECK_NOTHROW(ljus::detail::require_image_size(most / 2, 2));
-    CHECK_THROWS_AS(ljus::detail::require_image_size(most / 2 + 1, 2),
-                    std::invalid_argument);
-    CHECK_THROWS_AS(ljus::detail::require_image_size(2, most / 2 + 1),
-                    std::invalid_argument);
-    CHECK_THROWS_AS(ljus::detail::require_image_size(most, most),
-                    std::invalid_argument);
+    const long long most = ljus::max_pixels;
+    CHECK_NOTHROW(ljus::require_image_size(most, 1));
+    CHECK_NOTHROW(ljus::require_image_size(1, most));
+    CHECK_NOTHROW(ljus::require_image_size(most / 2, 2));
+    CHECK_THROWS_AS(ljus::require_image_size(most / 2 + 1, 2), std::invalid_argument);
+    CHECK_THROWS_AS(ljus::require_image_size(2, most / 2 + 1), std::invalid_argument);
+    CHECK_THROWS_AS(ljus::require_image_size(most, most), std::invalid_argument);
     // The sentence names the width first.
     ljus::Image image;
     image.width = 3;

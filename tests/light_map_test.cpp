@@ -61,7 +61,7 @@ TEST_CASE("light_map: vertices are numbered, each by all of its cells") {
         for (std::uint32_t cell = 0; cell < grid.size(); ++cell)
             for (const std::uint32_t vertex :
                  detail::cell_vertices(grid, place_of(grid, cell)))
-                if (vertex != detail::no_grid) {
+                if (vertex != no_grid) {
                     REQUIRE(vertex < cells.size());
                     ++cells[vertex];
                 }
@@ -340,6 +340,10 @@ TEST_CASE("light_map: a file cut short or damaged is refused") {
     for (std::size_t size = 0; size < whole.size(); ++size) {
         save_file(path, Bytes(whole.begin(), whole.begin() + std::ptrdiff_t(size)));
         REQUIRE(why_not(path).starts_with(cannot));
+        if (size >= 40)
+            CHECK(why_not(path) ==
+                  cannot +
+                      "its checksum is wrong, so that it is damaged or cut short.");
     }
     for (std::size_t i = 0; i < whole.size(); ++i)
         for (const int bit : {0, 3, 7}) {
@@ -352,7 +356,7 @@ TEST_CASE("light_map: a file cut short or damaged is refused") {
     const auto with = [&](std::size_t at, std::initializer_list<int> values) {
         Bytes bytes = whole;
         for (const int value : values) bytes[at++] = static_cast<unsigned char>(value);
-        detail::put_checksum(bytes);
+        put_checksum(bytes);
         save_file(path, bytes);
         return why_not(path);
     };
@@ -383,6 +387,25 @@ TEST_CASE("light_map: a file cut short or damaged is refused") {
     }
     CHECK(grid(16, 3, 2));
     CHECK(with(68, {255, 255}).starts_with(cannot + "it says that it holds 655"));
+    // One patch more or fewer than it says, and a byte of another one.
+    const auto longer = [&](std::ptrdiff_t by) {
+        Bytes bytes = whole;
+        if (by > 0) bytes.resize(bytes.size() + std::size_t(by));
+        if (by < 0) bytes.erase(bytes.end() + by, bytes.end());
+        put_checksum(bytes);
+        save_file(path, bytes);
+        return why_not(path).starts_with(cannot + "it says that it holds") &&
+               why_not(path).ends_with(", which does not go with its " +
+                                       std::to_string(bytes.size()) + " bytes.");
+    };
+    CHECK(longer(24));
+    CHECK(longer(-24));
+    CHECK(longer(1));
+    CHECK(longer(-1));
+    Bytes no_key(whole.begin(), whole.begin() + 50);
+    put_checksum(no_key);
+    save_file(path, no_key);
+    CHECK(why_not(path) == cannot + "it ends in the middle of its key.");
     CHECK(with(light, {0, 0, 0, 0, 0, 0, 240, 127}) ==
           cannot + "it has light that is not finite, or below 0.");
     for (const std::size_t channel : {0u, 8u, 16u}) // -1 each
@@ -395,4 +418,18 @@ TEST_CASE("light_map: a file cut short or damaged is refused") {
     CHECK(why_not(path).starts_with(cannot + "it does not begin with 'ljus light map"));
     CHECK_THROWS_AS(save_light_map(folder.file("nowhere/a"), {}, {}),
                     std::runtime_error);
+}
+
+TEST_CASE("light_map: the limit of a file's bytes, and none without one") {
+    constexpr std::size_t all = static_cast<std::size_t>(-1);
+    CHECK(detail::file_limit(3, 42) == 56 + 3 * 42);
+    CHECK(detail::file_limit(0, 42) == 56);
+    CHECK(detail::file_limit(all, 42) == all);
+    CHECK(detail::file_limit(all / 42, 42) == all);
+    // The front counts, too: never beyond what a number holds, and so less again.
+    for (const std::size_t bytes : {1u, 8u, 24u, 38u, 42u, 96u})
+        for (std::size_t below = 0; below < 60; ++below) {
+            const std::size_t most = all / bytes - below;
+            CHECK(detail::file_limit(most, bytes) >= most);
+        }
 }

@@ -31,9 +31,8 @@ std::uint32_t owen_by_definition(std::uint32_t bits, std::uint64_t seed) {
     for (int bit = 31; bit >= 0; --bit) {
         const std::uint64_t above = bit == 31 ? 0 : bits >> (bit + 1);
         const std::uint64_t coin =
-            detail::mix_bits(detail::mix_bits(detail::mix_bits(seed) +
-                                              static_cast<std::uint64_t>(bit)) +
-                             above) >>
+            mix_bits(mix_bits(mix_bits(seed) + static_cast<std::uint64_t>(bit)) +
+                     above) >>
             63;
         result |= (((bits >> bit) & 1u) ^ static_cast<std::uint32_t>(coin)) << bit;
     }
@@ -218,7 +217,7 @@ TEST_CASE("low_discrepancy: one point is uniform over the seeds, by cells and in
             pairs.fill(std::vector<int>(256));
             const std::uint64_t seeds = std::uint64_t(1) << (definition ? 16 : 20);
             for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-                const std::uint64_t key = detail::mix_bits(ljus_test::test_seed(seed));
+                const std::uint64_t key = mix_bits(ljus_test::test_seed(seed));
                 SobolStream stream{.seed = key, .index = index};
                 std::array<std::uint32_t, 4> x;
                 for (std::uint32_t d = 0; d < 4; ++d)

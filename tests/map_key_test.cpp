@@ -10,14 +10,12 @@
 #include "ljus/geometry/metaballs.hpp"
 #include "ljus/geometry/moving.hpp"
 #include "ljus/io/light_map_file.hpp"
-#include "ljus/io/photon_map_file.hpp"
 #include "ljus/materials/eon.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/mixture.hpp"
 #include "ljus/materials/oren_nayar.hpp"
 #include "ljus/materials/rough_diffuse.hpp"
 #include "ljus/materials/soap_film.hpp"
-#include "ljus/render/photon_maps.hpp"
 #include "ljus/scenes/cornell_box.hpp"
 #include "scratch_folder.hpp"
 
@@ -76,12 +74,9 @@ struct Parts {
 
 auto go_on = [](long long, long long) { return true; };
 
-std::string refusal(const std::string& path, const MapKey& key, bool light) {
+std::string refusal(const std::string& path, const MapKey& key) {
     try {
-        if (light)
-            (void)load_light_map(path, key);
-        else
-            (void)load_photon_map(path, key);
+        (void)load_light_map(path, key);
     } catch (const std::runtime_error& error) {
         return error.what();
     }
@@ -106,7 +101,7 @@ TEST_CASE("map_key: the hash is that of the numbers' bytes, lowest first") {
     CHECK(hash_of(Nested{}) ==
           fnv({1, 0, 0, 128, 63, 0x34, 0x12, 0, 0, 0, 0, 0, 0, 0, 192}));
     CHECK(hash_of(Vec3{1, 0, 2}) == fnv({0, 0, 128, 63, 0, 0, 0, 0, 0, 0, 0, 64}));
-    CHECK(hash_of(MapType::caustics) == fnv({1}));
+    CHECK(hash_of(RadiositySolver::jacobi) == fnv({1}));
     CHECK(hash_of(std::optional<std::uint8_t>{}) == fnv({0}));
     CHECK(hash_of(std::optional<std::uint8_t>{7}) == fnv({1, 7}));
     CHECK(hash_of(std::vector<std::uint8_t>{5, 6}) ==
@@ -173,73 +168,6 @@ TEST_CASE(
     CHECK(made_of(true) != made_of(false));
 }
 
-TEST_CASE("map_key: settings that change photons count, and no others") {
-    const auto room = cornell_box();
-    using Settings = PhotonMappingSettings;
-    const auto same = [&](MapType type, auto change) {
-        Settings settings;
-        change(settings);
-        return photon_map_key(room.scene, type, settings) ==
-               photon_map_key(room.scene, type, Settings{});
-    };
-    constexpr auto general = MapType::general, caustics = MapType::caustics;
-    CHECK(photon_map_key(room.scene, general, Settings{}) !=
-          photon_map_key(room.scene, caustics, Settings{}));
-    const auto of_its_pass = [&](auto change) {
-        CHECK_FALSE(same(general, [&](Settings& s) { change(s.general); }));
-        CHECK_FALSE(same(caustics, [&](Settings& s) { change(s.caustics); }));
-        CHECK(same(caustics, [&](Settings& s) { change(s.general); }));
-        CHECK(same(general, [&](Settings& s) { change(s.caustics); }));
-    };
-    using Pass = PhotonPassSettings;
-    of_its_pass([](Pass& p) { p.photons = 7; });
-    of_its_pass([](Pass& p) { p.seed = 2; });
-    of_its_pass([](Pass& p) { p.iteration = 2; });
-    of_its_pass([](Pass& p) { p.max_bounces = 2; });
-    of_its_pass([](Pass& p) { p.shadow_photons = false; });
-    of_its_pass([](Pass& p) { p.keep = all_kinds; });
-    of_its_pass([](Pass& p) { p.equal_lights = true; });
-    of_its_pass([](Pass& p) { p.numbers = PhotonSampling::sobol; });
-    of_its_pass([](Pass& p) { p.shares = {0.5, 0.5}; });
-    of_its_pass([](Pass& p) { p.give_up = 9; });
-    for (const MapType type : {general, caustics}) {
-        CHECK(same(type, [](Settings& s) {
-            s.general.threads = s.caustics.threads = 3;
-            s.general.max_memory = s.caustics.max_memory = 1e8;
-            s.general.progress = go_on;
-            s.gather.rays = 99;
-            s.max_depth = 5;
-        }));
-        // What plans the general map, and what shares out the caustics' photons.
-        const bool is_caustics = type == caustics;
-        CHECK(same(type, [](Settings& s) { s.direct = DirectLight::mis; }) ==
-              is_caustics);
-        CHECK(same(type, [](Settings& s) { s.indirect = IndirectLight::cache; }) ==
-              is_caustics);
-        CHECK(same(type, [](Settings& s) { s.keep_general_map = true; }) ==
-              is_caustics);
-        CHECK(same(type, [](Settings& s) { s.skip.indirect_rays = true; }) ==
-              is_caustics);
-        CHECK(same(type, [](Settings& s) { s.caustic_budget = CausticBudget::area; }) !=
-              is_caustics);
-    }
-    const auto budget = [&](auto change) {
-        Settings settings{.caustic_budget = CausticBudget::brightness};
-        change(settings);
-        return photon_map_key(room.scene, caustics, settings);
-    };
-    const MapKey plain = budget([](Settings&) {});
-    CHECK(budget([](Settings& s) { s.caustics_estimate.radius *= 2; }) != plain);
-    CHECK(budget([](Settings& s) { s.general_estimate.radius *= 2; }) != plain);
-    CHECK(budget([](Settings& s) { s.general.seed = 2; }) != plain);
-    CHECK(budget([](Settings& s) { s.gather.rays = 99; }) == plain);
-    // One pass alone is asked for by its own settings.
-    CHECK(photon_map_key(room.scene, general, Pass{}) !=
-          photon_map_key(room.scene, general, Pass{.seed = 2}));
-    CHECK(photon_map_key(room.scene, general, Pass{}).scene ==
-          detail::scene_hash(room.scene));
-}
-
 TEST_CASE("map_key: settings that change a light map count, and no others") {
     const auto room = matt_cornell_box();
     const auto same = [&](auto change) {
@@ -272,32 +200,14 @@ TEST_CASE("map_key: the map of a scene that was changed since is refused") {
     const auto room = cornell_box();
     auto moved = room;
     std::get<std::vector<Sphere>>(moved.scene.shapes)[0].center.x += 0.01f;
-    PhotonMappingSettings settings{.indirect = IndirectLight::map};
-    settings.caustics.photons = settings.general.photons = 100;
-    const auto maps = make_photon_maps(room.scene, settings);
-    const auto key = [&](const auto& scene, MapType type) {
-        return photon_map_key(scene, type, settings);
-    };
-    save_photon_map(path, maps.general, key(room.scene, MapType::general));
-    CHECK(refusal(path, key(room.scene, MapType::general), false) == "it was read");
     const std::string other_scene =
         "for another scene, with other shapes, materials or lights; make it anew.";
     const std::string other_settings = "with other settings; make it anew, or ask for "
                                        "those that it was made with.";
-    CHECK(refusal(path, key(moved.scene, MapType::general), false) ==
-          cannot + other_scene);
-    CHECK(refusal(path, key(room.scene, MapType::caustics), false) ==
-          cannot + other_settings);
-    settings.general.photons = 101;
-    CHECK(refusal(path, key(room.scene, MapType::general), false) ==
-          cannot + other_settings);
-
     const RadiositySettings large{.patches = {.size = 1}, .factors = {.rays = 4}};
     const auto light = make_radiosity(room.scene, large);
     save_light_map(path, light->map, light_map_key(room.scene, large));
-    CHECK(refusal(path, light_map_key(room.scene, large), true) == "it was read");
-    CHECK(refusal(path, light_map_key(moved.scene, large), true) ==
-          cannot + other_scene);
-    CHECK(refusal(path, light_map_key(room.scene, {}), true) ==
-          cannot + other_settings);
+    CHECK(refusal(path, light_map_key(room.scene, large)) == "it was read");
+    CHECK(refusal(path, light_map_key(moved.scene, large)) == cannot + other_scene);
+    CHECK(refusal(path, light_map_key(room.scene, {})) == cannot + other_settings);
 }

@@ -78,8 +78,7 @@ TEST_CASE_TEMPLATE("microfacet: as many facets as 50 digits count", T, float, do
         const auto h =
             at_degrees<T>(std::atan(tangent) * 180 / pi, 360 * draws.unit<double>());
         const Real right = exact_normals(alpha, h.x, h.y, h.z);
-        const Real error =
-            abs(Real(ljus::detail::ggx_distribution(alpha, h)) - right) / right;
+        const Real error = abs(Real(ljus::ggx_distribution(alpha, h)) - right) / right;
         // A rounded direction is not of unit length; the printed form does not mind.
         worst = std::max(worst, (error / u).convert_to<double>());
     }
@@ -107,7 +106,7 @@ TEST_CASE_TEMPLATE("microfacet: the middle is one, where squares underflow too",
 TEST_CASE("microfacet: seen from above the facets cover the surface once") {
     for (const double alpha : {1e-4, 0.01, 0.09, 0.3, 0.6, 1.0}) {
         const double area = over_normals(alpha, 2000, [&](const Vec3T<double>& h) {
-            return ljus::detail::ggx_distribution(alpha, h) * h.z;
+            return ljus::ggx_distribution(alpha, h) * h.z;
         });
         CHECK(area == doctest::Approx(1).epsilon(1e-6));
     }
@@ -119,7 +118,7 @@ TEST_CASE("microfacet: the facets that are seen cover what the surface covers") 
         for (const double degrees : {0.0, 20.0, 45.0, 70.0, 85.0, 89.0}) {
             const auto wo = at_degrees<double>(degrees);
             const double area = over_normals(alpha, 2000, [&](const auto& h) {
-                return ljus::detail::ggx_distribution(alpha, h) *
+                return ljus::ggx_distribution(alpha, h) *
                        std::max(0.0, glm::dot(wo, h));
             });
             const double g1 = 2 * wo.z / (wo.z + ljus::detail::ggx_lambda(alpha, wo));
@@ -149,7 +148,7 @@ TEST_CASE("microfacet: visible normals are drawn by their density, for 100 seeds
                 const Vec3T<double> h{r * std::cos(phi), r * std::sin(phi), z};
                 const double density = printed_g1(alpha, wo.z) *
                                        std::max(0.0, glm::dot(wo, h)) *
-                                       ljus::detail::ggx_distribution(alpha, h) / wo.z;
+                                       ljus::ggx_distribution(alpha, h) / wo.z;
                 const double share = density * alpha / ((1 - s) * (1 - s)) * z * z * r *
                                      2 * pi / (rows * fine) / (columns * fine);
                 expected[std::size_t(i / fine * columns + j / fine)] += share * count;
@@ -191,7 +190,7 @@ TEST_CASE_TEMPLATE("microfacet: at the corners of the square and of the angles",
                     REQUIRE(h.z >= 0);
                     REQUIRE(std::abs(glm::length(h) - 1) <=
                             2 * std::numeric_limits<T>::epsilon());
-                    REQUIRE(std::isfinite(ljus::detail::ggx_distribution(alpha, h)));
+                    REQUIRE(std::isfinite(ljus::ggx_distribution(alpha, h)));
                 }
 }
 

@@ -514,8 +514,8 @@ TEST_CASE("form_factors: rays from both patches, the smaller one's count for mor
     const IndexedScene<Stage<double>> indexed(stage);
     for (const std::uint64_t seed : {1u, 2u}) {
         std::array<double, 2> row{}, back{};
-        detail::shoot_rays(indexed, all, 0, 50, seed, row);
-        detail::shoot_rays(indexed, all, 1, 50, seed, back);
+        shoot_rays(indexed, all, 0, 50, seed, row);
+        shoot_rays(indexed, all, 1, 50, seed, back);
         REQUIRE(row[1] != back[0]);
         const auto factors = make_form_factors(
             stage, all, {.analytic = false, .rays = 50, .seed = seed});
@@ -586,7 +586,7 @@ TEST_CASE("form_factors: each patch, each pair and each seed has numbers of its 
     const IndexedScene<Stage<double>> open(wide);
     double arrived = 0;
     std::vector<double> row(many.patches.size());
-    for (std::uint32_t i = 0; i < 64; ++i) detail::shoot_rays(open, many, i, 1, 1, row);
+    for (std::uint32_t i = 0; i < 64; ++i) shoot_rays(open, many, i, 1, 1, row);
     for (const double share_of : row) arrived += share_of;
     CHECK(arrived > 10);
     CHECK(arrived < 60);

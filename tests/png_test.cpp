@@ -49,7 +49,7 @@ ljus::Image ramp(int width, int height) {
 } // namespace
 
 TEST_CASE("png: the signature and the header's size, type and depth") {
-    const ljus::Bytes file = ljus::detail::encode_png(ramp(300, 2));
+    const ljus::Bytes file = ljus::encode_png(ramp(300, 2));
     const unsigned char head[] = {0x89, 'P',  'N', 'G', '\r', '\n', 0x1a, '\n', 0,
                                   0,    0,    13,  'I', 'H',  'D',  'R',  0,    0,
                                   1,    0x2c, 0,   0,   0,    2,    8,    2};
@@ -61,7 +61,7 @@ TEST_CASE("png: the signature and the header's size, type and depth") {
 TEST_CASE("png: a reader finds each pixel's sRGB bytes where they belong") {
     for (const auto& [width, height] : {std::pair{1, 1}, {1, 9}, {9, 1}, {33, 17}}) {
         const ljus::Image image = ramp(width, height);
-        const ljus::Bytes file = ljus::detail::encode_png(image, {.exposure = -0.5});
+        const ljus::Bytes file = ljus::encode_png(image, {.exposure = -0.5});
         int w = 0, h = 0, channels = 0;
         unsigned char* const bytes = stbi_load_from_memory(
             file.data(), static_cast<int>(file.size()), &w, &h, &channels, 3);
@@ -85,7 +85,7 @@ TEST_CASE("png: a bright lamp in one corner changes no other pixel") {
     ljus::Image image = ramp(20, 10);
     const auto bytes = [&] {
         int w = 0, h = 0, channels = 0;
-        const ljus::Bytes file = ljus::detail::encode_png(image);
+        const ljus::Bytes file = ljus::encode_png(image);
         unsigned char* const read = stbi_load_from_memory(
             file.data(), static_cast<int>(file.size()), &w, &h, &channels, 3);
         REQUIRE(read != nullptr);
@@ -105,7 +105,7 @@ TEST_CASE("png: NaN and negatives are black, infinity is white, in double as wel
     auto image = ljus::make_image<double>(1, 1);
     image.pixels[0] = {std::numeric_limits<double>::quiet_NaN(), -1.0,
                        std::numeric_limits<double>::infinity()};
-    const ljus::Bytes file = ljus::detail::encode_png(image);
+    const ljus::Bytes file = ljus::encode_png(image);
     int w = 0, h = 0, channels = 0;
     unsigned char* const bytes = stbi_load_from_memory(
         file.data(), static_cast<int>(file.size()), &w, &h, &channels, 3);
@@ -121,7 +121,7 @@ TEST_CASE("png: the file is what encode_png returns; the same image, the same by
     const ScratchFolder folder;
     const ljus::Image image = ramp(20, 10);
     ljus::save_png(image, folder.file("a.png"));
-    const ljus::Bytes bytes = ljus::detail::encode_png(image);
+    const ljus::Bytes bytes = ljus::encode_png(image);
     CHECK(ScratchFolder::read(folder.file("a.png")) ==
           std::string(bytes.begin(), bytes.end()));
     CHECK(folder.count() == 1);

@@ -579,7 +579,7 @@ TEST_CASE("progressive: a checkpoint comes back, and nothing else does") {
         Bytes file(whole.begin(), whole.end());
         for (int i = 0; i < bytes; ++i)
             file[at + std::size_t(i)] = static_cast<unsigned char>(bits >> (8 * i));
-        detail::put_checksum(file);
+        put_checksum(file);
         ScratchFolder::write(path, std::string(file.begin(), file.end()));
         return why_not();
     };

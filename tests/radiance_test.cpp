@@ -164,7 +164,7 @@ TEST_CASE("radiance: it stays the same along a ray, and irradiance does not") {
     // E = pi L sin^2, by a grid of the cone of directions to the ball.
     for (const double r : {0.75, 2.0, 50.0}) {
         const double sin2 = 0.25 / (r * r);
-        const double one_minus_cos = ljus::detail::one_minus_cosine(sin2);
+        const double one_minus_cos = ljus::one_minus_cosine(sin2);
         double sum = 0;
         for (int i = 0; i < 1000; ++i) {
             const Vec d = ljus::sample_uniform_cone(

@@ -113,7 +113,7 @@ TEST_CASE("radiosity: energy is kept by few rays as well, for they are symmetric
     for (std::size_t i = 0; i < rough.size(); ++i) {
         std::span row(rough.exchange.data() + i * rough.size(), rough.size());
         std::fill(row.begin(), row.end(), 0.0);
-        detail::shoot_rays(indexed, all->patches, std::uint32_t(i), 20, 1, row);
+        shoot_rays(indexed, all->patches, std::uint32_t(i), 20, 1, row);
         CHECK(std::abs(rough.row_sum(i) - 1) < 1e-12);
     }
     auto wrong = *all;
@@ -301,7 +301,7 @@ TEST_CASE(
     FormFactors factors;
     factors.area = {1, 10, 1, 1};
     const auto first = [&](std::vector<RgbD> unsent) {
-        return detail::brightest(factors, unsent);
+        return brightest_patch(factors, unsent);
     };
     const RgbD dark{0}, some{1, 1, 1};
     for (int channel = 0; channel < 3; ++channel) {
@@ -424,11 +424,11 @@ TEST_CASE("radiosity: in which order the patches send, step by step") {
         for (std::size_t i = 0; i < n; ++i)
             CHECK(glm::distance(found.radiosity[i], sent[i]) < 1e-14);
     }
-    CHECK(detail::brightest(factors, std::vector<Color>(n, Color(0))) == 0);
+    CHECK(brightest_patch(factors, std::vector<Color>(n, Color(0))) == 0);
     // Of equals the first: 1 * 2, 2 * 1, 0.5 * 4.
-    CHECK(detail::brightest(factors, {Color(2), Color(1), Color(4), Color(0)}) == 0);
-    CHECK(detail::brightest(factors, {Color(0), Color(1), Color(4), Color(0)}) == 1);
-    CHECK(detail::brightest(factors, {Color(0), Color(0, 9, 0), Color(5), Color(0)}) ==
+    CHECK(brightest_patch(factors, {Color(2), Color(1), Color(4), Color(0)}) == 0);
+    CHECK(brightest_patch(factors, {Color(0), Color(1), Color(4), Color(0)}) == 1);
+    CHECK(brightest_patch(factors, {Color(0), Color(0, 9, 0), Color(5), Color(0)}) ==
           1);
 }
 

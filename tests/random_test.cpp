@@ -100,7 +100,7 @@ TEST_CASE("random: the numbers stay what they are, so that pictures do") {
 }
 
 TEST_CASE("random: never 1, in float or in double, whatever the bits") {
-    CHECK(detail::mix_bits(unmix(0x0123456789abcdefu)) == 0x0123456789abcdefu);
+    CHECK(mix_bits(unmix(0x0123456789abcdefu)) == 0x0123456789abcdefu);
     for (const std::uint64_t bits :
          {~std::uint64_t{0}, ~std::uint64_t{0} << 11, ~std::uint64_t{0} << 40}) {
         RandomStream a = stream_to(bits), b = a;
@@ -246,8 +246,8 @@ TEST_CASE("random: a bit of the key flips half of the bits of the number") {
         long flipped = 0;
         for (std::uint64_t i = 0; i < 4096; ++i) {
             const std::uint64_t x = 0x9e3779b97f4a7c15u * (i + 1);
-            flipped += std::popcount(detail::mix_bits(x) ^
-                                     detail::mix_bits(x ^ std::uint64_t{1} << bit));
+            flipped +=
+                std::popcount(mix_bits(x) ^ mix_bits(x ^ std::uint64_t{1} << bit));
         }
         CAPTURE(bit);
         CHECK(static_cast<double>(flipped) / 4096 == doctest::Approx(32).epsilon(0.03));

@@ -69,7 +69,7 @@ SquaredErrors squared_errors(Sampling sampling, int count, int keys) {
         double smooth = 0, below = 0;
         for (int i = 0; i < count; ++i) {
             const Vec2T<double> p =
-                detail::spread(pattern, i, test_seed(key), next_2d<double>(stream));
+                spread(pattern, i, test_seed(key), next_2d<double>(stream));
             smooth += (std::exp(p.x) + p.x) * p.y;
             below += (p.x - 0.5) * c + (p.y - 0.5) * s < offset;
         }
@@ -118,7 +118,7 @@ TEST_CASE_TEMPLATE("sampling_pattern: any count has its points, within the pixel
             for (int i = 0; i < count; ++i)
                 for (const T corner :
                      {T(0), T(1) - std::numeric_limits<T>::epsilon()}) {
-                    const Vec2T<T> p = detail::spread(pattern, i, 9, Vec2T<T>{corner});
+                    const Vec2T<T> p = spread(pattern, i, 9, Vec2T<T>{corner});
                     inside = inside && p.x >= 0 && p.y >= 0 && p.x <= 1 && p.y <= 1;
                 }
             CAPTURE(count);
@@ -142,7 +142,7 @@ TEST_CASE(
         for (const std::uint64_t key : {42u, 43u, 44u}) {
             std::vector<int> of_x(std::size_t(count), -1), of_y = of_x;
             for (int i = 0; i < count; ++i) {
-                const auto p = detail::spread(pattern, i, key, Vec2T<double>{0.5});
+                const auto p = spread(pattern, i, key, Vec2T<double>{0.5});
                 // In the middle of its strip, so that no rounding can move it out.
                 int& column = of_x[std::size_t(p.x * count)];
                 int& row = of_y[std::size_t(p.y * count)];
@@ -184,8 +184,7 @@ TEST_CASE(
         std::vector<int> pairs(std::size_t(count * count));
         for (std::uint64_t key = 0; key < 60000; ++key)
             for (int i = 0; i < count; ++i) {
-                const auto p =
-                    detail::spread(pattern, i, test_seed(key), Vec2T<double>{0.5});
+                const auto p = spread(pattern, i, test_seed(key), Vec2T<double>{0.5});
                 ++pairs[std::size_t(p.x * count) * std::size_t(count) + std::size_t(i)];
             }
         CAPTURE(count);
@@ -205,7 +204,7 @@ TEST_CASE(
             for (int a = 0; a <= k; ++a) {
                 std::vector<int> cells(std::size_t(1) << k);
                 for (int i = 0; i < count; ++i) {
-                    const auto p = detail::spread(pattern, i, key, Vec2T<double>{0});
+                    const auto p = spread(pattern, i, key, Vec2T<double>{0});
                     ++cells[(std::size_t(std::ldexp(p.x, a)) << (k - a)) +
                             std::size_t(std::ldexp(p.y, k - a))];
                 }
@@ -222,8 +221,7 @@ TEST_CASE("sampling_pattern: each point is uniform over the pixels, and all toge
             for (std::uint64_t key = 0; key < 40000; ++key) {
                 RandomStream stream = random_stream(test_seed(1), Pass::user, 0, key);
                 for (int i = 0; i < count; ++i) {
-                    const Vec2 p =
-                        detail::spread(pattern, i, test_seed(key), next_2d(stream));
+                    const Vec2 p = spread(pattern, i, test_seed(key), next_2d(stream));
                     const int x = std::min(19, int(p.x * 20)),
                               y = std::min(19, int(p.y * 20));
                     ++together[std::size_t(20 * y + x)];
@@ -271,7 +269,7 @@ TEST_CASE("sampling_pattern: neighbouring pixels do not repeat each other") {
             double sum = -13.0 / 4; // the mean of a product is 1/4
             for (int i = 0; i < 13; ++i) {
                 const auto p =
-                    detail::spread(pattern, i, test_seed(key), next_2d<double>(stream));
+                    spread(pattern, i, test_seed(key), next_2d<double>(stream));
                 sum += p.x * p.y;
             }
             equal += sum * before > 0;

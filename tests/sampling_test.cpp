@@ -254,7 +254,7 @@ TEST_CASE_TEMPLATE("sampling: a cone as narrow as a star's is filled evenly", T,
     // The sun's distance over a star's radius: the cosine itself is 1 in float.
     for (const double sine : {1e-2, 1e-5, 1e-9, 1e-15}) {
         CAPTURE(sine);
-        const T m = ljus::detail::one_minus_cosine(static_cast<T>(sine * sine));
+        const T m = ljus::one_minus_cosine(static_cast<T>(sine * sine));
         const double exact = sine * sine / 2 * (1 + sine * sine / 4);
         CHECK(double(m) == ljus_test::within(exact, 4e-7));
         // u.x is the share of the solid angle, so the sine goes as its root.
@@ -268,8 +268,8 @@ TEST_CASE_TEMPLATE("sampling: a cone as narrow as a star's is filled evenly", T,
         CHECK(double(ljus::pdf_uniform_cone(m)) ==
               ljus_test::within(1 / (2 * pi * exact), 1e-6));
     }
-    CHECK(ljus::detail::one_minus_cosine(T(1)) == 1);
-    CHECK(ljus::detail::one_minus_cosine(T(0)) == 0);
+    CHECK(ljus::one_minus_cosine(T(1)) == 1);
+    CHECK(ljus::one_minus_cosine(T(0)) == 0);
 }
 
 TEST_CASE("sampling: the triangle's map keeps neighbours together") {

@@ -100,7 +100,7 @@ PhotonMappingSettings mapping(IndirectLight indirect, std::uint64_t seed,
 
 TEST_CASE("side_by_side: direct light of a small lamp, by all renderers") {
     const Cornell scene = small_lamp_box();
-    const Camera camera = detail::cornell_camera();
+    const Camera camera = cornell_camera();
     constexpr std::array direct{light_path_expression("EDL")};
     const auto of = [&](const auto& renderer, std::uint64_t seed) {
         return class_means(renderer, camera, picture(seed, 1), direct)[0].y;

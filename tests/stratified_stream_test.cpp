@@ -201,7 +201,7 @@ TEST_CASE_TEMPLATE("stratified stream: the largest number of the last cell is be
                    T, float, double) {
     // mix_bits() turns this into 64 ones; a stream adds `odd` for each number.
     constexpr std::uint64_t ones = 0xcf9a04affa6badc0u, odd = 0x9e3779b97f4a7c15u;
-    REQUIRE(detail::mix_bits(ones) == ~std::uint64_t(0));
+    REQUIRE(mix_bits(ones) == ~std::uint64_t(0));
     for (const Sampling sampling : {Sampling::random, Sampling::jittered,
                                     Sampling::multi_jittered, Sampling::sobol})
         for (const int rays : {1, 2, 3, 7, 64, 1000})

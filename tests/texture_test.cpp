@@ -343,7 +343,7 @@ TEST_CASE("texture: what is saved as PNG is loaded again; what is not is named")
     save_png(four(), path);
     CHECK(load_image(path).pixels == four().pixels);
     Image grey = make_image<float>(3, 1, Rgb{0.2f});
-    const Image back = detail::decode_image(detail::encode_png(grey), "grey.png");
+    const Image back = decode_image(encode_png(grey), "grey.png");
     CHECK(back.width == 3);
     CHECK(back.pixels[1].x == doctest::Approx(0.2).epsilon(0.01));
 
@@ -357,10 +357,10 @@ TEST_CASE("texture: what is saved as PNG is loaded again; what is not is named")
     };
     CHECK(said([&] { (void)load_image(folder.file("none.png")); }) ==
           "cannot read '" + folder.file("none.png") + "': No such file or directory.");
-    Bytes bytes = detail::encode_png(four());
+    Bytes bytes = encode_png(four());
     bytes.resize(bytes.size() / 2);
     CHECK(said([&] {
-              (void)detail::decode_image(bytes, "half.png");
+              (void)decode_image(bytes, "half.png");
           }).find("half.png is damaged: ") == 0);
     // Sizes that nobody can mean: of a bitmap, 0 x 0 and 2^30 x 2^30.
     for (const int high : {0x00, 0x40}) {
@@ -370,9 +370,8 @@ TEST_CASE("texture: what is saved as PNG is loaded again; what is not is named")
         bitmap[21] = bitmap[25] = static_cast<unsigned char>(high);
         bitmap[26] = 1;
         bitmap[28] = 24;
-        CHECK(said([&] {
-                  (void)detail::decode_image(bitmap, "b\n.bmp");
-              }).find("b?.bmp ") == 0);
+        CHECK(said([&] { (void)decode_image(bitmap, "b\n.bmp"); }).find("b?.bmp ") ==
+              0);
     }
     // A bitmap packs nothing: one of 100 x 100 pixels without them is cut short.
     Bytes cut(54 + 4);
@@ -381,10 +380,10 @@ TEST_CASE("texture: what is saved as PNG is loaded again; what is not is named")
     cut[18] = cut[22] = 100;
     cut[26] = 1;
     cut[28] = 24;
-    CHECK(said([&] { (void)detail::decode_image(cut, "cut.bmp"); }) ==
+    CHECK(said([&] { (void)decode_image(cut, "cut.bmp"); }) ==
           "cut.bmp is damaged: it ends in the middle of its pixels.");
     CHECK(said([&] {
-              (void)detail::decode_image({}, "empty.png");
+              (void)decode_image({}, "empty.png");
           }).find("empty.png is no picture that can be read: ") == 0);
 }
 
@@ -392,7 +391,7 @@ TEST_CASE("texture: of pictures only those are read whose reader is trusted, and
           "PNG files only whole ones") {
     const auto refusal_of = [](const Bytes& bytes) -> std::string {
         try {
-            (void)detail::decode_image(bytes, "a");
+            (void)decode_image(bytes, "a");
         } catch (const std::runtime_error& error) {
             return error.what();
         }
@@ -410,7 +409,7 @@ TEST_CASE("texture: of pictures only those are read whose reader is trusted, and
         CHECK(refusal_of(bytes) == other);
     }
     // Any bit turned over, and any end: stb_image asks for no sum.
-    const Bytes whole = detail::encode_png(four());
+    const Bytes whole = encode_png(four());
     REQUIRE(refusal_of(whole).empty());
     for (std::size_t i = 8; i < whole.size(); ++i) {
         Bytes damaged = whole;
@@ -619,7 +618,7 @@ TEST_CASE("texture: the sums of a damaged JPEG file wrap, and are clamped") {
         for (const int v : {half, 0xff, 0})
             file.push_back(static_cast<unsigned char>(v));
     file.back() = 0xd9;
-    const Image image = detail::decode_image(file, "a");
+    const Image image = decode_image(file, "a");
     CHECK(image.width == 64);
     for (const Rgb& color : image.pixels) CHECK((color.x >= 0 && color.x <= 1));
 }
@@ -636,7 +635,7 @@ TEST_CASE("texture: a file of many pixels and few bytes is refused") {
     jpeg.resize(644);
     for (const Bytes& file : {bmp, jpeg}) {
         try {
-            (void)detail::decode_image(file, "a");
+            (void)decode_image(file, "a");
             CHECK(false);
         } catch (const std::runtime_error& error) {
             CHECK(std::string(error.what()) ==

@@ -185,9 +185,9 @@ TEST_CASE("observer: near the CIE's table, and each function has the same integr
     for (int nm = 360; nm < 830; ++nm) sum += ljus::cie_observer(nm + 0.5);
     for (int i = 0; i < 3; ++i) CHECK(sum[i] == doctest::Approx(106.9).epsilon(5e-3));
     // A flat spectrum is white; light of 550 nm alone is greener than any screen.
-    const auto white = ljus::detail::seen<double>([](double) { return 1.0; });
+    const auto white = ljus::spectrum_color<double>([](double) { return 1.0; });
     for (int i = 0; i < 3; ++i) CHECK(white[i] == doctest::Approx(1).epsilon(1e-12));
-    CHECK(ljus::detail::xyz_to_rgb(ljus::cie_observer(550.0)).x < 0);
+    CHECK(ljus::xyz_to_rgb(ljus::cie_observer(550.0)).x < 0);
 }
 
 TEST_CASE("observer: a colour that cannot be shown keeps its luminance") {
@@ -373,12 +373,12 @@ TEST_CASE("observer: the screen's own red, green and blue, and its white") {
     const double primaries[][2] = {{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}};
     for (int own = 0; own < 3; ++own) {
         const double x = primaries[own][0], y = primaries[own][1];
-        const auto rgb = ljus::detail::xyz_to_rgb(
+        const auto rgb = ljus::xyz_to_rgb(
             glm::dvec3(x / y / 0.95047, 1.0, (1 - x - y) / y / 1.08883));
         for (int i = 0; i < 3; ++i)
             if (i != own) CHECK(std::abs(rgb[i]) < 2e-4 * rgb[own]);
     }
-    const auto white = ljus::detail::xyz_to_rgb(glm::dvec3(1.0));
+    const auto white = ljus::xyz_to_rgb(glm::dvec3(1.0));
     for (int i = 0; i < 3; ++i) CHECK(white[i] == doctest::Approx(1).epsilon(1e-14));
 }
 
@@ -415,7 +415,7 @@ TEST_CASE("observer: into the gamut by as much grey as needed, and no more") {
 TEST_CASE("film colours: where the spectrum is asked") {
     std::vector<double> asked;
     const auto ask = [&](double nm) { return asked.push_back(nm), 1.0; };
-    (void)ljus::detail::seen<double>(ask);
+    (void)ljus::spectrum_color<double>(ask);
     REQUIRE(asked.size() == 470);
     CHECK(asked.front() == 360.5);
     CHECK(asked.back() == 829.5);
@@ -430,7 +430,7 @@ TEST_CASE("film colours: where the spectrum is asked") {
         sum += eye * ljus::thin_film(0.8, 1.33, 20000.0, nm).reflected;
         white += eye;
     }
-    const auto color = ljus::detail::xyz_to_rgb(sum / white);
+    const auto color = ljus::xyz_to_rgb(sum / white);
     const auto found = ljus::film_spectral(0.8, 1.33, 20000.0);
     for (int k = 0; k < 3; ++k) CHECK(found[k] == ljus_test::within(color[k], 1e-13));
 }
@@ -445,7 +445,7 @@ TEST_CASE("film colours: the swing that is seen, its constants typed a second ti
         {1100, 0.280629320097, 0.633162479724, -0.658279874053},
         {1700, 0.356023120961, 0.327600652737, 0.0126457056684}};
     for (const auto& row : swings) {
-        const auto right = ljus::detail::xyz_to_rgb(glm::dvec3(row[1], row[2], row[3]));
+        const auto right = ljus::xyz_to_rgb(glm::dvec3(row[1], row[2], row[3]));
         const auto found = ljus::detail::visible_swing(row[0]);
         for (int i = 0; i < 3; ++i)
             CHECK(found[i] == ljus_test::within(right[i], 1e-9));

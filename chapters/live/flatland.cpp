@@ -7,12 +7,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "ljus/flatland/density_estimate.hpp"
-#include "ljus/flatland/room.hpp"
+#include "flatland/density_estimate.hpp"
+#include "flatland/room.hpp"
 
 namespace {
 
-namespace fl = ljus::flatland;
+namespace fl = flatland;
 
 /// How many places of the floor a curve has.
 constexpr int places = 201;

@@ -26,7 +26,7 @@ struct Figure {
     Quad other;
     Scene scene;
     ljus::Patches patches;
-    std::uint32_t to = ljus::detail::no_grid; ///< The other patch, if it is in sight.
+    std::uint32_t to = ljus::no_grid; ///< The other patch, if it is in sight.
     ljus::Estimate rays, pairs;
 };
 std::unique_ptr<Figure> figure;
@@ -73,14 +73,16 @@ extern "C" {
     f.scene.add(f.other, white);
     f.patches = make_patches(f.scene, {.size = 100});
     const std::uint32_t grid = front_of(f.patches, 1);
-    if (grid != ljus::detail::no_grid) f.to = f.patches.grids[grid].first;
+    if (grid != ljus::no_grid) f.to = f.patches.grids[grid].first;
 }
 
 /// The form factor from the floor to the other patch, in closed form.
 [[gnu::used]] double closed_form() {
     return exchange_area(facet_of(figure->floor), facet_of(figure->other));
 }
-[[gnu::used]] double area_of_other() { return double(area(figure->other)); }
+[[gnu::used]] double area_of_other() {
+    return double(area(figure->other));
+}
 
 /// Some more steps, of 64 rays and 64 pairs of points each.
 [[gnu::used]] void more(int steps) {
@@ -90,8 +92,8 @@ extern "C" {
     for (int step = 0; step < steps; ++step) {
         const auto number = static_cast<std::uint64_t>(f.rays.count);
         row.assign(row.size(), 0.0);
-        ljus::detail::shoot_rays(f.scene, f.patches, from, batch, number, row);
-        add(f.rays, f.to == ljus::detail::no_grid ? 0 : row[f.to]); // area 1
+        ljus::shoot_rays(f.scene, f.patches, from, batch, number, row);
+        add(f.rays, f.to == ljus::no_grid ? 0 : row[f.to]); // area 1
         double sum = 0;
         for (int i = 0; i < batch; ++i) {
             auto stream = stream_of(number, i);
@@ -101,7 +103,9 @@ extern "C" {
         add(f.pairs, sum);
     }
 }
-[[gnu::used]] double samples() { return batch * figure->rays.count; }
+[[gnu::used]] double samples() {
+    return batch * figure->rays.count;
+}
 [[gnu::used]] double mean(int pairs) {
     return pairs ? figure->pairs.mean : figure->rays.mean;
 }
@@ -133,7 +137,9 @@ extern "C" {
     return double(at[k]);
 }
 
-[[gnu::used]] int checks() { return 12; }
+[[gnu::used]] int checks() {
+    return 12;
+}
 [[gnu::used]] double check(int i) {
     const int set = i / 3;
     auto kept = std::move(figure); // the page goes on with its own
@@ -146,6 +152,8 @@ extern "C" {
 }
 
 /// The patches and the points on them are in float.
-[[gnu::used]] double tolerance() { return 1e-6; }
+[[gnu::used]] double tolerance() {
+    return 1e-6;
+}
 
 } // extern "C"

@@ -56,7 +56,7 @@ extern "C" {
 [[gnu::used]] const unsigned char* rainbow() {
     for (int i = 0; i < waves; ++i) {
         const auto eye = ljus::cie_observer(380.0 + 2 * i);
-        put(i, ljus::into_gamut(0.5 * ljus::detail::xyz_to_rgb(eye)));
+        put(i, ljus::into_gamut(0.5 * ljus::xyz_to_rgb(eye)));
     }
     return row.data();
 }

@@ -24,8 +24,8 @@
 
 namespace {
 
-using Room = ljus::Room<ljus::detail::ReportSceneT<float>>;
-using Mapper = ljus::PhotonMapper<ljus::detail::ReportSceneT<float>>;
+using Room = ljus::Room<ljus::ReportSceneT<float>>;
+using Mapper = ljus::PhotonMapper<ljus::ReportSceneT<float>>;
 
 // --- The two passes
 
@@ -237,9 +237,9 @@ extern "C" {
     for (int y = 0; y < sum_height; ++y)
         for (int x = 0; x < sum_width; ++x) {
             const auto i = static_cast<std::size_t>(y * sum_width + x);
-            const auto small = static_cast<std::size_t>(
-                y * preview_height / sum_height * preview_width +
-                x * preview_width / sum_width);
+            const auto small = static_cast<std::size_t>(y * preview_height /
+                                                            sum_height * preview_width +
+                                                        x * preview_width / sum_width);
             for (std::size_t c = 0; c < 3; ++c) {
                 const ljus::Estimate& sum = sums[i].channels[c];
                 const bool known = sum.count > 0 || 3 * small + c >= preview.size();

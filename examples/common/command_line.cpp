@@ -37,8 +37,7 @@ std::string version_text() {
 void require_folder(const std::string& folder) {
     const auto fail = [&](const std::string& why) {
         throw std::runtime_error("cannot write into the folder '" +
-                                 ljus::detail::shown_path(folder) +
-                                 "' of --out: " + why);
+                                 ljus::shown_path(folder) + "' of --out: " + why);
     };
     if (folder.empty()) fail("its name is empty");
     std::error_code error;
@@ -46,9 +45,7 @@ void require_folder(const std::string& folder) {
     if (error) fail(error.message());
     if (!std::filesystem::is_directory(folder, error)) fail("it is no folder");
     // Whether that works depends on more than the permissions: it is tried.
-    ljus::detail::FileBeside probe((std::filesystem::path(folder) / "probe").string());
-    probe.write({0});
-    probe.close();
+    ljus::require_writable((std::filesystem::path(folder) / "probe").string());
 }
 
 // ".png, .hdr or .pfm".
@@ -66,7 +63,7 @@ std::string without_end(std::string text, std::size_t limit) {
     text.erase(end == std::string::npos ? 0 : end + 1);
     for (char& c : text)
         if (c == '\n') c = ' ';
-    return ljus::detail::shown(std::move(text), limit);
+    return ljus::shown(std::move(text), limit);
 }
 
 // A name that only a picture has, and no folder.
@@ -140,9 +137,7 @@ std::string check_seed(const std::string& text) {
 void require_writable(const std::string& path) {
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     require_folder(folder.empty() ? "." : folder.string());
-    ljus::detail::FileBeside probe(ljus::detail::file_to_replace(path));
-    probe.write({0});
-    probe.close();
+    ljus::require_writable(path);
 }
 
 std::string Options::path(const std::string& name) const {

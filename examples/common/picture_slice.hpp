@@ -21,7 +21,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fingerprint.hpp"
-#include "ljus/io/detail/map_bytes.hpp"
+#include "ljus/io/binary_file.hpp"
 #include "ljus/path/counts.hpp"
 #include "ljus/render/render.hpp"
 
@@ -123,7 +123,7 @@ struct PictureSlice {
 
 namespace detail {
 
-inline constexpr ljus::detail::MapFormat slice_format{"ljus picturepart", 1};
+inline constexpr ljus::FileFormat slice_format{"ljus picturepart", 1};
 
 // Calls `each` with every number between the header and the settings' text.
 template <typename Slice, typename Each>
@@ -143,8 +143,8 @@ void each_slice_number(Slice& part, Each each) {
 /// \param path  The file; an older one is replaced at the very end.
 /// \param part  The slice.
 inline void save_slice(const std::string& path, const PictureSlice& part) {
-    using ljus::detail::put_number;
-    ljus::Bytes bytes = ljus::detail::map_front(
+    using ljus::put_number;
+    ljus::Bytes bytes = ljus::file_front(
         detail::slice_format, std::uint32_t(part.slice.number),
         std::uint32_t(part.slice.count), std::uint32_t(part.wide ? 8 : 4));
     put_number(bytes, std::uint32_t(part.width));
@@ -155,10 +155,10 @@ inline void save_slice(const std::string& path, const PictureSlice& part) {
     bytes.insert(bytes.end(), part.settings.begin(), part.settings.end());
     for (const ljus::RgbT<double>& color : part.pixels)
         if (part.wide)
-            ljus::detail::put_vector(bytes, color);
+            ljus::put_vector(bytes, color);
         else
-            ljus::detail::put_vector(bytes, ljus::Rgb(color));
-    ljus::detail::put_checksum(bytes);
+            ljus::put_vector(bytes, ljus::Rgb(color));
+    ljus::put_checksum(bytes);
     ljus::save_file(path, bytes);
 }
 
@@ -168,14 +168,14 @@ inline void save_slice(const std::string& path, const PictureSlice& part) {
 /// \throws std::runtime_error  with path and reason: what is cut short, damaged, of
 ///         another version or no slice is refused.
 [[nodiscard]] inline PictureSlice load_slice(const std::string& path) {
-    ljus::detail::MapReader file =
-        ljus::detail::open_map(path, std::size_t(1) << 34, detail::slice_format);
+    ljus::FileReader file =
+        ljus::open_file(path, std::size_t(1) << 34, detail::slice_format);
     PictureSlice part;
     part.slice.number = static_cast<int>(file.take<std::uint32_t>());
     part.slice.count = static_cast<int>(file.take<std::uint32_t>());
     const auto channel = file.take<std::uint32_t>();
     constexpr std::size_t numbers = 2 * 4 + 11 * 8 + 8;
-    file.position = ljus::detail::map_header;
+    file.position = ljus::file_front_bytes;
     if (file.left() < numbers) file.refuse("it ends in the middle of its header");
 
     // What has the right checksum and yet no sense was made to mislead.
@@ -184,7 +184,7 @@ inline void save_slice(const std::string& path, const PictureSlice& part) {
     detail::each_slice_number(
         part, [&]<typename Number>(Number& number) { number = file.take<Number>(); });
     const auto letters = file.take<std::uint64_t>();
-    constexpr auto most = static_cast<std::uint32_t>(ljus::detail::max_pixels);
+    constexpr auto most = static_cast<std::uint32_t>(ljus::max_pixels);
     const bool sized = width >= 1 && height >= 1 && width <= most / height;
     const bool numbered = part.slice.number >= 1 && part.slice.count <= max_slices &&
                           part.slice.number <= part.slice.count;

@@ -11,7 +11,8 @@
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/scene/camera.hpp"
 #include "ljus/scene/scene.hpp"
-#include "ljus/scenes/room.hpp"
+#include "ljus/scene/camera.hpp"
+#include "ljus/scene/query.hpp"
 
 namespace examples {
 

@@ -90,9 +90,7 @@ LJUS_CORE_EXTERN template Rgb estimate_radiance(const PhotonMap&, const VertexT<
 
 // Pictures.
 LJUS_CORE_EXTERN template Camera look_at(const ViewT<float>&);
-namespace detail {
 LJUS_CORE_EXTERN template Bytes encode_png(const Image&, const PngSettings&);
-} // namespace detail
 LJUS_CORE_EXTERN template void save_png(const Image&, const std::string&,
                                         const PngSettings&);
 

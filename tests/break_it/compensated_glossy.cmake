@@ -11,7 +11,7 @@ ljus_break_it(NAME compensated_glossy-mean HEADER materials/compensated_glossy.h
     CASES "full glossy: white*,full glossy: smooth*")
 
 # One reflection in place of two and more: light comes back that no facet reflected.
-ljus_break_it(NAME compensated_glossy-series HEADER materials/detail/multiple_scattering.hpp TEST compensated_glossy
+ljus_break_it(NAME compensated_glossy-series HEADER optics/energy_loss.hpp TEST compensated_glossy
     FROM "return reflectance * reflectance * (T(1) - loss) /"
     TO   "return (T(1) - loss) /"
     CASES "full glossy: it is the gloss*")

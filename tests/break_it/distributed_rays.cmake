@@ -74,8 +74,7 @@ ljus_break_it(NAME stratified-stream-order HEADER math/stratified_stream.hpp
 # Cells that are not divided by their number.
 ljus_break_it(NAME stratified-stream-random HEADER math/stratified_stream.hpp
     TEST stratified_stream
-    FROM "detail::spread(stream.pattern, cell, detail::mix_bits(key),
-                                      next_2d<T>(stream.rest));"
+    FROM "spread(stream.pattern, cell, mix_bits(key), next_2d<T>(stream.rest));"
     TO   "next_2d<T>(stream.rest); (void)cell;"
     CASES "stratified stream: in each*")
 
@@ -83,7 +82,7 @@ ljus_break_it(NAME stratified-stream-random HEADER math/stratified_stream.hpp
 # rays is none, and all draws of a ray hang together.
 ljus_break_it(NAME stratified-stream-twice HEADER math/stratified_stream.hpp
     TEST stratified_stream
-    FROM "cell, detail::mix_bits(key),"
+    FROM "cell, mix_bits(key),"
     TO   "cell, ~key,"
     CASES "stratified stream: the draws of a ray*")
 

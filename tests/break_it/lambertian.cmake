@@ -11,7 +11,7 @@ ljus_break_it(NAME lambertian-doubled-cosine HEADER materials/lambertian.hpp
     CASES "lambertian: samples*")
 
 # A wall that glows on its back.
-ljus_break_it(NAME lambertian-side HEADER materials/detail/cosine_lobe.hpp TEST lambertian
+ljus_break_it(NAME lambertian-side HEADER materials/cosine_lobe.hpp TEST lambertian
     FROM "wi.z = std::copysign(wi.z, wo.z);"
     TO   ""
     CASES "lambertian: samples*")

@@ -28,8 +28,8 @@ ljus_break_it(NAME map-key-sizes HEADER io/detail/map_key.hpp TEST map_key
     TO   ""
     CASES "map_key: the hash*")
 
-# The seed of the photons is forgotten.
-ljus_break_it(NAME map-key-seed HEADER io/photon_map_file.hpp TEST map_key
-    FROM "how.add(type, pass.photons, pass.seed, "
-    TO   "how.add(type, pass.photons, "
-    CASES "map_key: settings that change photons*")
+# The seed of the form factors is forgotten.
+ljus_break_it(NAME map-key-seed HEADER io/light_map_file.hpp TEST map_key
+    FROM "factors.closed, factors.seed, solve.solver"
+    TO   "factors.closed, solve.solver"
+    CASES "map_key: settings that change a light*")

@@ -42,13 +42,13 @@ ljus_break_it(NAME eon-nothing-back HEADER materials/eon.hpp TEST eon
     CASES "eon: white returns*")
 
 # The cut at the horizon forgotten in the density.
-ljus_break_it(NAME eon-horizon HEADER materials/detail/eon_lobe.hpp TEST eon
+ljus_break_it(NAME eon-horizon HEADER materials/eon.hpp TEST eon
     FROM "std::numbers::inv_pi_v<T> / lobe.kept;"
     TO   "std::numbers::inv_pi_v<T>;"
     CASES "eon: the density integrates*")
 
 # A Jacobian of lengths for one of solid angles.
-ljus_break_it(NAME eon-jacobian HEADER materials/detail/eon_lobe.hpp TEST eon
+ljus_break_it(NAME eon-jacobian HEADER materials/eon.hpp TEST eon
     FROM "std::max(T(0), v.z) * jacobian * jacobian"
     TO   "std::max(T(0), v.z) * jacobian"
     CASES "eon: directions agree*")
@@ -80,7 +80,7 @@ ljus_break_it(NAME eon-black HEADER materials/eon.hpp TEST eon
     CASES "eon: black has no sample*")
 
 # The fit of the lobe leans to the wrong side, straight on.
-ljus_break_it(NAME eon-pole HEADER materials/detail/eon_lobe.hpp TEST eon
+ljus_break_it(NAME eon-pole HEADER materials/eon.hpp TEST eon
     FROM "lobe.d = std::min(lobe.d, T(0));"
     TO   ";"
     CASES "eon: what is lost*")

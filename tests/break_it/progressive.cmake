@@ -18,7 +18,7 @@ ljus_break_it(NAME progressive-photons HEADER render/progressive.hpp TEST progre
 
 # The same camera rays in each pass.
 ljus_break_it(NAME progressive-camera HEADER render/progressive.hpp TEST progressive
-    FROM "picture.seed = detail::mix_bits(detail::mix_bits(picture.seed) + number);"
+    FROM "picture.seed = mix_bits(mix_bits(picture.seed) + number);"
     TO   ""
     CASES "progressive: both radii*")
 
@@ -57,8 +57,8 @@ ljus_break_it(NAME progressive-first HEADER render/progressive.hpp TEST progress
     CASES "progressive: what cannot be*")
 
 # A damaged checkpoint is believed.
-ljus_break_it(NAME progressive-checksum HEADER io/detail/map_bytes.hpp TEST progressive
-    FROM "checksum != map_checksum(file.bytes)"
+ljus_break_it(NAME progressive-checksum HEADER io/binary_file.hpp TEST progressive
+    FROM "checksum != detail::checksum(file.bytes)"
     TO   "false"
     CASES "progressive: a checkpoint*")
 

@@ -107,8 +107,8 @@ ljus_break_it(NAME light-map-side HEADER radiosity/light_map.hpp TEST light_map
     CASES "light_map: what a ray finds")
 
 # A file that was cut short or damaged is taken for a light map.
-ljus_break_it(NAME light-map-checksum HEADER io/detail/map_bytes.hpp TEST light_map
-    FROM "checksum != map_checksum(file.bytes)"
+ljus_break_it(NAME light-map-checksum HEADER io/binary_file.hpp TEST light_map
+    FROM "checksum != detail::checksum(file.bytes)"
     TO   "false"
     CASES "light_map: a file cut short*")
 
@@ -141,6 +141,18 @@ ljus_break_it(NAME facet-width HEADER geometry/facet.hpp TEST form_factor
     FROM "std::abs(h) <= width ? 0.0 : h"
     TO   "h"
     CASES "facet: what only touches*")
+
+# A light map of another version is read as if it were this one's.
+ljus_break_it(NAME light-map-version HEADER io/binary_file.hpp TEST light_map
+    FROM "found != format.version"
+    TO   "false"
+    CASES "light_map: a file cut short*")
+
+# The number of patches is believed, though there are more.
+ljus_break_it(NAME light-map-count HEADER io/binary_file.hpp TEST light_map
+    FROM "left() / bytes_of_one == count"
+    TO   "left() / bytes_of_one >= count"
+    CASES "light_map: a file cut short*")
 
 # A file of a few large grids holds more patches than were allowed.
 ljus_break_it(NAME light-map-most HEADER io/light_map_file.hpp TEST light_map

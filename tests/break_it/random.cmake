@@ -6,6 +6,6 @@ ljus_break_it(NAME random-below-one HEADER math/random.hpp TEST random
 
 # Streams of neighbouring paths must not overlap.
 ljus_break_it(NAME random-key HEADER math/random.hpp TEST random
-    FROM "detail::mix_bits(path + odd)"
+    FROM "mix_bits(path + odd)"
     TO   "path"
     CASES "random: the numbers stay*")

@@ -29,7 +29,7 @@ ljus_break_it(NAME pattern-sobol-key HEADER math/sampling_pattern.hpp
 # A pattern that is asked for, and not made.
 ljus_break_it(NAME pattern-not-made HEADER math/sampling_pattern.hpp
     TEST sampling_pattern
-    FROM "return stratified(pattern.strata, number, key, u);"
+    FROM "return detail::stratified(pattern.strata, number, key, u);"
     TO   "return u;"
     CASES "sampling_pattern: the error falls*")
 

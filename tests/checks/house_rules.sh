@@ -20,7 +20,7 @@ floor() {
         ljus/path/*) echo 7 ;;
         ljus/photons/* | ljus/radiosity/*) echo 8 ;;
         ljus/render/*) echo 9 ;;
-        ljus/inspect/* | ljus/scenes/* | ljus/io/* | ljus/flatland/*) echo 10 ;;
+        ljus/inspect/* | ljus/scenes/* | ljus/io/*) echo 10 ;;
         ljus/ljus.hpp | ljus/core.hpp) echo 11 ;;
         *) echo none ;;
     esac

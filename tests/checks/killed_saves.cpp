@@ -18,7 +18,6 @@
 #include "ljus/io/hdr.hpp"
 #include "ljus/io/light_map_file.hpp"
 #include "ljus/io/pfm.hpp"
-#include "ljus/io/photon_map_file.hpp"
 #include "ljus/io/png.hpp"
 #include "ljus/io/progressive_file.hpp"
 
@@ -39,12 +38,6 @@ std::vector<Kind> all_kinds_of_files() {
             image.pixels[i] = Rgb{float(i % 97) / 97, float(i % 31) / 31, 0.5f};
         return image;
     };
-    const auto photons = [](bool second) {
-        std::vector<Photon> list(second ? 2000 : 1500);
-        for (std::size_t i = 0; i < list.size(); ++i)
-            list[i].position = Vec3{float(i % 13), float(i % 17), float(i)};
-        return make_photon_map(list, 1);
-    };
     const auto light = [](bool second) {
         const std::uint32_t side = second ? 40 : 30;
         return LightMap{.objects = 1,
@@ -61,7 +54,6 @@ std::vector<Kind> all_kinds_of_files() {
     return {{"png", [=](auto& path, bool b) { save_png(picture(b), path); }},
             {"pfm", [=](auto& path, bool b) { save_pfm(picture(b), path); }},
             {"hdr", [=](auto& path, bool b) { save_hdr(picture(b), path); }},
-            {"map", [=](auto& path, bool b) { save_photon_map(path, photons(b), {}); }},
             {"light", [=](auto& path, bool b) { save_light_map(path, light(b), {}); }},
             {"check", [=](auto& path, bool b) { save_checkpoint(path, passes(b)); }},
             {"json", [](auto& path, bool b) {

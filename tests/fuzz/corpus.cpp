@@ -11,10 +11,8 @@
 #include "ljus/io/hdr.hpp"
 #include "ljus/io/light_map_file.hpp"
 #include "ljus/io/pfm.hpp"
-#include "ljus/io/photon_map_file.hpp"
 #include "ljus/io/png.hpp"
 #include "ljus/radiosity/radiosity.hpp"
-#include "ljus/render/photon_maps.hpp"
 #include "ljus/scenes/cornell_box.hpp"
 #include "support/jpeg_segment.hpp"
 
@@ -72,11 +70,6 @@ int main(int argc, char** argv) {
     save_file(file("png", "short.jpg"), jpeg);
 
     const auto room = cornell_box();
-    PhotonMappingSettings settings{.indirect = IndirectLight::map};
-    settings.caustics.photons = settings.general.photons = 12;
-    save_photon_map(file("photon_map", "room.map"),
-                    make_photon_maps(room.scene, settings).general, {});
-    save_photon_map(file("photon_map", "none.map"), PhotonMap{}, {});
     LightMap light = make_radiosity(room.scene, {.patches = {.size = 2}})->map;
     save_light_map(file("light_map", "room.light"), light, {});
     save_light_map(file("light_map", "none.light"), {}, {});

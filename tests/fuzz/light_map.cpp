@@ -25,9 +25,9 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         });
     };
     load(bytes);
-    if (size < ljus::detail::map_header + ljus::detail::map_key_bytes) return 0;
+    if (size < ljus::file_front_bytes + ljus::detail::map_key_bytes) return 0;
     std::fill_n(bytes.begin() + 40, ljus::detail::map_key_bytes, std::uint8_t(0));
-    ljus::detail::put_checksum(bytes);
+    ljus::put_checksum(bytes);
     load(bytes);
     return 0;
 }

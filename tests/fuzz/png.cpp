@@ -25,7 +25,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const ljus::Bytes bytes(data, data + size);
     const auto decode = [](const ljus::Bytes& file) {
         fuzz::refused_or_done([&] {
-            const ljus::Image image = ljus::detail::decode_image(file, "fuzz.png");
+            const ljus::Image image = ljus::decode_image(file, "fuzz.png");
             for (const ljus::Rgb& c : image.pixels)
                 for (const float channel : {c.x, c.y, c.z})
                     fuzz::require_that(channel >= 0 && channel <= 1,

@@ -49,7 +49,6 @@ struct BoxRayT {
         is_negative{}; ///< The sign of `inverse`, which tells -0 from 0.
     T slack = T(0); ///< By how much every box is larger than it says, in scene units.
 };
-using BoxRay = BoxRayT<float>; ///< BoxRayT in float.
 
 /// Makes a ray ready for boxes.
 ///

@@ -43,7 +43,6 @@ struct ChordT {
     T enter = T(0); ///< The smaller root, in units of the direction's length.
     T leave = T(0); ///< The larger root, at least `enter`.
 };
-using Chord = ChordT<float>; ///< ChordT in float.
 
 /// Both distances at which the whole line of a ray meets a sphere.
 ///
@@ -241,7 +240,7 @@ template <std::floating_point T>
     const T sin2 = sphere.radius * sphere.radius / glm::dot(way, way);
     if (!(sin2 < T(1))) return {};
     return {.axis = glm::normalize(way),
-            .one_minus_cos = detail::one_minus_cosine(sin2)};
+            .one_minus_cos = one_minus_cosine(sin2)};
 }
 
 /// Whether an observer is surely outside a sphere, and samples the cone in which it is

@@ -18,12 +18,8 @@ namespace ljus {
 /// \brief What a renderer makes: linear radiance, before any exposure or encoding.
 /// \{
 
-namespace detail {
-
 /// The largest number of pixels of an image: 2^28, three gigabytes in float.
 inline constexpr long long max_pixels = 1LL << 28;
-
-} // namespace detail
 
 /// A rectangle of linear colours. make_image() makes one of a given size.
 template <std::floating_point T>
@@ -33,8 +29,6 @@ struct ImageT {
     std::vector<RgbT<T>> pixels; ///< Row by row, from the top left: y * width + x.
 };
 using Image = ImageT<float>; ///< ImageT in float.
-
-namespace detail {
 
 /// Refuses the size of an image.
 /// \param width   Pixels in a row.
@@ -52,8 +46,6 @@ inline void require_image_size(long long width, long long height) {
     throw std::invalid_argument(text);
 }
 
-} // namespace detail
-
 /// An image of one colour.
 /// \param width   Pixels in a row, at least 1.
 /// \param height  Rows, at least 1.
@@ -63,7 +55,7 @@ inline void require_image_size(long long width, long long height) {
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> make_image(int width, int height,
                                    RgbT<T> fill = RgbT<T>(T(0))) {
-    detail::require_image_size(width, height);
+    require_image_size(width, height);
     const auto count =
         static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     return {.width = width, .height = height, .pixels = {count, fill}};
@@ -74,7 +66,7 @@ template <std::floating_point T = float>
 /// \throws std::invalid_argument  unless pixels.size() = width * height, at least 1.
 template <std::floating_point T>
 void check(const ImageT<T>& image) {
-    detail::require_image_size(image.width, image.height);
+    require_image_size(image.width, image.height);
     const long long count = static_cast<long long>(image.width) * image.height;
     if (static_cast<long long>(image.pixels.size()) == count) return;
     char text[128];

@@ -61,7 +61,7 @@ requires Renderer<R, T>
                                             const AnyCamera<T>& camera,
                                             const RenderSettings& picture, int x, int y,
                                             int keep = 4) {
-    detail::require_image_size(picture.width, picture.height);
+    require_image_size(picture.width, picture.height);
     require_at_least("samples", picture.samples, 1);
     require(x >= 0 && x < picture.width, "the pixel's column",
             static_cast<long long>(x), "at least 0 and below the picture's width");

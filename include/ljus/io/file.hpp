@@ -64,6 +64,16 @@ inline void save_file(const std::string& path, const Bytes& bytes) {
     file.rename_to_path();
 }
 
+/// Refuses a file that save_file() could not write, before there is work to save: it
+/// writes one byte beside it, and removes that again.
+/// \param path  The file; its folder must exist.
+/// \throws std::runtime_error  as save_file().
+inline void require_writable(const std::string& path) {
+    detail::FileBeside probe(detail::file_to_replace(path));
+    probe.write({0});
+    probe.close();
+}
+
 /// Reads a file.
 /// \param path  The file; a pipe or a device, which may never end, is refused.
 /// \param most  The most bytes it may have: what is longer, or endless, is refused.
@@ -105,9 +115,9 @@ inline void save_file(const std::string& path, const Bytes& bytes) {
                                     bytes.size());
         if (!text.starts_with(begin))
             detail::fail_to_read(
-                path, detail::join({"it does not begin with '",
-                                    detail::shown(std::string(begin)),
-                                    "', so that it is another kind of file"}));
+                path,
+                detail::join({"it does not begin with '", shown(std::string(begin)),
+                              "', so that it is another kind of file"}));
         if (bytes.size() > most)
             detail::fail_to_read(
                 path, detail::join({"it is longer than the ", std::to_string(most),

@@ -34,10 +34,11 @@ namespace ljus {
 /// The bytes of a file.
 using Bytes = std::vector<unsigned char>;
 
-namespace detail {
-
-// A text of a file as a message shows it: on one line, and not too long; `?` for each
-// control character and each byte that is no UTF-8.
+/// A text of a file or a user as a message shows it: on one line, and not too long;
+/// `?` for each control character and each byte that is no UTF-8.
+/// \param text   Any bytes.
+/// \param limit  The most bytes that are shown; "..." follows if there are more.
+/// \return UTF-8.
 [[nodiscard]] inline std::string shown(std::string text, std::size_t limit = 48) {
     const auto byte = [&](std::size_t i) {
         return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
@@ -57,13 +58,17 @@ namespace detail {
     // Not in the middle of a UTF-8 character.
     while (limit > 0 && (static_cast<unsigned char>(text[limit]) & 0xc0u) == 0x80u)
         --limit;
-    return join({std::string_view(text).substr(0, limit), "..."});
+    return detail::join({std::string_view(text).substr(0, limit), "..."});
 }
 
-// A path as a message shows it: another file may have named it.
+/// A path as a message shows it: another file may have named it.
+/// \param path  Any bytes.
+/// \return Its first 1000 bytes at most, as shown() has them.
 [[nodiscard]] inline std::string shown_path(const std::string& path) {
     return shown(path, 1000);
 }
+
+namespace detail {
 
 [[noreturn]] inline void fail_to_write(const std::string& path, int error) {
     throw std::runtime_error(

@@ -143,19 +143,18 @@ inline void read_rgbe_row(ByteReader& reader,
 ///     1991), or is shorter or longer than its header says.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_hdr(const std::string& path) {
-    detail::ByteReader reader{
-        path, load_file(path, 8 * std::size_t(detail::max_pixels), "#?")};
+    detail::ByteReader reader{path, load_file(path, 8 * std::size_t(max_pixels), "#?")};
     double exposure = 1.0;
     for (std::string line = reader.line(); !line.empty(); line = reader.line()) {
         if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe")
-            reader.fail("its header says " + detail::shown(line) +
+            reader.fail("its header says " + shown(line) +
                         "; only 32-bit_rle_rgbe is read");
         if (!line.starts_with("EXPOSURE=")) continue;
         std::string text = line.substr(9);
         text.erase(0, std::min(text.find_first_not_of(' '), text.size()));
         const double number = detail::to_number(text);
         if (!(number > 0.0) || !std::isfinite(number))
-            reader.fail("its header says " + detail::shown(line) +
+            reader.fail("its header says " + shown(line) +
                         ", which is no number above 0");
         exposure *= number;
     }
@@ -165,8 +164,8 @@ template <std::floating_point T = float>
     const int height = reader.size(y_size);
     const int width = reader.size(reader.word());
     if (y_word != "-Y" || x_word != "+X")
-        reader.fail("its rows go " + detail::shown(y_word) + " " +
-                    detail::shown(x_word) + "; only -Y +X is read");
+        reader.fail("its rows go " + shown(y_word) + " " + shown(x_word) +
+                    "; only -Y +X is read");
     reader.require_pixels(width, height);
 
     // The image grows by rows, so that a short file with a large size takes no memory.

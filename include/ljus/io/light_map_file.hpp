@@ -23,7 +23,7 @@ namespace ljus {
 
 namespace detail {
 
-inline constexpr MapFormat light_map_format{"ljus light map\n\n", 2};
+inline constexpr FileFormat light_map_format{"ljus light map\n\n", 2};
 inline constexpr std::size_t grid_bytes = 20;
 inline constexpr std::size_t light_bytes = 24;
 
@@ -36,7 +36,7 @@ inline void put_grid(Bytes& bytes, const PatchGrid& grid) {
 }
 
 // The next grid of a file, without its first patch; nothing if its numbers are wrong.
-[[nodiscard]] inline std::optional<PatchGrid> take_grid(MapReader& file) {
+[[nodiscard]] inline std::optional<PatchGrid> take_grid(FileReader& file) {
     PatchGrid grid;
     grid.object.type = file.take<std::uint32_t>();
     grid.object.index = file.take<std::uint32_t>();
@@ -80,13 +80,12 @@ template <SceneLike S>
 /// \cost 24 bytes a patch.
 inline void save_light_map(const std::string& path, const LightMap& map,
                            const MapKey& key) {
-    Bytes bytes =
-        detail::map_front(detail::light_map_format,
-                          static_cast<std::uint32_t>(map.grids.size()), map.objects);
+    Bytes bytes = file_front(detail::light_map_format,
+                             static_cast<std::uint32_t>(map.grids.size()), map.objects);
     detail::put_key(bytes, key);
     for (const PatchGrid& grid : map.grids) detail::put_grid(bytes, grid);
-    for (const RgbT<double>& light : map.irradiance) detail::put_vector(bytes, light);
-    detail::put_checksum(bytes);
+    for (const RgbT<double>& light : map.irradiance) put_vector(bytes, light);
+    put_checksum(bytes);
     save_file(path, bytes);
 }
 
@@ -100,8 +99,8 @@ inline void save_light_map(const std::string& path, const LightMap& map,
 ///         another version or no light map is refused.
 [[nodiscard]] inline LightMap load_light_map(const std::string& path, const MapKey& key,
                                              std::size_t most = 10'000'000) {
-    detail::MapReader file = detail::open_map(
-        path, detail::map_limit(most, detail::light_bytes + detail::grid_bytes),
+    FileReader file = open_file(
+        path, detail::file_limit(most, detail::light_bytes + detail::grid_bytes),
         detail::light_map_format);
     const auto grids = file.take<std::uint32_t>();
     LightMap map{.objects = file.take<std::uint64_t>()};

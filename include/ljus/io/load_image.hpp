@@ -154,6 +154,8 @@ DecodedBytes decode_bytes(const Bytes& bytes, Refuse refuse) {
 }
 #endif
 
+} // namespace detail
+
 /// A picture from the bytes of a file.
 /// \param bytes  The file.
 /// \param path   What messages call it.
@@ -162,10 +164,10 @@ DecodedBytes decode_bytes(const Bytes& bytes, Refuse refuse) {
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> decode_image(const Bytes& bytes, const std::string& path) {
     const auto refuse = [&](std::string_view why) {
-        throw std::runtime_error(join({shown_path(path), " ", why, "."}));
+        throw std::runtime_error(detail::join({shown_path(path), " ", why, "."}));
     };
 #ifdef LJUS_HAS_STB_IMAGE
-    const DecodedBytes picture = decode_bytes(bytes, refuse);
+    const detail::DecodedBytes picture = detail::decode_bytes(bytes, refuse);
     std::array<T, 256> linear{};
     for (std::size_t i = 0; i < 256; ++i)
         linear[i] = static_cast<T>(srgb_decode(static_cast<double>(i) / 255.0));
@@ -182,15 +184,13 @@ template <std::floating_point T = float>
 #endif
 }
 
-} // namespace detail
-
 /// Loads a picture, for a texture.
 /// \param path  The file.
 /// \return Linear colours in [0, 1].
 /// \throws std::runtime_error  with path and reason.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_image(const std::string& path) {
-    return detail::decode_image<T>(load_file(path, detail::max_image_file), path);
+    return decode_image<T>(load_file(path, detail::max_image_file), path);
 }
 
 /// \}

@@ -144,7 +144,7 @@ template <std::floating_point T = float>
             loaded.parts.push_back(
                 {MeshT<T>(std::move(part.data)), std::move(part.material)});
         } catch (const std::invalid_argument& wrong) {
-            throw std::runtime_error(detail::shown_path(file) + ": " + wrong.what());
+            throw std::runtime_error(shown_path(file) + ": " + wrong.what());
         }
     }
     return loaded;
@@ -227,7 +227,7 @@ struct ObjMeshesT {
         for (auto& part : loaded.parts) meshes.push_back(std::move(part.mesh));
         const std::string text = to_text(loaded.report);
         if (report != nullptr && !text.empty())
-            *report += detail::shown_path(path) + ":\n" + text;
+            *report += shown_path(path) + ":\n" + text;
         return meshes;
     }
 };

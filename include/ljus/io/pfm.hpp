@@ -53,8 +53,8 @@ void save_pfm(const ImageT<T>& image, const std::string& path) {
 ///         file, or is shorter or longer than its header says.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_pfm(const std::string& path) {
-    detail::ByteReader reader{
-        path, load_file(path, 12 * std::size_t(detail::max_pixels) + 256, "P")};
+    detail::ByteReader reader{path,
+                              load_file(path, 12 * std::size_t(max_pixels) + 256, "P")};
     const std::string kind = reader.word();
     if (kind != "PF" && kind != "Pf") reader.fail("it does not begin with PF or Pf");
     const int width = reader.size(reader.word());

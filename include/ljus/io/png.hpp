@@ -65,8 +65,6 @@ struct PngSettings {
     double exposure = 0.0; ///< In stops: +1 doubles the light. Finite.
 };
 
-namespace detail {
-
 /// The bytes of a PNG file.
 /// \param image    Linear colours; NaN and negative channels turn black, what exceeds 1
 ///                 after exposure turns 255.
@@ -97,8 +95,8 @@ template <std::floating_point T>
     if (stbi_write_png_to_func(append, &file, image.width, image.height, 3,
                                screen.data(), 3 * image.width) == 0)
         throw std::runtime_error(
-            join({"PNG: no memory for an image of ", to_text(image.width), " x ",
-                  to_text(image.height), " pixels."}));
+            detail::join({"PNG: no memory for an image of ", to_text(image.width),
+                          " x ", to_text(image.height), " pixels."}));
     return file;
 #elif defined(LJUS_NO_STB)
     static_assert(sizeof(T) == 0, "LJUS_NO_STB switches PNG off: save a .pfm or .hdr "
@@ -113,8 +111,6 @@ template <std::floating_point T>
 #endif
 }
 
-} // namespace detail
-
 /// Saves an image as PNG.
 /// \param image    As for encode_png().
 /// \param path     The file; an older one is replaced at the very end (save_file()).
@@ -123,7 +119,7 @@ template <std::floating_point T>
 template <std::floating_point T>
 void save_png(const ImageT<T>& image, const std::string& path,
               const PngSettings& options = {}) {
-    save_file(path, detail::encode_png(image, options));
+    save_file(path, encode_png(image, options));
 }
 
 /// \}

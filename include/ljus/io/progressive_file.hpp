@@ -3,7 +3,7 @@
 /// \file ljus/io/progressive_file.hpp
 /// \brief A checkpoint of a progressive picture, and back.
 
-#include "ljus/io/detail/map_bytes.hpp"
+#include "ljus/io/binary_file.hpp"
 #include "ljus/render/progressive.hpp"
 
 namespace ljus {
@@ -20,7 +20,7 @@ namespace ljus {
 
 namespace detail {
 
-inline constexpr MapFormat checkpoint_format{"ljus progressive", 1};
+inline constexpr FileFormat checkpoint_format{"ljus progressive", 1};
 
 // Calls `each` with every number behind the header, in the order of the file.
 template <typename State, typename Each>
@@ -35,7 +35,7 @@ void each_checkpoint_number(State& state, Each each) {
 }
 
 // A state with room for the numbers of a file, of the size that its header says.
-[[nodiscard]] inline ProgressiveState empty_state_of(MapReader& file) {
+[[nodiscard]] inline ProgressiveState empty_state_of(FileReader& file) {
     const auto side = file.take<std::uint32_t>();
     const auto width = file.take<std::uint32_t>();
     const auto height = file.take<std::uint32_t>();
@@ -47,7 +47,7 @@ void each_checkpoint_number(State& state, Each each) {
     const std::uint32_t rows = (height - 1) / side + 1;
     const std::size_t numbers =
         4 + 6 * std::size_t(width) * height + 3 * std::size_t(columns) * rows;
-    if (file.bytes.size() != map_header + 8 * numbers)
+    if (file.bytes.size() != file_front_bytes + 8 * numbers)
         file.refuse("its " + std::to_string(file.bytes.size()) +
                     " bytes do not go with its picture's size");
     ProgressiveState state{.block_side = int(side)};
@@ -57,7 +57,7 @@ void each_checkpoint_number(State& state, Each each) {
 }
 
 // Refuses numbers that no pass can have made, though the checksum is right.
-inline void require_sense(const MapReader& file, const ProgressiveState& state) {
+inline void require_sense(const FileReader& file, const ProgressiveState& state) {
     if (state.passes < 1 || !(state.alpha > 0 && state.alpha <= 1) ||
         !(state.shrink > 0 && state.shrink <= 1))
         file.refuse("its number of passes, alpha or radius is out of range");
@@ -77,12 +77,12 @@ inline void require_sense(const MapReader& file, const ProgressiveState& state) 
 /// \cost 48 bytes per pixel.
 inline void save_checkpoint(const std::string& path, const ProgressiveState& state) {
     require_at_least("the number of passes", state.passes, 1);
-    Bytes bytes = detail::map_front(
-        detail::checkpoint_format, std::uint32_t(state.block_side),
-        std::uint32_t(state.sum.width), std::uint32_t(state.sum.height));
+    Bytes bytes =
+        file_front(detail::checkpoint_format, std::uint32_t(state.block_side),
+                   std::uint32_t(state.sum.width), std::uint32_t(state.sum.height));
     detail::each_checkpoint_number(
-        state, [&](const auto& number) { detail::put_number(bytes, number); });
-    detail::put_checksum(bytes);
+        state, [&](const auto& number) { put_number(bytes, number); });
+    put_checksum(bytes);
     save_file(path, bytes);
 }
 
@@ -92,9 +92,8 @@ inline void save_checkpoint(const std::string& path, const ProgressiveState& sta
 /// \throws std::runtime_error  "cannot read 'a.check': its checksum is wrong, ...":
 ///         what is cut short, damaged, of another version or no checkpoint is refused.
 [[nodiscard]] inline ProgressiveState load_checkpoint(const std::string& path) {
-    detail::MapReader file =
-        detail::open_map(path, detail::map_limit(std::size_t(detail::max_pixels), 96),
-                         detail::checkpoint_format);
+    FileReader file = open_file(path, detail::file_limit(std::size_t(max_pixels), 96),
+                                detail::checkpoint_format);
     ProgressiveState state = detail::empty_state_of(file);
     detail::each_checkpoint_number(state, [&]<typename Number>(Number& number) {
         number = file.take<Number>();

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "ljus/materials/detail/multiple_scattering.hpp"
 #include "ljus/materials/glossy.hpp"
 #include "ljus/optics/energy_loss.hpp"
 

@@ -93,7 +93,7 @@ template <std::floating_point T, typename F>
     const T r_out = detail::ggx_lambda(alpha, out),
             r_in = detail::ggx_lambda(alpha, in);
     const T shadowed = out.z * r_in + in.z * r_out;
-    const T f = detail::ggx_distribution(alpha, h) / (T(2) * shadowed);
+    const T f = ggx_distribution(alpha, h) / (T(2) * shadowed);
     if (!(f <= std::numeric_limits<T>::max())) return RgbT<T>{T(0)};
     return f * detail::facet_reflectance(gloss.reflectance, cos_facet);
 }
@@ -115,7 +115,7 @@ template <std::floating_point T, typename F>
     const T alpha = gloss.roughness * gloss.roughness;
     const Vec3T<T> out{wo.x, wo.y, std::abs(wo.z)};
     const Vec3T<T> in{wi.x, wi.y, std::abs(wi.z)};
-    return detail::ggx_distribution(alpha, detail::half_vector(out, in)) /
+    return ggx_distribution(alpha, detail::half_vector(out, in)) /
            (T(2) * (out.z + detail::ggx_lambda(alpha, out)));
 }
 

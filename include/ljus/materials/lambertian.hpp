@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "ljus/materials/detail/cosine_lobe.hpp"
+#include "ljus/materials/cosine_lobe.hpp"
 #include "ljus/math/require.hpp"
 
 namespace ljus {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "ljus/materials/detail/cosine_lobe.hpp"
+#include "ljus/materials/cosine_lobe.hpp"
 #include "ljus/math/require.hpp"
 
 namespace ljus {

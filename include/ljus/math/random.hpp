@@ -25,8 +25,6 @@ enum class Pass : std::uint32_t {
     user = 1000       ///< The first number that is free for the reader's own passes.
 };
 
-namespace detail {
-
 /// Scrambles 64 bits so that each input bit changes half of the output's: the
 /// finaliser of SplitMix64 \cite steele2014, a bijection.
 /// \param x  Any number.
@@ -36,8 +34,6 @@ namespace detail {
     x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
     return x ^ (x >> 31);
 }
-
-} // namespace detail
 
 /// The numbers of one path. The n-th number is a function of the key and of n alone;
 /// n holds the bounce in its upper and the dimension in its lower 16 bits.
@@ -56,10 +52,10 @@ struct RandomStream {
                                                    std::uint64_t iteration,
                                                    std::uint64_t path) noexcept {
     constexpr std::uint64_t odd = 0x9e3779b97f4a7c15u; // 2^64 over the golden ratio
-    const std::uint64_t work = detail::mix_bits(detail::mix_bits(seed + odd) +
-                                                static_cast<std::uint64_t>(pass));
-    return {.key = detail::mix_bits(detail::mix_bits(work + odd * (iteration + 1)) ^
-                                    detail::mix_bits(path + odd))};
+    const std::uint64_t work =
+        mix_bits(mix_bits(seed + odd) + static_cast<std::uint64_t>(pass));
+    return {
+        .key = mix_bits(mix_bits(work + odd * (iteration + 1)) ^ mix_bits(path + odd))};
 }
 
 /// Moves a stream to the start of a bounce, whatever was drawn in the one before.
@@ -76,7 +72,7 @@ constexpr void start_bounce(RandomStream& stream, std::uint64_t bounce) noexcept
 template <std::floating_point T = float>
 [[nodiscard]] constexpr T next_1d(RandomStream& stream) noexcept {
     constexpr std::uint64_t odd = 0x9e3779b97f4a7c15u;
-    const std::uint64_t bits = detail::mix_bits(stream.key + odd * ++stream.counter);
+    const std::uint64_t bits = mix_bits(stream.key + odd * ++stream.counter);
     if constexpr (sizeof(T) == 4)
         return static_cast<T>(bits >> 40) * T(0x1p-24);
     else

@@ -118,8 +118,6 @@ template <std::floating_point T>
     return std::numbers::inv_pi_v<T> / (T(2) * one_minus_cos_max);
 }
 
-namespace detail {
-
 /// 1 - cos(theta) from the squared sine, without cancellation.
 /// \param sin_squared  sin^2(theta) in [0, 1], of an angle up to 90 degrees: for a
 ///                     sphere seen from outside, radius^2 / distance^2.
@@ -128,8 +126,6 @@ template <std::floating_point T>
 [[nodiscard]] T one_minus_cosine(T sin_squared) noexcept {
     return sin_squared / (T(1) + std::sqrt(T(1) - sin_squared));
 }
-
-} // namespace detail
 
 /// A direction above the horizon, uniform in solid angle.
 /// \param u  Point of [0,1)^2.

@@ -215,10 +215,13 @@ template <std::floating_point T>
     return next_2d<T>(stream);
 }
 
-/// The place of one ray within its pixel.
+} // namespace detail
+
+/// A point of a pattern: the place of one ray within its pixel.
 /// \param pattern  From make_pattern().
 /// \param number   Which of its points, in [0, points); the order means nothing.
-/// \param key      Of the pixel: the pixels of a picture shall not repeat each other.
+/// \param key      Of the pixel: the points of two keys are independent. Any number;
+///                 mix_bits() makes good keys of numbers that follow each other.
 /// \param u        Two random numbers in [0, 1), which Sobol's points leave unused.
 /// \return Point of the unit square, uniform over keys and u; rounding may put it onto
 ///         1.
@@ -230,18 +233,16 @@ template <std::floating_point T>
                                         std::uint64_t key, const Vec2T<T>& u) noexcept {
     switch (pattern.sampling) {
     case Sampling::jittered:
-        return stratified(pattern.strata, number, key, u);
+        return detail::stratified(pattern.strata, number, key, u);
     case Sampling::multi_jittered:
-        return multi_jittered(pattern, number, key, u);
+        return detail::multi_jittered(pattern, number, key, u);
     case Sampling::sobol:
-        return scrambled_sobol<T>(number, key);
+        return detail::scrambled_sobol<T>(number, key);
     default:
         return u;
     }
 }
 // [spread]
-
-} // namespace detail
 
 /// \}
 

@@ -94,8 +94,8 @@ template <std::floating_point T = float>
     std::uint64_t key = 0;
     const auto cell = static_cast<int>(detail::next_cell(stream, key));
     // Another key than next_cell()'s: of two rays, the same order twice would be none.
-    const Vec2T<T> u = detail::spread(stream.pattern, cell, detail::mix_bits(key),
-                                      next_2d<T>(stream.rest));
+    const Vec2T<T> u =
+        spread(stream.pattern, cell, mix_bits(key), next_2d<T>(stream.rest));
     return {detail::below_one(u.x), detail::below_one(u.y)};
 }
 // [next 2d]

@@ -53,8 +53,6 @@ template <std::floating_point T>
 }
 // [observer]
 
-namespace detail {
-
 /// Linear sRGB of a colour, such that light of equal energy at all wavelengths, X = Y =
 /// Z = 1, is the screen's white: what reflects all light has to be (1, 1, 1), whatever
 /// the lamp. (X, Y and Z are scaled by those of the screen's white, and then the
@@ -72,8 +70,6 @@ template <std::floating_point T>
     };
     return {row(r), row(g), row(b)};
 }
-
-} // namespace detail
 
 /// The colour that a screen can show and a surface can have, nearest to one that it
 /// cannot: mixed with as much grey of the same luminance as brings all channels into

@@ -23,31 +23,31 @@ namespace detail {
 template <std::floating_point T>
 inline constexpr std::array<T, 2> visible{T(360), T(830)};
 
+} // namespace detail
+
 /// What an eye sees of a spectrum.
 /// \param spectrum  Called with a wavelength in nm; 1 for white.
 /// \param step      Distance of the samples, nm.
 /// \return Linear sRGB, (1, 1, 1) for a spectrum of 1; may lie outside of what a screen
 ///         can show.
 /// \cost 470 nm / step calls, and seven exponentials with each.
-// [seen]
+// [spectrum color]
 template <std::floating_point T, typename Spectrum>
-[[nodiscard]] RgbT<T> seen(Spectrum spectrum, T step = T(1)) {
-    const auto count =
-        static_cast<long long>(std::ceil((visible<T>[1] - visible<T>[0]) / step));
-    const T h = (visible<T>[1] - visible<T>[0]) / static_cast<T>(count);
+[[nodiscard]] RgbT<T> spectrum_color(Spectrum spectrum, T step = T(1)) {
+    const auto count = static_cast<long long>(
+        std::ceil((detail::visible<T>[1] - detail::visible<T>[0]) / step));
+    const T h = (detail::visible<T>[1] - detail::visible<T>[0]) / static_cast<T>(count);
     Vec3T<T> sum{T(0)};
     Vec3T<T> white{T(0)};
     for (long long i = 0; i < count; ++i) {
-        const T wavelength = visible<T>[0] + (static_cast<T>(i) + T(0.5)) * h;
+        const T wavelength = detail::visible<T>[0] + (static_cast<T>(i) + T(0.5)) * h;
         const Vec3T<T> eye = cie_observer(wavelength);
         sum += eye * spectrum(wavelength);
         white += eye;
     }
     return xyz_to_rgb(sum / white);
 }
-// [seen]
-
-} // namespace detail
+// [spectrum color]
 
 /// The colour of a film: the reference. Samples of the spectrum are as close as the
 /// film's fringes ask for; the colour may lie outside of what a screen can show.
@@ -62,7 +62,7 @@ template <std::floating_point T>
     // At the shortest wavelength the phase 4 pi path / lambda moves by 1/2 a sample.
     const T finest = detail::visible<T>[0] * detail::visible<T>[0] /
                      (T(8) * std::numbers::pi_v<T> * path); // infinite for no film
-    return detail::seen<T>(
+    return spectrum_color<T>(
         [&](T wavelength) {
             return thin_film(cos_theta, index, thickness, wavelength).reflected;
         },

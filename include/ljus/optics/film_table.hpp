@@ -116,7 +116,7 @@ template <std::floating_point T = float>
             for (std::size_t i = 0; i < sines.size(); ++i)
                 sum +=
                     spectrum.eye[i] * film_shares(c, n, strength * sines[i]).reflected;
-            detail::add_cell(table, detail::xyz_to_rgb(sum / spectrum.white));
+            detail::add_cell(table, xyz_to_rgb(sum / spectrum.white));
         }
     }
     for (int column = 0; column < size.cosines; ++column)

@@ -32,6 +32,8 @@ template <std::floating_point T>
     return glm::normalize(sum / max_component(glm::abs(sum)));
 }
 
+} // namespace detail
+
 /// How many facets look along h: their area, per area of the surface and steradian.
 ///
 /// \f[ D(h) = \frac{1}{\pi \alpha^2 \left( h_z^2 + (h_x^2 + h_y^2)/\alpha^2 \right)^2},
@@ -48,6 +50,8 @@ template <std::floating_point T>
     const T size = alpha * (x * x + y * y + h.z * h.z);
     return std::numbers::inv_pi_v<T> / (size * size);
 }
+
+namespace detail {
 
 /// The area that the ellipsoid shows in a direction, times two, less the surface's own.
 ///

@@ -110,8 +110,7 @@ make_form_factors(const S& scene, const Patches& all,
         double* const row = factors.exchange.data() + i * n;
         const auto number = static_cast<std::uint32_t>(i);
         if (!closed_form(i)) {
-            detail::shoot_rays(indexed, all, number, settings.rays, settings.seed,
-                               {row, n});
+            shoot_rays(indexed, all, number, settings.rays, settings.seed, {row, n});
             return;
         }
         for (std::size_t j = i + 1; j < n; ++j) {

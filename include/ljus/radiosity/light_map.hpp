@@ -66,7 +66,7 @@ vertex_light(const PatchGrid& grid, std::span<const RgbT<double>> irradiance) {
     for (std::uint32_t cell = 0; cell < grid.size(); ++cell)
         for (const std::uint32_t vertex :
              detail::cell_vertices(grid, place_of(grid, cell))) {
-            if (vertex == detail::no_grid) continue;
+            if (vertex == no_grid) continue;
             sum[vertex] += irradiance[cell];
             count[vertex] += 1;
         }
@@ -104,8 +104,7 @@ template <SceneLike S>
             std::to_string(scene.size()) + ", as in the scene");
     LightMapView<S> view{detail::IndexedT<S>(scene), std::move(map), look, {}, {}};
     for (const auto& list : scene.objects)
-        view.grid_of.emplace_back(list.size(),
-                                  std::array{detail::no_grid, detail::no_grid});
+        view.grid_of.emplace_back(list.size(), std::array{no_grid, no_grid});
     std::size_t next = 0;
     for (std::uint32_t number = 0; number < view.map.grids.size(); ++number) {
         const PatchGrid& grid = view.map.grids[number];
@@ -169,7 +168,7 @@ template <SceneLike S, std::floating_point T, typename Log = NoLog>
     log.term("emission", "L", sum);
     const std::uint32_t number =
         view.grid_of[hit->object.type][hit->object.index][side.back];
-    if (number == detail::no_grid) return sum;
+    if (number == no_grid) return sum;
 
     const PatchGrid& grid = view.map.grids[number];
     const glm::dvec2 at = detail::place_on(grid.kind, hit->at, side.outer);

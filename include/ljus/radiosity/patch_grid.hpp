@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "ljus/radiosity/form_factor.hpp"
+#include "ljus/geometry/solid_angle.hpp"
 #include "ljus/scene/query.hpp"
 
 namespace ljus {

@@ -57,6 +57,8 @@ template <SceneLike S, std::floating_point T>
     return grid.first + cell_of(grid, place_on(grid.kind, hit.at, side.outer));
 }
 
+} // namespace detail
+
 /// Shoots rays from a patch, by the cosine, and sees where they arrive: the share that
 /// arrives at a patch is the form factor, visibility included.
 ///
@@ -85,17 +87,20 @@ void shoot_rays(const S& scene, const Patches& all, std::uint32_t number, int ra
             static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(rays), key));
         const Vec2T<T> place =
             detail::stratified(strata, other, ~key, next_2d<T>(stream));
-        const auto point = sample_patch(scene, all, number, place);
+        const auto point = detail::sample_patch(scene, all, number, place);
         const Vec2T<T> u = detail::stratified(strata, i, key, next_2d<T>(stream));
         const Vec3T<T> way =
             to_world(frame_around(point.normal), sample_cosine_hemisphere(u));
         const RayT<T> ray = spawn_ray(point, way);
         const auto hit = closest_hit(scene, ray);
         if (!hit) continue;
-        if (const auto there = patch_at(scene, all, ray, *hit)) row[*there] += share;
+        if (const auto there = detail::patch_at(scene, all, ray, *hit))
+            row[*there] += share;
     }
 }
 // [shoot_rays]
+
+namespace detail {
 
 /// Which part of the light between two patches nothing stops: by rays between points of
 /// both, each with the weight that the light on its way has.

@@ -28,12 +28,8 @@ struct Patch {
 };
 // [patch]
 
-namespace detail {
-
 /// The number of "no grid".
 inline constexpr std::uint32_t no_grid = 0xffffffffu;
-
-} // namespace detail
 
 /// A scene, cut up.
 struct Patches {
@@ -204,7 +200,7 @@ template <SceneLike S>
         // A wall that sees something on one side only stands between nothing.
         all.convex =
             all.convex && (Flat<G> ? !(open[0] && open[1]) : object.inside_out);
-        std::array<std::uint32_t, 2> sides{detail::no_grid, detail::no_grid};
+        std::array<std::uint32_t, 2> sides{no_grid, no_grid};
         scene.visit_material(object.material, [&](const auto& m) {
             if constexpr (!Matt<std::remove_cvref_t<decltype(m)>>)
                 ++shiny;

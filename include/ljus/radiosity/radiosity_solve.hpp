@@ -103,6 +103,8 @@ inline void relax_all(const FormFactors& factors, const std::vector<Patch>& patc
         unsent[i] = patches[i].albedo * arrives[i];
 }
 
+} // namespace detail
+
 /// Sends the waiting light of one patch to all others. Gauss-Seidel and shooting are
 /// this step, in different orders.
 /// \param factors  The form factors.
@@ -112,9 +114,9 @@ inline void relax_all(const FormFactors& factors, const std::vector<Patch>& patc
 /// \param unsent   Radiosity that waits on each patch: of this one it becomes 0.
 /// \cost n multiplications for each channel.
 // [relax]
-inline void relax(const FormFactors& factors, const std::vector<Patch>& patches,
-                  std::size_t i, std::vector<RgbT<double>>& solution,
-                  std::vector<RgbT<double>>& unsent) {
+inline void relax_patch(const FormFactors& factors, const std::vector<Patch>& patches,
+                        std::size_t i, std::vector<RgbT<double>>& solution,
+                        std::vector<RgbT<double>>& unsent) {
     // A hollow patch sends some of it to itself: a geometric series.
     const RgbT<double> sent = unsent[i] / (1.0 - factors(i, i) * patches[i].albedo);
     solution[i] += sent;
@@ -129,8 +131,8 @@ inline void relax(const FormFactors& factors, const std::vector<Patch>& patches,
 /// \param factors  The form factors.
 /// \param unsent   Radiosity that waits on each patch.
 /// \return Its number; the first one of equals.
-[[nodiscard]] inline std::size_t brightest(const FormFactors& factors,
-                                           const std::vector<RgbT<double>>& unsent) {
+[[nodiscard]] inline std::size_t
+brightest_patch(const FormFactors& factors, const std::vector<RgbT<double>>& unsent) {
     std::size_t best = 0;
     double most = -1;
     for (std::size_t i = 0; i < unsent.size(); ++i) {
@@ -140,8 +142,6 @@ inline void relax(const FormFactors& factors, const std::vector<Patch>& patches,
     }
     return best;
 }
-
-} // namespace detail
 
 /// Solves the equations of radiosity.
 ///
@@ -186,9 +186,9 @@ solve_radiosity(const FormFactors& factors, const std::vector<Patch>& patches,
                                      solution.radiosity, unsent);
         const bool shoot = settings.solver == RadiositySolver::shooting;
         for (std::size_t step = 0; step < n; ++step)
-            detail::relax(factors, patches,
-                          shoot ? detail::brightest(factors, unsent) : step,
-                          solution.radiosity, unsent);
+            relax_patch(factors, patches,
+                        shoot ? brightest_patch(factors, unsent) : step,
+                        solution.radiosity, unsent);
     };
     keep_residual();
     for (int sweeps = 0; solution.residual.back() > settings.tolerance; ++sweeps) {

@@ -214,7 +214,7 @@ photon_mapping_pass(const S& scene, const AnyCamera<T>& camera,
     require_positive("general_estimate.radius", settings.general_estimate.radius);
     const auto number = static_cast<std::uint64_t>(pass);
     settings.caustics.iteration = settings.general.iteration = number;
-    picture.seed = detail::mix_bits(detail::mix_bits(picture.seed) + number);
+    picture.seed = mix_bits(mix_bits(picture.seed) + number);
     settings.caustics_estimate.radius *= static_cast<float>(scale);
     settings.general_estimate.radius *= static_cast<float>(scale);
     auto maps = make_photon_maps(scene, settings);

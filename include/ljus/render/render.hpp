@@ -75,8 +75,8 @@ template <std::floating_point T, typename Stream>
         static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(picture.width) +
         static_cast<std::uint64_t>(x);
     start_ray(stream, picture.seed, pixel, number, pattern);
-    const Vec2T<T> u = detail::spread(pattern, number, mix_bits(picture.seed) ^ pixel,
-                                      next_2d<T>(stream));
+    const Vec2T<T> u =
+        spread(pattern, number, mix_bits(picture.seed) ^ pixel, next_2d<T>(stream));
     FilterSampleT<T> at = sample_filter(picture.filter, u);
     at.place += Vec2T<T>{T(x), T(y)};
     return at;
@@ -143,7 +143,7 @@ requires Renderer<R, T>
                                        const RenderSettings& picture,
                                        const RowRange& rows) {
     require_at_least("samples", picture.samples, 1);
-    detail::require_image_size(picture.width, picture.height);
+    require_image_size(picture.width, picture.height);
     require(rows.first >= 0 && rows.first < rows.last, "the first row",
             static_cast<long long>(rows.first), "at least 0 and below the last");
     require(rows.last <= picture.height, "the last row",

@@ -129,4 +129,17 @@ template <std::floating_point T>
 
 /// \}
 
+/// \defgroup room Ready-made scenes
+/// \brief What the ready-made scenes return.
+/// \{
+
+/// A scene, and where it is seen from.
+template <typename S>
+struct Room {
+    S scene{};                            ///< Shapes, materials and lights.
+    CameraT<typename S::Scalar> camera{}; ///< Where it is seen from.
+};
+
+/// \}
+
 } // namespace ljus

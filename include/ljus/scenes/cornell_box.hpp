@@ -7,7 +7,8 @@
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
-#include "ljus/scenes/room.hpp"
+#include "ljus/scene/camera.hpp"
+#include "ljus/scene/query.hpp"
 
 namespace ljus {
 
@@ -42,8 +43,6 @@ void add_cornell_walls(S& scene) {
     scene.add(QuadT<T>{corner + x, z, y}, green); // right
 }
 
-namespace detail {
-
 /// Where the box is looked at from: the whole of it fills the picture.
 /// \return The camera.
 template <std::floating_point T = float>
@@ -53,6 +52,8 @@ template <std::floating_point T = float>
                             .up{T(0), T(1), T(0)},
                             .vfov_degrees = T(33)});
 }
+
+namespace detail {
 
 /// Adds the lamp below the ceiling, a square of side 0.5.
 /// \param scene  A scene with quads and Lambert's surfaces.
@@ -79,7 +80,7 @@ template <std::floating_point T = float>
     scene.add(SphereT<T>{.center{T(0.42), T(0.38), T(0.3)}, .radius = T(0.38)},
               scene.add(GlassT<T>{.index = T(1.5)}));
     detail::add_cornell_lamp(scene);
-    room.camera = detail::cornell_camera<T>();
+    room.camera = cornell_camera<T>();
     return room;
 }
 
@@ -97,7 +98,7 @@ template <std::floating_point T = float>
     scene.add(SphereT<T>{.center{T(0.42), T(0.38), T(0.3)}, .radius = T(0.38)},
               scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0.7)}}));
     detail::add_cornell_lamp(scene);
-    room.camera = detail::cornell_camera<T>();
+    room.camera = cornell_camera<T>();
     return room;
 }
 // [matt_cornell_box]

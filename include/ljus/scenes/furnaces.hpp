@@ -5,7 +5,8 @@
 
 #include "ljus/geometry/shape.hpp"
 #include "ljus/materials/lambertian.hpp"
-#include "ljus/scenes/room.hpp"
+#include "ljus/scene/camera.hpp"
+#include "ljus/scene/query.hpp"
 
 namespace ljus {
 

@@ -7,7 +7,8 @@
 
 #include "ljus/geometry/shape.hpp"
 #include "ljus/materials/lambertian.hpp"
-#include "ljus/scenes/room.hpp"
+#include "ljus/scene/camera.hpp"
+#include "ljus/scene/query.hpp"
 
 namespace ljus {
 
@@ -38,7 +39,14 @@ LambertianT<T> report_matt(T red, T green, T blue) {
     return {.albedo = T(0.75) * RgbT<T>{red, green, blue}};
 }
 
-// A lamp below the ceiling, from (x, y) to (x + size, y + size).
+} // namespace detail
+
+/// Adds one of the report's lamps: a square below the ceiling, black and shining down.
+/// \param scene  A scene with quads and Lambert's surfaces.
+/// \param x      Of its first corner; it ends at x + size.
+/// \param y      The same.
+/// \param size   Of its sides.
+/// \param color  The lamp's radiance over 30.
 template <SceneLike S, std::floating_point T>
 void add_ceiling_lamp(S& scene, T x, T y, T size, const RgbT<T>& color) {
     scene.add(QuadT<T>{.corner{x, y, T(4.999)},
@@ -46,8 +54,6 @@ void add_ceiling_lamp(S& scene, T x, T y, T size, const RgbT<T>& color) {
                        .edge_v{size, T(0), T(0)}},
               scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0)}}), T(30) * color);
 }
-
-} // namespace detail
 
 /// Adds the report's room: floor, ceiling and the four walls in view, all matt, their
 /// normals inwards.

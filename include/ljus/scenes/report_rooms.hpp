@@ -31,13 +31,13 @@ namespace ljus {
 /// | a lamp 0.00001 below the ceiling    | 0.001 below                              |
 /// \{
 
-namespace detail {
-
 /// Everything that the report's rooms are made of.
 template <std::floating_point T>
 using ReportSceneT =
     Scene<Shapes<QuadT<T>, SphereT<T>, TriangleT<T>>,
           Materials<LambertianT<T>, GlassT<T>, MirrorT<T>, MixtureT<T>>>;
+
+namespace detail {
 
 // The program tints at both boundaries, so that the way through the middle of a ball
 // leaves the square of the colour: the colour itself belongs to the radius.
@@ -97,8 +97,8 @@ void add_report_matt_objects(ReportSceneT<T>& scene) {
 /// \return The scene and its camera.
 /// \report{Figures 1 and 15}
 template <std::floating_point T = float>
-[[nodiscard]] Room<detail::ReportSceneT<T>> final_room() {
-    Room<detail::ReportSceneT<T>> room{.camera = report_camera<T>()};
+[[nodiscard]] Room<ReportSceneT<T>> final_room() {
+    Room<ReportSceneT<T>> room{.camera = report_camera<T>()};
     add_report_room(room.scene);
     detail::add_report_matt_objects(room.scene);
     detail::add_report_mixture<T>(room.scene, {{T(6), T(-3.5), T(-3.5)}, T(1.15)},
@@ -109,8 +109,8 @@ template <std::floating_point T = float>
                                 {T(0.8), T(0.2), T(1)});
     detail::add_report_glass<T>(room.scene, {{T(6.5), T(-2), T(0.95)}, T(1)}, T(1.47),
                                 {T(0.7), T(1), T(0)});
-    detail::add_ceiling_lamp(room.scene, T(5), T(-1), T(2), RgbT<T>{T(1)});
-    detail::add_ceiling_lamp(room.scene, T(4), T(2), T(1), RgbT<T>{1, 1, T(0.65)});
+    add_ceiling_lamp(room.scene, T(5), T(-1), T(2), RgbT<T>{T(1)});
+    add_ceiling_lamp(room.scene, T(4), T(2), T(1), RgbT<T>{1, 1, T(0.65)});
     return room;
 }
 
@@ -118,15 +118,15 @@ template <std::floating_point T = float>
 /// \return The scene and its camera.
 /// \report{Figure 12, Table 3}
 template <std::floating_point T = float>
-[[nodiscard]] Room<detail::ReportSceneT<T>> all_materials_room() {
-    Room<detail::ReportSceneT<T>> room{.camera = report_camera<T>()};
+[[nodiscard]] Room<ReportSceneT<T>> all_materials_room() {
+    Room<ReportSceneT<T>> room{.camera = report_camera<T>()};
     add_report_room(room.scene);
     detail::add_report_matt_objects(room.scene);
     detail::add_report_mixture<T>(room.scene, {{T(6), T(-3.5), T(-3.5)}, T(1.15)}, T(1),
                                   T(0.6), {T(0.5), T(0.5), T(1)});
     detail::add_report_glass<T>(room.scene, {{T(6), T(-4), T(1.75)}, T(1.5)}, T(1.97),
                                 RgbT<T>{T(1)});
-    detail::add_ceiling_lamp(room.scene, T(5), T(-1), T(2), RgbT<T>{T(1)});
+    add_ceiling_lamp(room.scene, T(5), T(-1), T(2), RgbT<T>{T(1)});
     return room;
 }
 
@@ -135,8 +135,8 @@ template <std::floating_point T = float>
 /// \return The scene and its camera.
 /// \report{Figures 11 and 13, Tables 2 and 4}
 template <std::floating_point T = float>
-[[nodiscard]] Room<detail::ReportSceneT<T>> four_glass_room() {
-    Room<detail::ReportSceneT<T>> room{.camera = report_camera<T>()};
+[[nodiscard]] Room<ReportSceneT<T>> four_glass_room() {
+    Room<ReportSceneT<T>> room{.camera = report_camera<T>()};
     add_report_room(room.scene);
     detail::add_report_glass<T>(room.scene, {{T(6), T(-4), T(1.75)}, T(1.5)}, T(1.97),
                                 RgbT<T>{T(1)});
@@ -146,7 +146,7 @@ template <std::floating_point T = float>
                                   T(0.5), RgbT<T>{T(1)});
     detail::add_report_glass<T>(room.scene, {{T(7), T(4.5), T(-3)}, T(1.15)}, T(1.7),
                                 {T(1), T(1), T(0.2)});
-    detail::add_ceiling_lamp(room.scene, T(5), T(-1), T(2), RgbT<T>{T(1)});
+    add_ceiling_lamp(room.scene, T(5), T(-1), T(2), RgbT<T>{T(1)});
     return room;
 }
 

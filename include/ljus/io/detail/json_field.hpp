@@ -25,7 +25,7 @@ struct JsonField {
 };
 
 // A value as a message shows it.
-[[nodiscard]] inline std::string shown(const nlohmann::json& value) {
+[[nodiscard]] inline std::string shown_value(const nlohmann::json& value) {
     // Large values are not printed only to be cut off.
     if (value.is_object()) return "an object";
     if (value.is_array() && value.size() > 4)
@@ -59,7 +59,7 @@ struct JsonField {
 // Refuses a field's value: "scene.json: objects[3].radius is -1; it must be above 0."
 [[noreturn]] inline void refuse_value(const JsonField& field, std::string_view right) {
     refuse(field, std::string("is ")
-                      .append(shown(field.value))
+                      .append(shown_value(field.value))
                       .append("; it must be ")
                       .append(right));
 }

@@ -7,7 +7,7 @@
 #include <typeinfo>
 #include <utility>
 
-#include "ljus/io/detail/map_bytes.hpp"
+#include "ljus/io/binary_file.hpp"
 #include "ljus/scene/query.hpp"
 
 namespace ljus {
@@ -15,9 +15,9 @@ namespace ljus {
 /// \addtogroup file
 /// \{
 
-/// What a map was made from, in two numbers: photon_map_key() and light_map_key() make
-/// them. A map that is saved with one key is loaded with no other, so that the map of a
-/// scene that was changed since is not used in silence.
+/// What a map was made from, in two numbers: light_map_key() makes them. A map that is
+/// saved with one key is loaded with no other, so that the map of a scene that was
+/// changed since is not used in silence.
 struct MapKey {
     std::uint64_t scene = 0;    ///< Of shapes, materials and lights.
     std::uint64_t settings = 0; ///< Of the settings that change the map.
@@ -151,8 +151,8 @@ inline void put_key(Bytes& bytes, const MapKey& key) {
 }
 
 // Takes the key of a file, and refuses another.
-inline void require_key(MapReader& file, const MapKey& key) {
-    file.position = map_header;
+inline void require_key(FileReader& file, const MapKey& key) {
+    file.position = file_front_bytes;
     if (file.left() < map_key_bytes) file.refuse("it ends in the middle of its key");
     if (file.take<std::uint64_t>() != key.scene)
         file.refuse("it was made for another scene, with other shapes, materials or "

@@ -1,6 +1,6 @@
 #pragma once
 
-/// \file ljus/flatland/material.hpp
+/// \file flatland/material.hpp
 /// \brief What surfaces of the plane do with light: Lambert, a mirror, glass.
 
 #include <algorithm>
@@ -13,18 +13,19 @@
 #include "ljus/optics/fresnel.hpp"
 #include "ljus/optics/refraction.hpp"
 
-/// A world of two dimensions with the concepts of the book: \ref ch_flatland.
-namespace ljus::flatland {
+/// A world of two dimensions with the concepts of the book: chapter 38.
+namespace flatland {
 
-/// \defgroup flatland_material Flatland: materials
-/// \brief Section 3.2.1 with a dimension less: angles in place of solid angles.
-///
-/// The functions are those of \ref bsdf "a material in space", with the same names. The
-/// frame of a surface has x along the surface and y along its normal; `wo` and `wi`
-/// point away from it. Light has one channel. Everything is computed in double.
-/// \{
+using ljus::Transport, ljus::Vec3T;
 
-using Vec2 = Vec2T<double>; ///< A point or a direction of the plane.
+// Section 3.2.1 with a dimension less: angles in place of solid angles.
+//
+// The functions are those of a material in space (ljus/materials/material.hpp), with
+// the same names. The frame of a surface has x along the surface and y along its
+// normal; `wo` and `wi` point away from it. Light has one channel. Everything is
+// computed in double.
+
+using Vec2 = ljus::Vec2T<double>; ///< A point or a direction of the plane.
 
 /// A diffuse surface: the same radiance in all directions.
 struct Lambertian {
@@ -150,6 +151,4 @@ sample(const Material& material, const Vec2& wo, double u, Transport transport) 
                       material);
 }
 
-/// \}
-
-} // namespace ljus::flatland
+} // namespace flatland

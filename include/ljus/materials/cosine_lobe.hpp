@@ -1,6 +1,6 @@
 #pragma once
 
-/// \file ljus/materials/detail/cosine_lobe.hpp
+/// \file ljus/materials/cosine_lobe.hpp
 /// \brief Cosine-weighted directions on either side: how matt surfaces are sampled.
 
 #include "ljus/materials/material.hpp"
@@ -10,7 +10,7 @@ namespace ljus {
 
 /// \defgroup cosine_lobe Sampling matt surfaces
 /// \brief Section 3.2.4: cosine-weighted sampling, for every f that is close to a
-/// constant.
+/// constant; also for materials of one's own.
 /// \{
 
 /// The density of sample_cosine_lobe().

@@ -1,22 +1,22 @@
 #pragma once
 
-/// \file ljus/flatland/density_estimate.hpp
+/// \file flatland/density_estimate.hpp
 /// \brief The irradiance that the photons around a point of a wall stand for.
 
 #include <algorithm>
 
-#include "ljus/flatland/photon_map.hpp"
+#include "flatland/photon_map.hpp"
 #include "ljus/photons/kernel.hpp"
 
-namespace ljus::flatland {
+namespace flatland {
 
-/// \defgroup flatland_density_estimate Flatland: the density estimate
-/// \brief Section 3.2.6: a disc of the plane cuts an interval of length 2r out of a
-/// wall.
-/// \{
+using ljus::Kernel;
+
+// Section 3.2.6: a disc of the plane cuts an interval of length 2r out of a
+// wall.
 
 /// The weight of a photon, relative to 1/(2r).
-/// \param kernel  The shape; those of \ref kernel, but the mean over the *interval* is
+/// \param kernel  The shape; those of ljus::Kernel, but the mean over the *interval* is
 ///                1, so that the factor in front is another one.
 /// \param x       Squared distance over squared radius, in [0, 1].
 /// \return At least 0.
@@ -125,6 +125,4 @@ estimate_irradiance(const PhotonMap& map, const SurfacePoint& point,
 }
 // [estimate]
 
-/// \}
-
-} // namespace ljus::flatland
+} // namespace flatland

@@ -1,16 +1,13 @@
 #pragma once
 
-/// \file ljus/flatland/room.hpp
+/// \file flatland/room.hpp
 /// \brief A room of Flatland: four walls, a lamp, a mirror, a disc of glass.
 
-#include "ljus/flatland/light.hpp"
+#include "flatland/light.hpp"
 
-namespace ljus::flatland {
+namespace flatland {
 
-/// \defgroup flatland_room Flatland: a room
-/// \brief What chapter \ref ch_flatland draws; after the room of the report's
-/// figure 1. \report{Section 4.1}
-/// \{
+// What chapter 38 draws, after the room of the report's figure 1 (section 4.1).
 
 /// What the reader may move.
 struct RoomSettings {
@@ -48,6 +45,4 @@ inline constexpr double room_height = 1.1;
 }
 // [room]
 
-/// \}
-
-} // namespace ljus::flatland
+} // namespace flatland

@@ -1,16 +1,16 @@
 #pragma once
 
-/// \file ljus/flatland/path.hpp
+/// \file flatland/path.hpp
 /// \brief The vertex of a path in the plane, and the two calls by which paths travel.
 
-#include "ljus/flatland/scene.hpp"
+#include "flatland/scene.hpp"
 #include "ljus/math/random.hpp"
 
-namespace ljus::flatland {
+namespace flatland {
 
-/// \defgroup flatland_path Flatland: paths
-/// \brief Section 3.2: next_vertex() and continue_path(), as in space.
-/// \{
+using ljus::RandomStream, ljus::next_1d, ljus::next_2d;
+
+// Section 3.2: next_vertex() and continue_path(), as in space.
 
 /// Where a path arrived: ljus::VertexT with a dimension less. A frame of the plane is
 /// given by its normal alone.
@@ -99,6 +99,4 @@ next_vertex(const Scene& scene, PathState& path, RandomStream& stream) {
 }
 // [continue_path]
 
-/// \}
-
-} // namespace ljus::flatland
+} // namespace flatland

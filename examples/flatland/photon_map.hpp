@@ -1,18 +1,18 @@
 #pragma once
 
-/// \file ljus/flatland/photon_map.hpp
+/// \file flatland/photon_map.hpp
 /// \brief Photons of the plane: how they travel, and where they are stored.
 
 #include <utility>
 
-#include "ljus/flatland/light.hpp"
+#include "flatland/light.hpp"
 #include "ljus/photons/photon.hpp"
 
-namespace ljus::flatland {
+namespace flatland {
 
-/// \defgroup flatland_photon_map Flatland: photons
-/// \brief Sections 2.3 and 3.2.2 with a dimension less.
-/// \{
+using ljus::Pass, ljus::PhotonKind, ljus::require_at_least, ljus::require_positive;
+
+// Sections 2.3 and 3.2.2 with a dimension less.
 
 /// A photon where it met a diffuse surface.
 /// \report{Section 2.3}
@@ -25,7 +25,7 @@ struct Photon {
 };
 
 /// The photons of a scene. Flatland has few: a list that is searched from end to end.
-/// For more there is chapter \ref ch_kd_tree.
+/// For more there is the k-d tree of chapter 23.
 using PhotonMap = std::vector<Photon>;
 
 /// How photons are sent.
@@ -106,6 +106,4 @@ inline void store_photon(const PathState& path, const Vertex& vertex, PhotonMap&
 }
 // [trace_photons]
 
-/// \}
-
-} // namespace ljus::flatland
+} // namespace flatland

@@ -1,15 +1,13 @@
 #pragma once
 
-/// \file ljus/flatland/path_tracing.hpp
+/// \file flatland/path_tracing.hpp
 /// \brief A path tracer of the plane: the twin of every photon estimate.
 
-#include "ljus/flatland/light.hpp"
+#include "flatland/light.hpp"
 
-namespace ljus::flatland {
+namespace flatland {
 
-/// \defgroup flatland_path_tracing Flatland: path tracing
-/// \brief Eq. (1) with a dimension less.
-/// \{
+// Eq. (1) with a dimension less.
 
 /// The radiance that one random path finds. At a diffuse surface a lamp is asked by a
 /// shadow ray; a lamp that the path meets by itself counts only where none could go.
@@ -36,6 +34,4 @@ namespace ljus::flatland {
 }
 // [radiance]
 
-/// \}
-
-} // namespace ljus::flatland
+} // namespace flatland

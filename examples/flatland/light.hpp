@@ -1,15 +1,13 @@
 #pragma once
 
-/// \file ljus/flatland/light.hpp
+/// \file flatland/light.hpp
 /// \brief Lamps of the plane: their flux, a shadow ray to them, a photon from them.
 
-#include "ljus/flatland/path.hpp"
+#include "flatland/path.hpp"
 
-namespace ljus::flatland {
+namespace flatland {
 
-/// \defgroup flatland_light Flatland: lamps
-/// \brief Sections 3.2.2 and 3.2.3: light falls off as 1/r, for a lamp's angle does.
-/// \{
+// Sections 3.2.2 and 3.2.3: light falls off as 1/r, for a lamp's angle does.
 
 /// The flux of an object, in W: the radiance, times the integral of the cosine, 2,
 /// times the length. (In space pi times the area.)
@@ -140,6 +138,4 @@ struct LampPoint {
 }
 // [emit_photon]
 
-/// \}
-
-} // namespace ljus::flatland
+} // namespace flatland

@@ -1,6 +1,6 @@
 #pragma once
 
-/// \file ljus/flatland/scene.hpp
+/// \file flatland/scene.hpp
 /// \brief A scene of the plane: segments and circles, and what a ray of light meets.
 
 #include <algorithm>
@@ -12,14 +12,14 @@
 #include <variant>
 #include <vector>
 
-#include "ljus/flatland/material.hpp"
+#include "flatland/material.hpp"
 #include "ljus/math/require.hpp"
 
-namespace ljus::flatland {
+namespace flatland {
 
-/// \defgroup flatland_scene Flatland: scenes
-/// \brief Section 3.1 with a dimension less: walls are segments, balls are circles.
-/// \{
+using ljus::require, ljus::require_unit;
+
+// Section 3.1 with a dimension less: walls are segments, balls are circles.
 
 /// The part of a line on which hits count.
 /// \report{Definition 3.1}
@@ -94,7 +94,7 @@ struct Hit {
 }
 // [intersect segment]
 
-/// The distance at which a ray meets a circle: chapter \ref ch_sphere as it is.
+/// The distance at which a ray meets a circle: that of a ball in chapter 6 as it is.
 /// \param ray     The ray.
 /// \param circle  The circle.
 /// \return The smaller t within the ray's range; nothing for a miss.
@@ -145,7 +145,7 @@ struct Hit {
 /// \param scene  The scene.
 /// \param ray    The ray.
 /// \return The hit; nothing if the ray leaves the scene.
-/// \cost A loop over all objects: larger scenes need chapter \ref ch_bvh.
+/// \cost A loop over all objects: larger scenes need the tree of chapter 8.
 // [closest_hit]
 [[nodiscard]] inline std::optional<Hit> closest_hit(const Scene& scene, Ray ray) {
     std::optional<Hit> closest;
@@ -204,6 +204,4 @@ inline void check(const Scene& scene) {
     }
 }
 
-/// \}
-
-} // namespace ljus::flatland
+} // namespace flatland
